@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 
 #include "auth/base64url.h"
@@ -24,9 +25,8 @@ std::vector<uint8_t> bytes_of(std::string_view text) {
 
 Result<void> check_text(const std::string& text, size_t bytes_max, const char* what) {
   if (text.size() > bytes_max)
-    return fail(std::string(what) + " has " + std::to_string(text.size()) + " bytes, over the limit of " +
-                std::to_string(bytes_max));
-  if (const auto fault = fault_of_text(text)) return fail(std::string(what) + " " + std::string(*fault));
+    return fail(fmt::format("{} has {} bytes, over the limit of {}", what, text.size(), bytes_max));
+  if (const auto fault = fault_of_text(text)) return fail(fmt::format("{} {}", what, *fault));
   return {};
 }
 
@@ -84,10 +84,10 @@ bool is_access_token(std::string_view text) {
 
 Result<ReadToken> read_access_token(std::string_view text) {
   if (text.size() > limits::access_token_bytes_max)
-    return fail("a token has at most " + std::to_string(limits::access_token_bytes_max) +
-                " characters (limits.access_token_bytes_max)");
+    return fail(fmt::format("a token has at most {} characters (limits.access_token_bytes_max)",
+                            limits::access_token_bytes_max));
   if (!is_access_token(text))
-    return fail("it is no access token: those begin with '" + std::string(prefix) + "'");
+    return fail("this is not an access token: access tokens begin with '" + std::string(prefix) + "'");
   const auto bytes = from_base64url(text.substr(prefix.size()));
   if (!bytes || bytes->size() < signature_bytes) return fail("the token is damaged: was all of it copied?");
   const std::span<const uint8_t> payload = std::span(*bytes).first(bytes->size() - signature_bytes);
@@ -112,7 +112,7 @@ Result<uint64_t> read_id(std::string_view text) {
   uint64_t id = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), id, 16);
   if (text.size() != 16 || error != std::errc() || end != text.data() + text.size())
-    return fail("'" + std::string(text) + "' is no token's id: it is 16 hex digits");
+    return fail("'" + std::string(text) + "' is not the id of a token: an id has 16 hex digits");
   return id;
 }
 
@@ -126,7 +126,7 @@ Result<std::vector<uint64_t>> read_revoked(const std::string& path) {
   std::vector<uint64_t> ids;
   size_t number = 0;
   for (std::string line; std::getline(file, line);) {
-    const std::string where = path + ", line " + std::to_string(++number) + ": ";
+    const std::string where = fmt::format("{}, line {}: ", path, ++number);
     line.resize(std::min(line.find('#'), line.size()));
     const size_t first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos) continue;
@@ -134,8 +134,9 @@ Result<std::vector<uint64_t>> read_revoked(const std::string& path) {
     const auto id = read_id(std::string_view(line).substr(first, last + 1 - first));
     if (!id) return fail(where + id.error().message);
     if (ids.size() == limits::revoked_tokens_max)
-      return fail(where + "there are more than " + std::to_string(limits::revoked_tokens_max) +
-                  " ids (limits.revoked_tokens_max); those that have expired may go");
+      return fail(fmt::format(
+          "{}there are more than {} ids (limits.revoked_tokens_max); remove ids of expired tokens", where,
+          limits::revoked_tokens_max));
     ids.push_back(*id);
   }
   std::ranges::sort(ids);

@@ -31,7 +31,7 @@ Result<uint64_t> read_duration_s(const std::string& text) {
   const auto [unit, error] = std::from_chars(text.data(), end, number);
   const uint64_t factor = unit + 1 == end ? seconds_in(*unit) : 0;
   if (error != std::errc() || factor == 0)
-    return fail("'" + text + "' is no length of time: write 30d, 12h, 45m or 90s");
+    return fail("'" + text + "' is not a length of time: write 30d, 12h, 45m or 90s");
   if (number == 0 || number > seconds_max / factor)
     return fail("'" + text + "' is not within 1s and ten years");
   return number * factor;

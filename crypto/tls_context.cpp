@@ -49,7 +49,8 @@ Result<std::string> canonical_fingerprint(const std::string& given) {
     digits += static_cast<char>(std::toupper(byte));
   }
   if (digits.size() != fingerprint_digits)
-    return fail("'" + given + "' is no fingerprint: it is 64 hex digits, a SHA-256, with or without colons");
+    return fail("'" + given +
+                "' is not a fingerprint: write the 64 hex digits of a SHA-256, with or without colons");
   std::string text;
   for (size_t i = 0; i < fingerprint_digits; ++i) {
     if (i > 0 && i % 2 == 0) text += ':';
@@ -72,7 +73,7 @@ Result<std::shared_ptr<const TlsServerContext>> TlsServerContext::load(const std
   if (!can_be_read(certificate_path)) return fail(certificate + " cannot be read");
   if (!can_be_read(key_path)) return fail(key + " cannot be read");
   if (SSL_CTX_use_certificate_chain_file(tls, certificate_path.c_str()) != 1)
-    return fail(certificate + " is no certificate in PEM form: " + pop_openssl_error());
+    return fail(certificate + " is not a certificate in PEM form: " + pop_openssl_error());
   if (SSL_CTX_use_PrivateKey_file(tls, key_path.c_str(), SSL_FILETYPE_PEM) != 1) {
     const unsigned long first = ERR_peek_error();
     const int reason = ERR_GET_REASON(first);
@@ -80,7 +81,7 @@ Result<std::shared_ptr<const TlsServerContext>> TlsServerContext::load(const std
                           (reason == X509_R_KEY_VALUES_MISMATCH || reason == X509_R_KEY_TYPE_MISMATCH);
     const std::string words = pop_openssl_error();
     if (mismatch) return fail(key + " does not belong to " + certificate);
-    return fail(key + " is no private key in PEM form without a passphrase: " + words);
+    return fail(key + " is not a private key in PEM form without a passphrase: " + words);
   }
   auto impl = std::make_unique<Impl>();
   impl->context = std::move(context);

@@ -105,8 +105,8 @@ std::string TlsEngine::Impl::words_of_failure() const {
   if (client && reason == SSL_R_CERTIFICATE_VERIFY_FAILED) return words_of_verification(verified);
   if (client && !established &&
       (reason == SSL_R_WRONG_VERSION_NUMBER || reason == SSL_R_PACKET_LENGTH_TOO_LONG))
-    return "what answers there does not speak TLS (a Scree server without a certificate is reached without "
-           "--tls, unencrypted)";
+    return "the server there does not speak TLS (leave out --tls for a Scree server without a certificate; "
+           "the connection is then unencrypted)";
   return (established ? "TLS: " : "the TLS handshake failed: ") + words;
 }
 

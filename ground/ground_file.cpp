@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -85,8 +86,8 @@ Result<void> GroundFile::read_chunk_index(uint64_t file_bytes) {
   const auto count_bytes = TRY(read_at(file_, begins, sizeof(uint32_t)));
   const size_t count = ByteReader(count_bytes, "the index").u32("stored chunks");
   if (count > limits::file_chunks_max)
-    return fail("it stores " + std::to_string(count) + " chunks, more than " +
-                std::to_string(limits::file_chunks_max) + " (limits.file_chunks_max)");
+    return fail(fmt::format("it stores {} chunks, more than {} (limits.file_chunks_max)", count,
+                            limits::file_chunks_max));
   if (file_bytes - begins - sizeof(uint32_t) < count * chunk_entry_bytes) return fail("it is cut short");
   const auto read = TRY(read_at(file_, begins + sizeof(uint32_t), count * chunk_entry_bytes));
   ByteReader reader(read, "the index");
@@ -123,7 +124,8 @@ Result<void> GroundFile::check_chunks() {
       ++named;
     }
   }
-  return named == chunks_.size() ? Result<void>() : fail("it is damaged: a stored chunk that none names");
+  return named == chunks_.size() ? Result<void>()
+                                 : fail("it is damaged: its index does not name a stored chunk");
 }
 
 /// From the coarsest level down: each tile has the hashes of those below it.
@@ -150,9 +152,8 @@ Result<std::vector<uint8_t>> GroundFile::read(TileKey key) const {
   const Entry& entry = entry_of(key);
   auto bytes = read_at(file_, entry.begins, entry.bytes);
   if (bytes && sha256(*bytes) != entry.digest)
-    return fail("it is damaged: tile (" + std::to_string(key.level) + ", " + std::to_string(key.x) + ", " +
-                (key.kind == TileKind::bricks ? std::to_string(key.y) + ", " : "") + std::to_string(key.z) +
-                ") does not have its hash");
+    return fail(fmt::format("it is damaged: tile ({}, {}, {}{}) does not have its hash", key.level, key.x,
+                            key.kind == TileKind::bricks ? fmt::format("{}, ", key.y) : "", key.z));
   return bytes;
 }
 

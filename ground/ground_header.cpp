@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <fmt/format.h>
 
 #include "crypto/sha256.h"
 #include "proto/byte_stream.h"
@@ -49,7 +50,7 @@ Digest read_digest(ByteReader& reader, const char* what) {
 std::optional<BrickGround> read_bricks(ByteReader& reader) {
   const uint32_t number = reader.u32("whether chunks are stored");
   const bool any = number == 1;
-  if (number > 1) reader.refuse("whether chunks are stored is " + std::to_string(number));
+  if (number > 1) reader.refuse(fmt::format("whether chunks are stored is {}", number));
   BrickGround bricks;
   bricks.layout.voxel_size_m = reader.f32("voxels of the stored chunks");
   for (ChunkCoord* corner : {&bricks.layout.lo, &bricks.layout.hi})
@@ -76,10 +77,10 @@ std::vector<uint8_t> encode(const GroundHeader& header) {
 Result<GroundHeader> decode_header(std::span<const uint8_t> bytes) {
   if (bytes.size() < header_bytes) return fail("it is too short for a ground file");
   ByteReader reader(bytes.first(header_bytes), "the header");
-  if (reader.u64("kind") != file_kind) return fail("it is no ground file: scree import makes one");
+  if (reader.u64("kind") != file_kind) return fail("it is not a ground file: scree import makes one");
   if (const uint32_t found = reader.u32("version"); found != version)
-    return fail("it is a ground file of version " + std::to_string(found) + ", this program reads version " +
-                std::to_string(version));
+    return fail(
+        fmt::format("it is a ground file of version {}, this program reads version {}", found, version));
   GroundHeader header;
   HeightLayout& layout = header.ground.layout;
   layout.columns = std::bit_cast<int32_t>(reader.u32("columns"));

@@ -104,7 +104,7 @@ Result<Part> read_part(std::string_view text) {
   const size_t equals = text.find('=');
   if (equals == std::string_view::npos)
     return fail_with(
-        {"a link is described by parts as delay=50ms, with one comma between two, not by '", text, "'"});
+        {"a link is described by parts such as delay=50ms, separated by commas, not by '", text, "'"});
   Part part{text, {}, text.substr(0, equals), text.substr(equals + 1)};
   for (const std::string_view way : {"up", "down"})
     if (part.name.starts_with(way) && part.name.substr(way.size()).starts_with('.')) {
@@ -122,8 +122,8 @@ Result<std::vector<Part>> read_parts(std::string_view text) {
     const auto part = TRY(read_part(text.substr(0, comma)));
     for (const Part& before : parts)
       if (before.way == part.way && before.name == part.name)
-        return fail_with({"a link is told twice what its ", part.text.substr(0, part.text.find('=')),
-                          " is: '", before.text, "' and '", part.text, "'"});
+        return fail_with({"a link has two values for its ", part.text.substr(0, part.text.find('=')), ": '",
+                          before.text, "' and '", part.text, "'"});
     parts.push_back(part);
     if (comma == std::string_view::npos) return parts;
     text.remove_prefix(comma + 1);

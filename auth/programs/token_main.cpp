@@ -36,8 +36,7 @@ int make_key(const Options& options) {
   const std::string public_path = options.key + ".pub";
   const auto written = scree::SigningKey::generate().write(options.key, public_path);
   if (!written) return complain(written.error());
-  std::printf("%s signs tokens: keep it secret, it is not needed where the server runs\n",
-              options.key.c_str());
+  std::printf("%s signs tokens. Keep it secret; the server does not need it.\n", options.key.c_str());
   std::printf("%s verifies them: scree server --token-key %s\n", public_path.c_str(), public_path.c_str());
   return 0;
 }
@@ -99,7 +98,7 @@ int show(const Options& options) {
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Makes keys and access tokens for servers, and shows what a token says.", "scree-token");
+  CLI::App app("Makes keys and access tokens for servers, and shows the contents of a token.", "scree-token");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   const CLI::App* key = app.add_subcommand("key", "makes a pair of keys: FILE signs, FILE.pub verifies");
@@ -108,21 +107,19 @@ int main(int argc, char** argv) {
       ->required();
   CLI::App* made = app.add_subcommand("new", "prints a new token");
   const auto& roles = scree::kind_names<scree::Role>;
-  made->add_option("--key", options.key, "the key that signs")
-      ->required()
-      ->envname("SCREE_TOKEN_SIGNING_KEY");
-  made->add_option("--role", options.role, "what its bearer may do: " + scree::listed(roles))
+  made->add_option("--key", options.key, "the signing key")->required()->envname("SCREE_TOKEN_SIGNING_KEY");
+  made->add_option("--role", options.role, "role of its bearer: " + scree::listed(roles))
       ->check(CLI::IsMember(std::vector<std::string>(roles.begin(), roles.end())))
       ->capture_default_str();
   made->add_option("--name", options.name,
-                   "the person's name, as others see it; without: as the person says");
+                   "the person's name, as others see it; default: the name that the client gives");
   made->add_option("--expires", options.expires,
-                   "time until it expires, as 30d, 12h, 45m or 90s; without: never");
+                   "time until it expires: 30d, 12h, 45m or 90s; default: never");
   made->add_option("--world", options.world,
-                   "name of the only world that it is for (the server's --world-name)");
-  CLI::App* shown = app.add_subcommand("show", "prints what a token says, as JSON");
+                   "the only world in which it is valid (the server's --world-name); default: every world");
+  CLI::App* shown = app.add_subcommand("show", "prints the contents of a token as JSON");
   shown->add_option("TOKEN", options.token, "the token")->required();
-  shown->add_option("--key", options.key, "a public key: checks the signature");
+  shown->add_option("--key", options.key, "a public key that checks the signature");
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

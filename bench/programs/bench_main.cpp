@@ -15,8 +15,8 @@
 namespace scree {
 namespace {
 
-constexpr const char* strict_help = "exit with 3 when a check is missed";
-constexpr const char* quick_help = "fewer rounds: to see that it runs";
+constexpr const char* strict_help = "exit with status 3 if a check fails";
+constexpr const char* quick_help = "run fewer rounds, only to see that it runs";
 constexpr double repeat_max = 100.0;
 
 int list() {
@@ -31,29 +31,33 @@ int list() {
 CLI::App* add_run(CLI::App& app, BenchRuns& runs) {
   CLI::App* command = app.add_subcommand("run", "run benchmarks");
   BenchOptions& options = runs.options;
-  command->add_option("name", runs.names, "which ones; in turn, where --repeat asks for several runs")
+  command->add_option("name", runs.names, "names of benchmarks (see list); with --repeat they take turns")
       ->required();
   command->add_flag("--quick", options.quick, quick_help);
-  bounded(
-      command->add_option("--repeat", runs.repeat, "runs of each: figures are their median, least and most"),
-      whole_within(1.0, repeat_max));
-  bounded(command->add_option("--minutes", options.minutes, "length of the session, where a bench has one"),
+  bounded(command->add_option("--repeat", runs.repeat,
+                              "runs of each benchmark; figures are the median, minimum and maximum"),
+          whole_within(1.0, repeat_max));
+  bounded(command->add_option("--minutes", options.minutes,
+                              "length of the session in minutes, for benchmarks that have one"),
           {0.0, 600.0});
   command->add_option("--json", runs.json_file, "write the result of one bench to this file")
       ->check(check_writable, "FILE");
   command->add_option("--out", runs.folder, "write each result to NAME.json in this folder");
   command->add_flag("--strict", runs.strict, strict_help);
   command
-      ->add_option("--scene", runs.scene, "this scene in place of the bench's own ground: " + scene_names())
+      ->add_option("--scene", runs.scene,
+                   "use this scene instead of the benchmark's own ground: " + scene_names())
       ->check([](const std::string& name) {
-        return scene_named(name) == nullptr ? "there is no scene '" + name + "': it is " + scene_names() : "";
+        return scene_named(name) == nullptr
+                   ? "there is no scene '" + name + "'; the scenes are " + scene_names()
+                   : "";
       });
-  command->add_option("--part", options.part, "only this part of the bench (see list)");
+  command->add_option("--part", options.part, "run only this part of the benchmark (see list)");
   command->add_option("--folder", options.folder,
-                      "keep worlds that take long to make here, and use those that are here");
-  command->add_option("--world-mb", options.world_mb, "size of the world that clients roam in, MiB")
+                      "folder that keeps worlds for later runs, because they take long to make");
+  command->add_option("--world-mb", options.world_mb, "size of the world in which clients move, MiB")
       ->check(CLI::Range(16U, 16384U));
-  command->add_option("--memory-max", options.memory_max_mb, "memory-max of its server, MiB")
+  command->add_option("--memory-max", options.memory_max_mb, "memory-max of the benchmark's server, MiB")
       ->check(CLI::Range(256U, 65536U));
   return command;
 }
@@ -64,8 +68,8 @@ CLI::App* add_all(CLI::App& app, AllRuns& runs, uint32_t& repeat) {
                                          "results by machine");
   command->add_flag("--quick", runs.quick, quick_help);
   bounded(command->add_option("--repeat", repeat, "runs of each benchmark"), whole_within(1.0, repeat_max));
-  command->add_flag("--resume", runs.resume, "leave out what the folder has already");
-  command->add_option("--out", runs.folder, "folder of the results; unless said, bench/results/MACHINE");
+  command->add_flag("--resume", runs.resume, "skip the benchmarks whose results the folder has");
+  command->add_option("--out", runs.folder, "folder of the results; default: bench/results/MACHINE");
   command->add_flag("--strict", runs.strict, strict_help);
   return command;
 }
@@ -88,16 +92,18 @@ int run(int argc, char** argv) {
   AllRuns all;
   uint32_t repeat = 1;
   const CLI::App* all_command = add_all(app, all, repeat);
-  CLI::App* compare = app.add_subcommand("compare",
-                                         "what became better or worse from one result to another; exits "
-                                         "with 3 when something is worse");
+  CLI::App* compare = app.add_subcommand(
+      "compare",
+      "list what became better or worse between two results; exit with status 3 if something is worse");
   ComparedFiles compared;
   compare->add_option("before", compared.before, "a result, or a folder of results")
       ->required()
       ->check(CLI::ExistingPath);
-  compare->add_option("after", compared.after, "the other one")->required()->check(CLI::ExistingPath);
+  compare->add_option("after", compared.after, "another result, or another folder of results")
+      ->required()
+      ->check(CLI::ExistingPath);
   compare->add_flag("--strict", compared.strict,
-                    "exit with 3 also when something is gone: a metric, a check, a result of a folder");
+                    "exit with status 3 also if a metric, a check or a result is missing in the second one");
   for (CLI::App* command : app.get_subcommands({})) refuse_empty(*command);
   try {
     app.parse(argc, argv);

@@ -266,13 +266,17 @@ int main(int argc, char** argv) {
   CLI::App app("Draws the pictures of Scree's documentation.", "scree-pictures");
   app.set_version_flag("--version", SCREE_VERSION);
   app.option_defaults()->always_capture_default();
-  app.add_option("--out", folder, "where the PNGs go");
-  app.add_option("--only", only, "one of blast, patterns, tower, arch, methods");
-  app.add_flag("--scenes", scenes, "every scene in place of the documentation's pictures");
-  app.add_option("--scene", scene, "this scene: " + scene_names())->check([](const std::string& name) {
-    return scene_named(name) == nullptr ? "there is no scene '" + name + "': it is " + scene_names() : "";
-  });
-  app.add_option("--record", recording, "no pictures: a recording of the README's film, to this file");
+  app.add_option("--out", folder, "folder for the PNGs");
+  app.add_option("--only", only, "draw only one of blast, patterns, tower, arch, methods");
+  app.add_flag("--scenes", scenes, "draw every scene instead of the documentation's pictures");
+  app.add_option("--scene", scene, "draw only this scene: " + scene_names())
+      ->check([](const std::string& name) {
+        return scene_named(name) == nullptr
+                   ? "there is no scene '" + name + "'; the scenes are " + scene_names()
+                   : "";
+      });
+  app.add_option("--record", recording,
+                 "draw no pictures, but write the recording of the README's film to this file");
   CLI11_PARSE(app, argc, argv);
   if (!recording.empty()) {
     record_show(recording);

@@ -22,7 +22,8 @@ bool takes(const Bench& bench, const BenchRuns& runs) {
   const bool any =
       !options.part.empty() || !options.folder.empty() || options.world_mb || options.memory_max_mb;
   if (bench.parts.empty() && any)
-    std::fprintf(stderr, "'%s' has no parts: --part, --folder, --world-mb and --memory-max are not for it\n",
+    std::fprintf(stderr,
+                 "'%s' has no parts, so it does not accept --part, --folder, --world-mb or --memory-max\n",
                  bench.name.c_str());
   else if (!runs.scene.empty() && !bench.takes_scene)
     std::fprintf(stderr, "'%s' takes no scene; `bench list` names those that do\n", bench.name.c_str());

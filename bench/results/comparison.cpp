@@ -123,8 +123,8 @@ size_t ResultComparison::count(Change change) const {
 
 Result<ResultComparison> compare_results(const StoredResult& before, const StoredResult& after) {
   if (before.kind != after.kind || before.name != after.name)
-    return fail(fmt::format("they are of different work: {} {}, and {} {}", name_of(before.kind), before.name,
-                            name_of(after.kind), after.name));
+    return fail(fmt::format("they measure different work: {} {}, and {} {}", name_of(before.kind),
+                            before.name, name_of(after.kind), after.name));
   if (before.options != after.options)
     return fail(fmt::format("{} was run with different options: {}; and {}", before.name,
                             options_text(before.options), options_text(after.options)));

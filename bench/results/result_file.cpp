@@ -91,7 +91,7 @@ class Members {
     const json* value = find(name);
     if (value == nullptr) return 0.0;
     if (value->is_null()) return std::numeric_limits<double>::quiet_NaN();
-    if (!value->is_number()) complain(std::string("\"") + name + "\" is no number");
+    if (!value->is_number()) complain(std::string("\"") + name + "\" is not a number");
     return fault_.empty() ? value->get<double>() : 0.0;
   }
   /// From 1 on.
@@ -100,7 +100,7 @@ class Members {
     if (value == nullptr) return 1;
     if (value->is_number_unsigned() && value->get<uint64_t>() >= 1 && value->get<uint64_t>() <= most)
       return value->get<uint32_t>();
-    complain(std::string("\"") + name + "\" is no whole number from 1 to " + std::to_string(most));
+    complain(std::string("\"") + name + "\" is not a whole number from 1 to " + std::to_string(most));
     return 1;
   }
   bool truth(const char* name) {
@@ -113,7 +113,7 @@ class Members {
     std::map<std::string, std::string> found;
     const json* value = find(name);
     if (value == nullptr) return found;
-    if (!value->is_object()) complain(std::string("\"") + name + "\" is no object");
+    if (!value->is_object()) complain(std::string("\"") + name + "\" is not an object");
     if (!fault_.empty()) return found;
     for (const auto& [key, text] : value->items()) found[checked(key)] = text_in(text, key);
     return found;
@@ -123,7 +123,7 @@ class Members {
     if (!fault_.empty()) return;
     for (const auto& [name, value] : object_.items())
       if (!known_.contains(name))
-        return complain("has a member \"" + showable(name, 64) + "\" that nobody knows");
+        return complain("has a member \"" + showable(name, 64) + "\" that is not known");
   }
   void complain(const std::string& what) {
     if (fault_.empty()) fault_ = where_ + " " + what;
@@ -136,7 +136,7 @@ class Members {
 
  private:
   std::string text_in(const json& value, const std::string& name) {
-    if (!value.is_string()) complain("\"" + showable(name, 64) + "\" is no text");
+    if (!value.is_string()) complain("\"" + showable(name, 64) + "\" is not a text");
     return fault_.empty() ? checked(value.get<std::string>()) : std::string();
   }
 
@@ -188,7 +188,7 @@ void each_in(Members& members, const char* name, const std::string& what, std::m
              const Read& read) {
   const json* object = members.find(name);
   if (object == nullptr) return;
-  if (!object->is_object()) return members.complain(std::string("\"") + name + "\" is no object");
+  if (!object->is_object()) return members.complain(std::string("\"") + name + "\" is not an object");
   for (const auto& [key, value] : object->items())
     found[members.checked(key)] = read(value, what + " \"" + showable(key, 64) + "\"");
 }
@@ -217,9 +217,9 @@ std::string to_json(const StoredResult& result) {
 
 Result<StoredResult> parse_result(std::string_view text) {
   const json document = json::parse(text, nullptr, false);
-  if (document.is_discarded()) return fail("it is no JSON, or not whole");
+  if (document.is_discarded()) return fail("it is not JSON, or it is cut short");
   if (!document.is_object() || !document.contains("format"))
-    return fail("it is no result of scree-bench: it names no format");
+    return fail("it is not a result of scree-bench: it names no format");
   if (document["format"] != result_format)
     return fail("it is of format " + showable(document["format"].dump(), 32) + "; this program reads " +
                 std::to_string(result_format));
@@ -231,9 +231,9 @@ Result<StoredResult> parse_result(std::string_view text) {
   if (const auto known = kind_named<ResultKind>(kind))
     result.kind = *known;
   else
-    members.complain("is of a kind that is none");
+    members.complain("has an unknown kind");
   result.name = members.text("name");
-  if (!is_file_name(result.name)) members.complain("has a name that is none");
+  if (!is_file_name(result.name)) members.complain("has an invalid name");
   result.runs = members.count("runs", runs_max);
   result.options = members.texts("options");
   if (const json* machine = members.find("machine")) result.machine = machine_in(*machine, fault);
@@ -267,7 +267,7 @@ Result<StoredResult> read_result(const std::string& path) {
   const auto bytes = std::filesystem::file_size(path, error);
   if (error) return fail(path + ": " + error.message());
   if (bytes > result_bytes_max)
-    return fail(path + ": it is larger than any result (" + std::to_string(result_bytes_max) + " bytes)");
+    return fail(path + ": it is too large for a result (" + std::to_string(result_bytes_max) + " bytes)");
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
@@ -289,7 +289,7 @@ Result<std::map<std::string, StoredResult>> read_results(const std::string& fold
     results[result->name] = std::move(*result);
   }
   if (error) return fail(folder + ": " + error.message());
-  if (results.empty()) return fail(folder + ": no results lie there (NAME.json)");
+  if (results.empty()) return fail(folder + ": it has no results (NAME.json)");
   return results;
 }
 

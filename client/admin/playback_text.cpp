@@ -1,5 +1,6 @@
 #include <array>
 #include <cstdio>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "client/admin/admin.h"
@@ -26,8 +27,8 @@ std::string playback_lines(const PlaybackMessage& playback) {
 std::string went_elsewhere(const ControlReplayRequest& wish, const PlaybackMessage& playback) {
   const auto first = static_cast<int64_t>(playback.first), last = static_cast<int64_t>(playback.last);
   if (wish.move != ReplayMove::to_tick || (wish.value >= first && wish.value <= last)) return {};
-  return "tick " + std::to_string(wish.value) + " is not in the recording, which has the ticks " +
-         std::to_string(first) + " to " + std::to_string(last) + ": it went to the nearest";
+  return fmt::format("tick {} is not in the recording, which has the ticks {} to {}: it went to the nearest",
+                     wish.value, first, last);
 }
 
 }  // namespace scree

@@ -1,6 +1,7 @@
 #include "client/bot/bot.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <thread>
 
 #include "client/bot/limits.h"
@@ -55,8 +56,8 @@ tl::expected<void, ConnectionEnd> Bot::connect() {
   repairs_asked_ = 0;
   ++report_.connections;
   stand_on_ground();
-  log("connected", "connected to " + report_.server + " at tick " + std::to_string(report_.welcome.tick) +
-                       " as " + std::string(name_of(report_.welcome.role)));
+  log("connected", fmt::format("connected to {} at tick {} as {}", report_.server, report_.welcome.tick,
+                               name_of(report_.welcome.role)));
   return {};
 }
 
@@ -82,13 +83,13 @@ Result<void> Bot::reconnect(const ConnectionEnd& end) {
   ConnectionEnd last = end;
   for (uint32_t tries = 1; report_.connections + tries - 1 <= config_.reconnects_max; ++tries) {
     if (!may_come_again(last.refusal)) break;
-    log("lost", "connection lost (" + last.message + "): trying again");
+    log("lost", fmt::format("connection lost ({}): trying again", last.message));
     std::this_thread::sleep_for(std::chrono::milliseconds(limits::bot_retry_ms * tries));
     const auto connected = connect();
     if (connected) return {};
     last = connected.error();
   }
-  report_.failure = "gave up after " + std::to_string(report_.connections) + " connections: " + last.message;
+  report_.failure = fmt::format("gave up after {} connections: {}", report_.connections, last.message);
   report_.refusal = last.refusal;
   return fail(report_.failure);
 }
@@ -111,8 +112,7 @@ void Bot::receive(const Client::Applied& applied) {
   const Mirror& mirror = *client_.mirror();
   const uint64_t repairs = mirror.counters().repairs_asked - repairs_asked_;
   if (repairs != 0)
-    log("check", "a check failed at tick " + std::to_string(mirror.tick()) + ": asking for " +
-                     std::to_string(repairs) + " chunks");
+    log("check", fmt::format("a check failed at tick {}: asking for {} chunks", mirror.tick(), repairs));
   repairs_asked_ += repairs;
   std::visit(Overloaded{[&](const FrameMessage& frame) { receive_frame(frame, received.arrived); },
                         [&](const ReplyMessage& reply) { receive_reply(reply, received.arrived); },
@@ -153,8 +153,8 @@ void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
     ++report_.carves_refused;
     ++report_.refusals[reply.refusal_name];
     unseen_.erase(request->second.random_seed);
-    log("refused", "carve " + std::to_string(reply.request) + " was refused (" + reply.refusal_name +
-                       "): " + reply.refusal);
+    log("refused",
+        fmt::format("carve {} was refused ({}): {}", reply.request, reply.refusal_name, reply.refusal));
   }
   requests_.erase(request);
   if (report_.carves_asked == config_.carves && requests_.empty()) log("answered", "all carves are answered");
@@ -173,7 +173,7 @@ void Bot::receive_status(const StatusMessage& status) {
   const bool was_settled = report_.settled;
   report_.settled = at_rest && rest_hash_ == status.field_hash;
   rest_hash_ = at_rest ? std::optional(status.field_hash) : std::nullopt;
-  if (report_.settled && !was_settled) log("settled", "settled at tick " + std::to_string(status.tick));
+  if (report_.settled && !was_settled) log("settled", fmt::format("settled at tick {}", status.tick));
   if (!scripted_work_done()) return;
   ++final_statuses_;
   compared_ = report_.hash.equal || final_statuses_ >= limits::bot_final_statuses_max;
@@ -215,9 +215,9 @@ BotReport Bot::run() {
   while (going && !finished()) {
     going = step(step_wait);
     if (going && ms_between(started_, Clock::now()) > config_.timeout_s * 1000.0) {
-      report_.failure = "not finished within " + std::to_string(static_cast<int>(config_.timeout_s)) +
-                        " s (--timeout): " + std::to_string(requests_.size()) + " carves unanswered, " +
-                        std::to_string(report_.status.pieces) + " pieces alive";
+      report_.failure =
+          fmt::format("not finished within {} s (--timeout): {} carves unanswered, {} pieces alive",
+                      config_.timeout_s, requests_.size(), report_.status.pieces);
       break;
     }
   }

@@ -1,6 +1,7 @@
 #include "client/bot/report.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "shared/base/quantile.h"
@@ -135,7 +136,7 @@ std::string all_refused(const BotReport& report) {
   if (report.carves_refused == 0 || report.carves_accepted > 0) return {};
   std::string why;
   for (const auto& [reason, count] : report.refusals)
-    why += (why.empty() ? "" : ", ") + reason + " (" + std::to_string(count) + ")";
+    why += fmt::format("{}{} ({})", why.empty() ? "" : ", ", reason, count);
   return "every carve was refused: " + why;
 }
 

@@ -10,12 +10,12 @@ namespace scree {
 
 CacheOptions::CacheOptions(CLI::App& app, CacheConfig& config, size_t mib) : config_(config), mib_(mib) {
   config_.folder = xdg_folder("XDG_CACHE_HOME", ".cache");
-  app.add_option("--cache", config_.folder,
-                 "folder for the edited terrain of servers that were visited, so that less is sent the next "
-                 "time")
+  app.add_option(
+         "--cache", config_.folder,
+         "folder that keeps the edited terrain of visited servers, so that the next visit needs less data")
       ->envname("SCREE_CACHE")
       ->capture_default_str();
-  bounded(app.add_option("--cache-mib", mib_, "MiB that may be kept there; 0: no files"),
+  bounded(app.add_option("--cache-mib", mib_, "limit of the files in that folder, MiB; 0: no files"),
           whole_within(0, limits::cache_mib_max))
       ->envname("SCREE_CACHE_MIB")
       ->capture_default_str();
@@ -29,7 +29,7 @@ void CacheOptions::complete() {
 
 Result<void> CacheOptions::try_folder() const {
   const Result<void> usable = CacheFolder(config_.folder, config_.bytes_max).try_writing();
-  if (!usable) return fail("nothing is kept for the next time (--cache): " + usable.error().message);
+  if (!usable) return fail("nothing will be kept for the next visit (--cache): " + usable.error().message);
   return {};
 }
 

@@ -14,10 +14,10 @@ namespace {
 constexpr NumberWithin ports{1, 65535, true};
 
 void declare_host_and_port(CLI::App& app, ServerEndpoint& endpoint) {
-  app.add_option("--host", endpoint.host, "server's name or address")
+  app.add_option("--host", endpoint.host, "name or address of the server")
       ->envname("SCREE_HOST")
       ->capture_default_str();
-  bounded(app.add_option("--port", endpoint.port, "its TCP port"), ports)
+  bounded(app.add_option("--port", endpoint.port, "TCP port of the server"), ports)
       ->envname("SCREE_PORT")
       ->capture_default_str();
 }
@@ -30,34 +30,32 @@ EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
   if (naming == EndpointNaming::server)
     app.add_option(
         "--server", server_,
-        fmt::format(
-            "HOST[:PORT] of a server, [ADDRESS]:PORT with an IPv6 address; port {} unless said otherwise",
-            default_port));
+        fmt::format("HOST[:PORT] of a server, [ADDRESS]:PORT with an IPv6 address; default port: {}",
+                    default_port));
   else
     declare_host_and_port(app, endpoint);
   app.add_flag("--tls", endpoint.tls,
-               "encrypted, to a server whose certificate is for its name and from an "
-               "authority that this system knows")
+               "encrypt the connection; the server's certificate must be for its name, and from an authority "
+               "that this system trusts")
       ->envname("SCREE_TLS");
   CLI::Option* ca = app.add_option("--tls-ca", endpoint.trust.ca_path,
                                    "PEM file of the certificates to trust instead; implies --tls")
                         ->envname("SCREE_TLS_CA");
   app.add_option("--tls-fingerprint", endpoint.trust.fingerprint,
-                 "SHA-256 of the one certificate to trust, as the server logs it; implies --tls")
+                 "SHA-256 fingerprint of the only certificate to trust, as the server logs it; implies --tls")
       ->envname("SCREE_TLS_FINGERPRINT")
       ->excludes(ca);
   CLI::Option* token = app.add_option("--token", endpoint.token,
-                                      "access token, or the server's admin token; better in a file: command "
-                                      "lines are seen by others")
+                                      "access token, or the server's admin token; --token-file is safer, "
+                                      "because other users can see command lines")
                            ->envname(token_environment);
-  app.add_option("--token-file", token_path_, "its first line is the token")
+  app.add_option("--token-file", token_path_, "file whose first line is the token")
       ->envname(token_environment + "_FILE")
       ->excludes(token);
-  app.add_option(
-         "--link", link_,
-         "simulate a link, each way: delay=50ms,jitter=20ms,rate=1Mbit, buffer=16kB of the bottleneck, "
-         "cut=100000 or half-open=50kB after so many bytes of each connection, seed=1; one way: "
-         "down.rate=100kbit, up.cut=2000")
+  app.add_option("--link", link_,
+                 "simulate a slow link: delay=50ms,jitter=20ms,rate=1Mbit,buffer=16kB,seed=1 (buffer: that "
+                 "of the bottleneck). cut=100000 ends each connection after so many bytes; after "
+                 "half-open=50kB nothing passes. down. and up. choose one direction: down.rate=100kbit")
       ->envname("SCREE_LINK");
 }
 

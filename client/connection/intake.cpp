@@ -16,10 +16,10 @@ tl::unexpected<ConnectionEnd> end(const std::string& why, const std::string& ref
 tl::expected<std::optional<Intake::Next>, ConnectionEnd> Intake::next() {
   for (;; ++unknown_) {
     const auto bytes = reader_.next();
-    if (!bytes) return end("what the server sent is not this protocol: " + bytes.error().message);
+    if (!bytes) return end("the server's data does not follow this protocol: " + bytes.error().message);
     if (!*bytes) return std::nullopt;
     Result<ServerMessage> message = decode_server(**bytes);
-    if (!message) return end("what the server sent is not this protocol: " + message.error().message);
+    if (!message) return end("the server's data does not follow this protocol: " + message.error().message);
     if (std::holds_alternative<UnknownMessage>(*message)) continue;
     if (tl::expected<void, ConnectionEnd> fits = inspect(*message); !fits)
       return tl::unexpected(fits.error());

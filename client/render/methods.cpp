@@ -21,7 +21,7 @@ constexpr std::array table{
     MethodEntry{"dual", "the same by dual contouring: sharp edges of the rock stay sharp", nothing_missing,
                 make_dual_method},
     MethodEntry{"cubes", "the same by marching cubes", nothing_missing, make_cubes_method},
-    MethodEntry{"raymarch", "rays through an atlas of bricks, whatever was edited", nothing_missing,
+    MethodEntry{"raymarch", "rays through an atlas of bricks; edits do not slow it down", nothing_missing,
                 make_raymarch_method},
     MethodEntry{"grid", "marching cubes by a geometry shader, from a grid of points about the camera",
                 grid_method_missing, make_grid_method, grid_options},

@@ -105,7 +105,7 @@ Client::Event Client::apply(Received received) {
     last_chunk_s_ = now_s_;
   const Result<void> taken = rejoin_.before(message, *mirror_);
   Result<MirrorChanges> changes = taken ? mirror_->apply(message) : tl::unexpected(taken.error());
-  if (!changes) return lose({{"what the server sent cannot be applied: " + changes.error().message}, {}});
+  if (!changes) return lose({{"the server's data cannot be applied: " + changes.error().message}, {}});
   predictions_->notice(message);
   rejoin_.after(message, *mirror_, *channel_);
   while (const std::optional<RepairMessage> repair = mirror_->next_repair_request()) channel_->send(*repair);

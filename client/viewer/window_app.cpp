@@ -58,7 +58,8 @@ void WindowApp::follow_path(double now_s) {
 
 void WindowApp::choose_quality(float frame_ms, double now_s) {
   if (const std::optional<Quality> other = viewing_.choose_quality(quality_, frame_ms))
-    say("quality: " + std::string(name_of(*other)) + ", by the time of a frame; the panel has others", now_s);
+    say("quality: " + std::string(name_of(*other)) + ", chosen by the time of a frame; the panel has others",
+        now_s);
 }
 
 Result<void> WindowApp::choose(const MethodEntry& method) {
@@ -137,7 +138,7 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
     act_on_view(action);
     viewing_.session.timeline().act(action);
     if (action == Action::next_eye && !whereabouts_.follow_next_eye(viewing_.session, now_s))
-      say("there is nobody here through whose eye to look", now_s);
+      say("nobody else is here, so there is no other view", now_s);
     if (action == Action::walk) {
       whereabouts_.walk_or_fly(viewing_.camera, viewing_.session);
       say(flies() ? "you fly; Q: walk" : "you walk, and Space jumps; Q: fly", now_s);
@@ -158,15 +159,15 @@ std::vector<std::string> WindowApp::messages(double now_s) const {
   MethodSwitch& methods = viewing_.view->methods();
   if (const DrawMethod* shown = methods.shown();
       shown != nullptr && shown->reach_m() < viewing_.view_radius_m())
-    lines.push_back(
-        std::string(methods.shown_name()) + " draws " + std::to_string(static_cast<int>(shown->reach_m())) +
-        " m far, as far as its cells reach: the world goes on; the panel has more cells, and larger");
+    lines.push_back(std::string(methods.shown_name()) + " draws " +
+                    std::to_string(static_cast<int>(shown->reach_m())) +
+                    " m far, because its cells end there; the panel has more cells, and larger ones");
   if (eye().follows()) lines.push_back(eye().description(viewing_.session.figures(now_s)));
   if (recorder_) lines.emplace_back("recording the camera's path; K ends it");
   if (!window_.holds_mouse())
     lines.emplace_back(viewing_.session.is_replay()
-                           ? "click into the picture to take the mouse: then it looks; Tab frees it"
-                           : "click into the picture to take the mouse: then it looks, and a click strikes");
+                           ? "click the picture to look around with the mouse; Tab frees it"
+                           : "click the picture to look around with the mouse; then a click strikes");
   if (now_s < said_until_s_) lines.push_back(said_);
   if (const auto& line = window_.writes()) lines.push_back("say: " + line->text() + "_");
   return lines;

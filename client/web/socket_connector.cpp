@@ -83,7 +83,7 @@ void PageSocket::received(std::span<const uint8_t> bytes) {
   counters_.received_bytes += bytes.size();
   unread_bytes_ += bytes.size();
   if (unread_bytes_ > limits::page_unread_bytes_max)
-    return close({{"this page does not keep up: " + std::to_string(unread_bytes_ >> 20U) +
+    return close({{"this page is too slow: " + std::to_string(unread_bytes_ >> 20U) +
                    " MiB wait to be read (limits.page_unread_bytes_max)"},
                   {}});
   arrived_.push_back({{bytes.begin(), bytes.end()}, heard_});
@@ -116,7 +116,7 @@ void PageSocket::send(const ClientMessage& message) {
   counters_.sent_bytes += bytes.size();
   ++counters_.sent_messages;
   if (outgoing_.size() + bytes.size() > limits::unsent_bytes_max)
-    return close({{"what is to be sent is not: " + std::to_string(outgoing_.size()) +
+    return close({{"data cannot be sent: " + std::to_string(outgoing_.size()) +
                    " bytes wait (limits.unsent_bytes_max)"},
                   {}});
   outgoing_.insert(outgoing_.end(), bytes.begin(), bytes.end());

@@ -1,6 +1,7 @@
 #include "server/app/admission.h"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <set>
 #include <string>
 #include <utility>
@@ -26,13 +27,11 @@ const Shape* shape_of(const Request& request) {
 }
 
 Refused no_memory(double used_bytes, double added_bytes, uint32_t max_mb) {
-  const auto whole = [](double bytes) {
-    return std::to_string(static_cast<uint64_t>(std::ceil(bytes / bytes_per_mb)));
-  };
+  const auto whole = [](double bytes) { return static_cast<uint64_t>(std::ceil(bytes / bytes_per_mb)); };
   return {Refusal::memory_max,
-          "the terrain takes about " + whole(used_bytes) + " of " + std::to_string(max_mb) +
-              " MB (memory-max) and this edit may add " + whole(added_bytes) +
-              " MB: edit where terrain has been edited before, or have the limit raised (--memory-max)"};
+          fmt::format("the terrain takes about {} of {} MB (memory-max) and this edit may add {} MB: edit "
+                      "where terrain has been edited before, or have the limit raised (--memory-max)",
+                      whole(used_bytes), max_mb, whole(added_bytes))};
 }
 
 Reply refusal_of(const Command& command, const Refused& refused) {
@@ -60,9 +59,9 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, con
                                     "the terrain here cannot be read from the world's file: " + *reason});
     if (!waited_long) return Verdict::hold;
     return tl::unexpected(
-        Refused{Refusal::terrain_unreadable, "the terrain here was not read from the world's file in " +
-                                                 std::to_string(static_cast<int>(limits::held_seconds_max)) +
-                                                 " s: ask again"});
+        Refused{Refusal::terrain_unreadable,
+                fmt::format("the terrain here was not read from the world's file in {} s: ask again",
+                            limits::held_seconds_max)});
   }
   if (ahead != nullptr && !ahead->has(world.field(), around) && waited_s <= limits::generated_wait_s)
     return Verdict::hold;

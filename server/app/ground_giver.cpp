@@ -1,5 +1,7 @@
 #include "server/app/ground_giver.h"
 
+#include <fmt/format.h>
+
 #include "ground/ground_search.h"
 
 namespace scree {
@@ -7,7 +9,8 @@ namespace scree {
 GroundGiver ground_giver(const std::string& path, const WorldConfig& given) {
   return [path, given](const Digest& ground, TerrainSource& terrain) -> Result<void> {
     if (given.ground != Digest{} && given.ground != ground)
-      return fail("its ground is " + hex_of(ground) + ", and that of --ground is " + hex_of(given.ground));
+      return fail(
+          fmt::format("its ground is {}, and that of --ground is {}", hex_of(ground), hex_of(given.ground)));
     if (given.ground == ground) {
       terrain.heights = given.terrain.heights;
       return {};
@@ -32,8 +35,8 @@ Result<void> set_ground(const std::string& ground_path, WorldConfig& config) {
   float& voxel_size_m = config.terrain.voxel_size_m;
   if (bricks && voxel_size_m == TerrainSource{}.voxel_size_m) voxel_size_m = bricks->voxel_size_m;
   if (bricks && bricks->voxel_size_m != voxel_size_m)
-    return fail(ground_path + ": its stored bricks have voxels of " + std::to_string(bricks->voxel_size_m) +
-                " m, not of " + std::to_string(voxel_size_m) + " m (--voxel-size)");
+    return fail(fmt::format("{}: its stored bricks have voxels of {} m, not of {} m (--voxel-size)",
+                            ground_path, bricks->voxel_size_m, voxel_size_m));
   config.ground = file->name();
   config.terrain.heights = std::move(file);
   return {};

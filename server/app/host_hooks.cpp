@@ -38,12 +38,12 @@ void TickCommands::refuse(size_t index, std::string words, std::string_view name
 void TickCommands::change(size_t index, Request body) {
   CHECK_LT(index, commands_.size());
   CHECK(!leaves(commands_[index].body) && !leaves(body),
-        "the end of a session is the network side's to tell");
+        "only the network side reports the end of a session");
   commands_[index].body = std::move(body);
 }
 
 void TickCommands::add(Request body, uint32_t request) {
-  CHECK(!leaves(body), "the end of a session is the network side's to tell");
+  CHECK(!leaves(body), "only the network side reports the end of a session");
   commands_.push_back({0, request, std::move(body)});
   refusals_.emplace_back();
 }

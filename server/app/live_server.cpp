@@ -197,7 +197,7 @@ void LiveServer::State::govern(double length, TickSchedule::Delay delay) {
   const uint32_t percent = feed->world()->config().work_percent;
   work_percent_next = governor->tick_ended(length, delay.lost_ticks, percent);
   if (work_percent_next)
-    spdlog::info("ticks {}: their work may take {} % of their length, so far {} %",
+    spdlog::info("ticks {}: their work may take {} % of their length now, before it was {} %",
                  *work_percent_next < percent ? "are lost" : "are in time again", *work_percent_next,
                  percent);
 }

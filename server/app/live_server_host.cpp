@@ -22,7 +22,7 @@ bool LiveServer::State::ask_host(const World& world, Admitted& admitted) {
 
 bool LiveServer::push(Command command) {
   CHECK_EQ(command.session, 0U, "the host's commands have no session");
-  CHECK(!std::holds_alternative<LeaveRequest>(command.body), "the host is no session that could leave");
+  CHECK(!std::holds_alternative<LeaveRequest>(command.body), "the host is not a session, so it cannot leave");
   return running() && !state_->config.net.replay && state_->commands.push(command);
 }
 

@@ -22,7 +22,7 @@ namespace {
 /// What was asked for, and the file says otherwise: the file has the last word.
 void tell_differences(const std::string& path, const WorldConfig& asked, const WorldConfig& saved_world) {
   if (!is_same_terrain(asked, saved_world) || asked.tick_rate_hz != saved_world.tick_rate_hz)
-    spdlog::info("{}: terrain and tick rate are the file's", path);
+    spdlog::info("{}: terrain and tick rate come from the file", path);
   const SettingValues wanted = print(asked), stand = print(saved_world);
   for (size_t i = 0; i < stand.size(); ++i)
     if (stand[i] != wanted[i])

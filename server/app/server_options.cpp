@@ -43,7 +43,7 @@ struct Raw {
 };
 
 void add_threads(CLI::App& app, const char* name, size_t& threads, const std::string& what) {
-  bounded(app.add_option(name, threads, "threads that " + what + "; 0: as many as there are cores"),
+  bounded(app.add_option(name, threads, "threads that " + what + "; 0: one for each core"),
           whole_within(0, static_cast<double>(Workers::threads_max)))
       ->capture_default_str();
 }
@@ -55,7 +55,7 @@ std::vector<std::string> names_of_kind() {
 
 void add_preset(CLI::App& app, Raw& raw) {
   app.add_option("--preset", raw.preset,
-                 "values for a kind of machine, over which each option that is said stands:\n" +
+                 "values for a kind of machine; options that you give override them:\n" +
                      describe_presets(all_kinds<Preset>, server_preset_options))
       ->check(CLI::IsMember(names_of_kind<Preset>()));
 }
@@ -63,31 +63,28 @@ void add_preset(CLI::App& app, Raw& raw) {
 void add_network(CLI::App& app, Raw& raw) {
   NetConfig& net = raw.options.live.net;
   net.port = default_port;
-  bounded(app.add_option("-p,--port", net.port, "TCP port; 0: one that is free"), whole_within(0, 65535))
+  bounded(app.add_option("-p,--port", net.port, "TCP port; 0: any free port"), whole_within(0, 65535))
       ->capture_default_str();
-  app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: every one of this machine")
+  app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: all addresses of this machine")
       ->capture_default_str();
-  app.add_option("--chat", net.chat, "pass on what persons say to each other: true or false")
-      ->capture_default_str();
+  app.add_option("--chat", net.chat, "let people chat: true or false")->capture_default_str();
   add_threads(app, "--net-threads", net.net_threads, "encode and send");
   app.add_option("--web", raw.web,
-                 "folder of the page for browsers, as ./scree web builds it; off: no HTTP; unless said, the "
-                 "folder beside this program (../share/scree/web, ../../web/dist)");
+                 "folder of the page for browsers (./scree web builds it); off: no HTTP; default: the folder "
+                 "beside this program (../share/scree/web, ../../web/dist)");
   app.add_option("--web-origin", net.web.origins,
-                 "a site beside this server's own whose pages may join, as https://game.example; may be said "
-                 "again");
+                 "another site whose pages may join, such as https://game.example; repeatable");
 }
 
 void add_world(CLI::App& app, Raw& raw) {
   WorldConfig& world = raw.options.live.world;
   CLI::Option* terrain = app.add_option("--terrain", raw.terrain, listed(kind_names<TerrainKind>));
   terrain->check(CLI::IsMember(names_of_kind<TerrainKind>()))->capture_default_str();
-  app.add_option(
-         "--ground", raw.ground,
-         "ground file, as scree import makes it: the terrain instead of a generated one; a kept world or a "
-         "recording finds its own beside it")
+  app.add_option("--ground", raw.ground,
+                 "ground file (scree import makes it), used instead of generated terrain; a saved world or a "
+                 "recording finds its ground file in its own folder")
       ->excludes(terrain);
-  bounded(app.add_option("--seed", world.terrain.random_seed, "of the terrain"),
+  bounded(app.add_option("--seed", world.terrain.random_seed, "random seed of the terrain"),
           whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->capture_default_str();
   bounded(app.add_option("--voxel-size", world.terrain.voxel_size_m, "metres"),
@@ -99,7 +96,7 @@ void add_world(CLI::App& app, Raw& raw) {
   add_threads(app, "--sim-threads", raw.options.live.sim_threads, "step the bodies");
   raw.options.live.governed = true;
   app.add_option("--govern", raw.options.live.governed,
-                 "lower work-percent while ticks are lost, and raise it again: true or false")
+                 "lower work-percent if ticks are late, and restore it once they are on time: true or false")
       ->capture_default_str();
 }
 
@@ -120,9 +117,10 @@ void add_settings(CLI::App& app, Raw& raw) {
 void add_admin(CLI::App& app, Raw& raw) {
   CLI::Option* token =
       app.add_option("--admin-token", raw.options.live.net.admin_token,
-                     "whoever knows it is an administrator: changes settings, kicks and bans; "
-                     "better in a file: command lines are seen by others");
-  app.add_option("--admin-token-file", raw.token_path, "its first line is the admin token")->excludes(token);
+                     "token of administrators, who change settings, kick and ban; --admin-token-file is "
+                     "safer, because other users can see command lines");
+  app.add_option("--admin-token-file", raw.token_path, "file whose first line is the admin token")
+      ->excludes(token);
 }
 
 constexpr const char* nobody = "none";
@@ -131,22 +129,23 @@ void add_access(CLI::App& app, Raw& raw) {
   AccessConfig& access = raw.options.live.net.access;
   CLI::Option* certificate =
       app.add_option("--tls-cert", access.tls_certificate_path,
-                     "PEM file of the certificate, its chain behind it: clients may come by TLS");
-  CLI::Option* key = app.add_option("--tls-key", access.tls_key_path, "PEM file of its private key");
+                     "PEM file of the certificate, followed by its chain; lets clients connect by TLS");
+  CLI::Option* key =
+      app.add_option("--tls-key", access.tls_key_path, "PEM file of the certificate's private key");
   certificate->needs(key);
   key->needs(certificate);
   app.add_flag("--tls-required", access.tls_required, "refuses connections without TLS")->needs(certificate);
   CLI::Option* tokens = app.add_option("--token-key", access.token_key_path,
-                                       "public key of access tokens, as scree token key makes it");
-  app.add_option("--token-revoked", access.token_revoked_path,
-                 "file of the tokens that do not hold any more: an id a line")
+                                       "public key that verifies access tokens (scree token key makes it)");
+  app.add_option("--token-revoked", access.token_revoked_path, "file of the revoked tokens, one id a line")
       ->needs(tokens);
   app.add_option("--anonymous", raw.anonymous,
-                 "role of who comes without a token: viewer, carver, builder or none, who is refused; "
-                 "builder unless said otherwise, with --token-key none")
+                 "role of clients without a token: viewer, carver, builder or none (refused); default: "
+                 "builder, or none with --token-key")
       ->check(CLI::IsMember(std::vector<std::string>{"viewer", "carver", "builder", nobody}));
-  app.add_option("--world-name", access.world, "this server's name in tokens that are for one world only");
-  app.add_option("--bans", access.bans_path, "file that keeps bans; without, they end with the server");
+  app.add_option("--world-name", access.world,
+                 "this server's name, for tokens that are valid in one world only");
+  app.add_option("--bans", access.bans_path, "file that keeps bans; without it, bans end with the server");
 }
 
 /// Who has a key for tokens wants them.
@@ -161,11 +160,10 @@ void add_saving_options(CLI::App& app, Raw& raw) {
   LiveConfig& live = raw.options.live;
   CLI::Option* world =
       app.add_option("--world", live.world_path,
-                     "file that keeps the world: made where there is none, else the world goes on");
-  app.add_option(
-         "--durability", raw.durability,
-         "when the world is saved: after each tick, each second, or off: at the end, every --autosave, and "
-         "before much of it waits")
+                     "file that keeps the world: made if it is missing, otherwise the saved world continues");
+  app.add_option("--durability", raw.durability,
+                 "when the world is saved: after each tick, each second, or off: at the end, every "
+                 "--autosave seconds, and when much is unsaved")
       ->check(CLI::IsMember(names_of_kind<Durability>()))
       ->capture_default_str()
       ->needs(world);
@@ -178,9 +176,9 @@ void add_saving_options(CLI::App& app, Raw& raw) {
 
 void add_recordings(CLI::App& app, Raw& raw) {
   LiveConfig& live = raw.options.live;
-  CLI::Option* record =
-      app.add_option("--record", live.record_path,
-                     "records the session to this new file; goes on with it where the --world does");
+  CLI::Option* record = app.add_option(
+      "--record", live.record_path,
+      "records the session to this new file; if the --world continues, its recording continues, too");
   const auto parse_ring = [&live](const std::string& text) {
     const auto limit = ring_limit_of(text);
     if (!limit) throw CLI::ValidationError("--record-ring", limit.error().message);
@@ -188,48 +186,49 @@ void add_recordings(CLI::App& app, Raw& raw) {
   };
   app.add_option_function<std::string>(
          "--record-ring", parse_ring,
-         "keeps of the recording the last minutes or bytes alone: 90s, 10m or 2h; "
-         "500M, 2G or 1T")
+         "keeps only the end of the recording: a time (90s, 10m or 2h) or bytes (500M, 2G or 1T)")
       ->needs(record);
-  CLI::Option* replay = app.add_option("--replay", live.replay.path, "plays a recording instead");
+  CLI::Option* replay =
+      app.add_option("--replay", live.replay.path, "plays this recording instead of a simulation");
   replay->excludes(record);
   for (const char* of_the_recording : {"--terrain", "--seed", "--voxel-size", "--tick-rate", "--govern"})
     replay->excludes(app.get_option(of_the_recording));
-  bounded(app.add_option("--from", live.replay.from, "tick of the recording to start after"),
+  bounded(app.add_option("--from", live.replay.from, "starts after this tick of the recording"),
           whole_within(0, whole_most))
       ->needs(replay);
-  bounded(app.add_option("--speed", live.replay.speed, "of the replay, times real time"),
+  bounded(app.add_option("--speed", live.replay.speed, "speed of the replay, in multiples of real time"),
           {replay_speed_least, replay_speed_most})
       ->needs(replay);
   CLI::Option* loop =
-      app.add_flag("--loop", raw.loop, "starts the replay over at its end, instead of staying there");
+      app.add_flag("--loop", raw.loop, "restarts the replay at its end, instead of stopping there");
   loop->needs(replay);
-  app.add_flag("--end", raw.end, "the server ends with the replay")->needs(replay)->excludes(loop);
-  app.add_option("--events", live.events_path,
-                 "appends what happens to this file, an event a line (JSON Lines)")
+  app.add_flag("--end", raw.end, "ends the server when the replay ends")->needs(replay)->excludes(loop);
+  app.add_option("--events", live.events_path, "appends the events to this file, one a line (JSON Lines)")
       ->check(check_writable, "FILE")
       ->excludes(replay);
 }
 
 void add_run(CLI::App& app, Raw& raw) {
   LiveConfig& live = raw.options.live;
-  bounded(app.add_option("--ticks", live.ticks_max, "ends after so many ticks; 0: does not"),
+  bounded(app.add_option("--ticks", live.ticks_max, "ends the server after so many ticks; 0: no limit"),
           whole_within(0, whole_most))
       ->capture_default_str();
-  bounded(app.add_option("--duration", live.seconds_max, "ends after so many seconds; 0: does not"),
-          {0.0, 1.0e9})
+  bounded(
+      app.add_option("--duration", live.seconds_max, "ends the server after so many seconds; 0: no limit"),
+      {0.0, 1.0e9})
       ->capture_default_str();
   bounded(
-      app.add_option("--wait-clients", live.wait_clients, "the first tick waits until so many have joined"),
+      app.add_option("--wait-clients", live.wait_clients, "number of clients for which the first tick waits"),
       whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->capture_default_str();
-  app.add_option("--report", raw.options.report_path, "writes what happened to this file at the end (JSON)")
+  app.add_option("--report", raw.options.report_path, "writes a report to this file at the end (JSON)")
       ->check(check_writable, "FILE");
   app.add_option(
          "--trace", live.trace_path,
-         "writes what took how long to this file at the end; chrome://tracing and ui.perfetto.dev open it")
+         "writes the times of all work to this file at the end; chrome://tracing and ui.perfetto.dev open it")
       ->check(check_writable, "FILE");
-  app.add_option("--log", raw.options.log_level, "trace, debug, info, warn, error or off")
+  app.add_option("--log", raw.options.log_level,
+                 "lowest level of logged messages: trace, debug, info, warn, error or off")
       ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
       ->capture_default_str();
 }
@@ -242,10 +241,9 @@ void parse_web(Raw& raw) {
   if (!web.on) web.folder.clear();
   for (const std::string& origin : web.origins)
     if (!is_origin(origin))
-      throw CLI::ValidationError("--web-origin",
-                                 "'" + origin +
-                                     "' is no site: http:// or https://, a host, a "
-                                     "port where it is not the usual one, and nothing behind");
+      throw CLI::ValidationError("--web-origin", "'" + origin +
+                                                     "' is not a site: write http:// or https://, a host, a "
+                                                     "port if it is not the default, and nothing more");
   if (raw.web.empty() || !web.on) return;
   const auto files = web_files(web);
   if (!files) throw CLI::ValidationError("--web", files.error().message);
@@ -350,11 +348,12 @@ std::string fault_of(const CLI::ConfigItem& item) {
 }  // namespace
 
 std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
-  CLI::App app("A dedicated server for terrain that breaks, falls, and is terrain again.", "scree-server");
+  CLI::App app("A dedicated server for terrain that breaks, falls, and becomes terrain again.",
+               "scree-server");
   Raw raw;
   app.set_version_flag("--version", SCREE_VERSION);
   const CLI::Option* config =
-      app.set_config("--config", "", "a TOML file with these options, by the same names");
+      app.set_config("--config", "", "a TOML file with these options, under the same names");
   app.allow_config_extras(CLI::config_extras_mode::error);
   declare(app, raw);
   name_environment(app);

@@ -39,7 +39,7 @@ Result<std::string> temporary_world_path() {
     folder = fs::temp_directory_path(error);
   if (folder.empty() || access(folder.c_str(), W_OK) != 0)
     return fail(
-        "there is no folder for a temporary world: give the server one to keep (--world), or set "
+        "there is no folder for a temporary world: name a file for the world (--world), or set "
         "XDG_CACHE_HOME or TMPDIR");
   remove_left_behind(folder);
   return (folder / (prefix + std::to_string(getpid()) + "-" + std::to_string(++made) + suffix)).string();

@@ -48,7 +48,7 @@ Result<void> check_motion(const BodyMotion& motion) {
         std::abs(at.z) <= limits::world_half_width_m))
     return refuse_body(motion.id, "it lies outside the world");
   if (!is_sound(motion.velocity_m_s) || !is_sound(motion.spin_rad_s))
-    return refuse_body(motion.id, "its speed is no number");
+    return refuse_body(motion.id, "its speed is not a number");
   const bool moves = motion.velocity_m_s != glm::vec3(0.0F) || motion.spin_rad_s != glm::vec3(0.0F);
   if (motion.frozen && (moves || motion.thawed)) return refuse_body(motion.id, "it is frozen, and moves");
   return {};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <asio/ip/address.hpp>
+#include <fmt/format.h>
 
 #include "proto/limits.h"
 #include "shared/base/overloaded.h"
@@ -24,8 +25,8 @@ Result<void> check_together(const AccessConfig& config, const std::string& admin
         "nobody could join: there is neither a key of tokens nor an admin token (--anonymous none, "
         "--token-key, --admin-token-file)");
   if (config.world.size() > limits::world_name_bytes_max)
-    return fail("the world's name has at most " + std::to_string(limits::world_name_bytes_max) +
-                " bytes (--world-name)");
+    return fail(
+        fmt::format("the world's name has at most {} bytes (--world-name)", limits::world_name_bytes_max));
   return {};
 }
 
@@ -71,11 +72,10 @@ tl::expected<Grant, Refused> Access::grant(const std::string& token, uint64_t no
   }
   if (!token.empty() && !admin_token_.empty()) {
     if (is_access_token(token))
-      return refuse(Refusal::token_foreign, "this server takes no access tokens (--token-key)");
+      return refuse(Refusal::token_foreign, "this server accepts no access tokens (--token-key)");
     return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
   }
-  if (!anonymous_)
-    return refuse(Refusal::token_missing, "this server takes nobody without a token (--token)");
+  if (!anonymous_) return refuse(Refusal::token_missing, "this server requires a token (--token)");
   return Grant{*anonymous_};
 }
 
@@ -83,10 +83,11 @@ tl::expected<Grant, Refused> Access::grant_to(const ReadToken& read, uint64_t no
   const AccessToken& token = read.token;
   if (!read.is_by(*key_))
     return refuse(Refusal::token_foreign,
-                  "the token was not signed by this server's key: is it for another one?");
+                  "the token was not signed by this server's key: is it for another server?");
   if (!token.world.empty() && token.world != world_)
-    return refuse(Refusal::token_world, "the token is for the world '" + token.world + "', and this one is " +
-                                            (world_.empty() ? "without a name" : "'" + world_ + "'"));
+    return refuse(Refusal::token_world,
+                  fmt::format("the token is for the world '{}', and this one is {}", token.world,
+                              world_.empty() ? "without a name" : "'" + world_ + "'"));
   const Grant grant{token.role, token.id, token.expires_s, token.name};
   TRY(still_holds(grant, now_s));
   return grant;
@@ -119,14 +120,14 @@ std::vector<std::string> open_doors(const AccessConfig& config, const std::strin
   if (error || address.is_loopback()) return {};
   std::vector<std::string> open;
   if (config.anonymous)
-    open.push_back("whoever reaches " + bind + " may " + may_of(*config.anonymous) +
-                   " without a token (--anonymous, --token-key)");
+    open.push_back(fmt::format("anyone who reaches {} may {} without a token (--anonymous, --token-key)",
+                               bind, may_of(*config.anonymous)));
   if (config.tls_certificate_path.empty())
     open.push_back(
-        "all that is sent, tokens included, can be read and changed on its way (--tls-cert, --tls-key)");
+        "all traffic, tokens included, can be read and changed on its way (--tls-cert, --tls-key)");
   else if (!config.tls_required)
     open.push_back(
-        "clients may come without TLS, and what they send can be read on its way (--tls-required)");
+        "clients may connect without TLS, and their traffic can be read on its way (--tls-required)");
   return open;
 }
 

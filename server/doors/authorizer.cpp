@@ -19,9 +19,10 @@ tl::expected<void, Refused> Authorizer::check_admin_token(const std::string& add
   if (door_.knows_as_wrong(address, token))
     return refuse(Refusal::admin_token_wrong, "the admin token is wrong, as it was before");
   if (const double wait_s = door_.wait_for_guess_s(address, now_s); wait_s > 0.0)
-    return refuse(Refusal::token_guesses,
-                  fmt::format("wrong tokens came from your address: the next is looked at in {:.0f} s",
-                              std::ceil(wait_s)));
+    return refuse(
+        Refusal::token_guesses,
+        fmt::format("wrong tokens came from your address: the server checks the next one in {:.0f} s",
+                    std::ceil(wait_s)));
   if (same_token(token, admin_token_)) return {};
   door_.guessed_wrong(address, token, now_s);
   return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
@@ -30,7 +31,7 @@ tl::expected<void, Refused> Authorizer::check_admin_token(const std::string& add
 tl::expected<Grant, Refused> Authorizer::grant_to(const Caller& caller, const std::string& token,
                                                   const std::string& name, double now_s, uint64_t unix_s) {
   if (config_.tls_required && !caller.encrypted)
-    return refuse(Refusal::tls_required, "this server is reached by TLS alone (--tls)");
+    return refuse(Refusal::tls_required, "this server accepts only TLS (--tls)");
   const bool guesses = !token.empty() && has_admin_token() && !is_access_token(token);
   if (guesses) TRY(check_admin_token(caller.address, token, now_s));
   Grant grant = TRY(access_->grant(token, unix_s));
@@ -47,17 +48,19 @@ tl::expected<void, Refused> Authorizer::may_administer(Role role, const Caller& 
   const auto admin = check_role(role, Role::admin);
   if (admin || knows_administrators()) return admin;
   if (is_control && door_.is_free(caller.address) && !caller.relayed) return {};
-  const std::string what =
-      is_control ? "it is controlled from its own machine alone" : "nobody may administer it";
-  return refuse(Refusal::no_admin_token, "this server was started without an admin token: " + what +
-                                             " (--admin-token-file, --token-key)");
+  const std::string_view what =
+      is_control ? "only its own machine may control it" : "nobody may administer it";
+  return refuse(
+      Refusal::no_admin_token,
+      fmt::format("this server was started without an admin token: {} (--admin-token-file, --token-key)",
+                  what));
 }
 
 tl::expected<void, Refused> check_role(Role role, Role needed) {
   if (may_act_as(role, needed)) return {};
-  return refuse(Refusal::role, "that takes the role " + std::string(name_of(needed)) +
-                                   ": this session is a " + std::string(name_of(role)) +
-                                   " (ask for a token, --token)");
+  return refuse(Refusal::role,
+                fmt::format("that takes the role {}: this session is a {} (ask for a token, --token)",
+                            name_of(needed), name_of(role)));
 }
 
 std::string with_reason(const std::string& what, const std::string& reason) {

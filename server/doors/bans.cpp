@@ -3,6 +3,7 @@
 #include <asio/ip/address.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <sstream>
 #include <unistd.h>
@@ -28,7 +29,7 @@ Result<void> parse_line(const std::string& line, std::map<std::string, Ban>& ban
   std::getline(words >> std::ws, ban.reason);
   const auto key = TRY(ban_key(address));
   if (bans.size() >= limits::bans_max && !bans.contains(key))
-    return fail("there are more than " + std::to_string(limits::bans_max) + " bans (limits.bans_max)");
+    return fail(fmt::format("there are more than {} bans (limits.bans_max)", limits::bans_max));
   bans[key] = ban;
   return {};
 }
@@ -40,7 +41,7 @@ Result<std::string> ban_key(const std::string& address) {
   if (bare.ends_with(network_bits)) bare.resize(bare.size() - network_bits.size());
   asio::error_code error;
   const auto parsed = asio::ip::make_address(bare, error);
-  if (error) return fail("'" + address + "' is no IPv4 or IPv6 address");
+  if (error) return fail("'" + address + "' is not an IPv4 or IPv6 address");
   if (parsed.is_v4()) return parsed.to_string();
   const asio::ip::address_v6 v6 = parsed.to_v6();
   if (v6.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, v6).to_string();
@@ -59,13 +60,13 @@ Result<Bans> Bans::open(const std::string& path) {
   // Writing takes the place of what is there, so it has to be a file.
   if (!error && !std::filesystem::is_regular_file(path, error)) return fail(path + " is not a file (--bans)");
   std::ifstream file(path);
-  if (error || !file) return fail("the file of bans " + path + " cannot be read (--bans)");
+  if (error || !file) return fail(fmt::format("the file of bans {} cannot be read (--bans)", path));
   size_t number = 0;
   for (std::string line; std::getline(file, line);) {
     ++number;
     if (line.empty()) continue;
     if (Result<void> taken = parse_line(line, bans.bans_); !taken)
-      return fail(path + ", line " + std::to_string(number) + ": " + taken.error().message);
+      return fail(fmt::format("{}, line {}: {}", path, number, taken.error().message));
   }
   return bans;
 }
@@ -73,8 +74,7 @@ Result<Bans> Bans::open(const std::string& path) {
 Result<void> Bans::add(const std::string& key, const Ban& ban, uint64_t now_s) {
   std::erase_if(bans_, [&](const auto& entry) { return has_ended(entry.second, now_s); });
   if (bans_.size() >= limits::bans_max && !bans_.contains(key))
-    return fail("there are " + std::to_string(limits::bans_max) +
-                " bans already (limits.bans_max): lift some");
+    return fail(fmt::format("there are {} bans already (limits.bans_max): lift some", limits::bans_max));
   bans_[key] = ban;
   return write();
 }

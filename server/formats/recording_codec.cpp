@@ -26,7 +26,7 @@ std::string without_length(const std::vector<uint8_t>& message) {
 PieceMessage read_piece(std::span<const uint8_t> bytes, FieldChecker& check) {
   ServerMessage message = check.value_or_refuse(decode_server(bytes));
   if (auto* piece = std::get_if<PieceMessage>(&message)) return std::move(*piece);
-  check.refuse("what should be a piece is another message");
+  check.refuse("a message is not a piece, as it should be");
   return {};
 }
 
@@ -39,14 +39,14 @@ Command read_command(uint64_t session, const std::string& bytes, FieldChecker& c
           },
           [&](const AdminMessage& admin) {
             const auto* settings = std::get_if<SettingsRequest>(&admin.act);
-            if (settings == nullptr) check.refuse("an administrator's act is no request of the world");
+            if (settings == nullptr) check.refuse("an administrator's request is not a request to the world");
             return Command{session, admin.request, settings == nullptr ? SettingsRequest() : *settings};
           },
           [&](const GoodbyeMessage&) {
             return Command{session, 0, LeaveRequest{}};
           },
           [&](const auto&) {
-            check.refuse("a message that asks for nothing stands where a request should");
+            check.refuse("a message is not a request, as it should be");
             return Command{};
           }},
       message);

@@ -88,7 +88,7 @@ PendingRefracture read(const kept::Cut& from, FieldChecker& check) {
   if (commands.size() == 1 && std::holds_alternative<CarveRequest>(commands.front().body))
     pending.thrown_by = std::make_shared<const CarveRequest>(std::get<CarveRequest>(commands.front().body));
   else
-    check.refuse("what throws a cut's pieces is no carve");
+    check.refuse("a cut's pieces are thrown by an operation that is not a carve");
   return pending;
 }
 

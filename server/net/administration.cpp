@@ -41,7 +41,7 @@ void Administration::set(ClientSession& session, uint32_t request, const Setting
     ++counts_.requests;
     return requests_.refuse(
         session, request,
-        {Refusal::value_unknown, "an administrator's request with no act that this server knows"});
+        {Refusal::value_unknown, "an administrator's request that this server does not know"});
   }
   std::string changes;
   for (const SettingValue& setting : asked.settings) changes += " " + setting.name + "=" + setting.value;
@@ -101,7 +101,7 @@ Result<void> Administration::kick(const KickRequest& kick) {
     spdlog::info("session {}: kicked by an administrator while its connection was lost", kick.session);
     return {};
   }
-  if (entry == nullptr) return fail("there is no session " + std::to_string(kick.session));
+  if (entry == nullptr) return fail(fmt::format("there is no session {}", kick.session));
   const auto session = entry->session;
   spdlog::info("session {}: kicked by an administrator", kick.session);
   session->refuse({Refusal::kicked, with_reason("an administrator ended this session", kick.reason)});
@@ -111,7 +111,7 @@ Result<void> Administration::kick(const KickRequest& kick) {
 Result<std::string> Administration::ip_of(uint64_t session) const {
   if (const Departed* const departed = tickets_.departed(session)) return departed->ip;
   if (const SessionEntry* const entry = sessions_.find(session)) return entry->session->ip();
-  return fail("there is no session " + std::to_string(session));
+  return fail(fmt::format("there is no session {}", session));
 }
 
 /// Ends the sessions that are there, administrators' excepted; the ban holds even when it cannot be written.

@@ -19,7 +19,7 @@ void Arrivals::entered(asio::ip::tcp::socket socket, const std::string& address)
 bool Arrivals::enter(std::shared_ptr<Transport> transport) {
   const std::string address = door_address(transport->address());
   if (const auto no = parts_.door.enter(address, steady_now_s())) {
-    turned_away(transport->address(), {*no, "by the door"});
+    turned_away(transport->address(), {*no, "too many connections"});
     return false;
   }
   begin(std::move(transport), address);

@@ -47,8 +47,8 @@ void ClientSession::read_failed(const StreamEnd& end) {
     disconnect_reason_ = Refusal::tls_failed;
     return close(end.why);
   }
-  const std::string has_leftovers = "the connection ended in the middle of a message, after " +
-                                    std::to_string(reader_.buffered_bytes()) + " bytes of it";
+  const std::string has_leftovers = fmt::format(
+      "the connection ended in the middle of a message, after {} bytes of it", reader_.buffered_bytes());
   const bool within_message = end.orderly && reader_.buffered_bytes() != 0;
   if (within_message && phase_ == Phase::hello) return refuse({Refusal::message_cut_short, has_leftovers});
   was_lost_ = true;
@@ -85,8 +85,8 @@ bool ClientSession::receive_message(std::span<const uint8_t> body) {
   };
   if (!messages_.try_spend(now_s_))
     return fail_with({Refusal::messages_per_second,
-                      "more than " + std::to_string(static_cast<int>(limits::messages_per_second_max)) +
-                          " messages a second (limits.messages_per_second_max)"});
+                      fmt::format("more than {} messages a second (limits.messages_per_second_max)",
+                                  limits::messages_per_second_max)});
   const auto message = decode_client(body);
   if (!message) return fail_with({Refusal::message_malformed, message.error().message});
   if (phase_ == Phase::hello) {
@@ -129,8 +129,9 @@ void ClientSession::queue(SharedBytes bytes) {
 bool ClientSession::has_acceptable_backlog() {
   if (phase_ == Phase::closed) return false;
   if (backlog_bytes_ <= limits::outbox_hard_bytes) return true;
-  disconnect(Refusal::outbox_full, "read too little: more than " + std::to_string(limits::outbox_hard_bytes) +
-                                       " bytes waited for it (limits.outbox_hard_bytes)");
+  disconnect(Refusal::outbox_full,
+             fmt::format("read too little: more than {} bytes waited for it (limits.outbox_hard_bytes)",
+                         limits::outbox_hard_bytes));
   return false;
 }
 
@@ -247,11 +248,10 @@ void ClientSession::leave() {
 
 void ClientSession::check_time(double now_s) {
   if (phase_ == Phase::hello && now_s - phase_since_s_ > times_.hello_s)
-    return refuse(
-        {Refusal::hello_late, "no hello within " + std::to_string(times_.hello_s) + " s of connecting"});
+    return refuse({Refusal::hello_late, fmt::format("no hello within {} s of connecting", times_.hello_s)});
   if (phase_ == Phase::refused && now_s - phase_since_s_ > times_.linger_s) return close("refused before");
   if (backlog_bytes_ != 0 && now_s - progress_s_ > times_.stall_s)
-    disconnect(Refusal::reading_stalled, "read nothing for " + std::to_string(times_.stall_s) + " s");
+    disconnect(Refusal::reading_stalled, fmt::format("read nothing for {} s", times_.stall_s));
 }
 
 void ClientSession::disconnect(Refusal reason, const std::string& words) {

@@ -202,7 +202,7 @@ tl::expected<void, Refused> NetHost::skip(ClientSession& session, const UnknownM
   if (unknown.request) {
     ++figures_.counts().requests;
     const std::string why =
-        fmt::format("this server does not know {}: it is of another release", unknown.value);
+        fmt::format("this server does not know {}: the client is of another release", unknown.value);
     requests_.refuse(session, *unknown.request, {Refusal::value_unknown, why});
     return {};
   }

@@ -29,9 +29,10 @@ bool Requests::pass(ClientSession& session, const Command& command) {
                    fmt::format("more than {} requests a second (requests-per-second); ask again more slowly",
                                sessions_.requests_per_second()));
   if (!commands_.push(command))
-    return refused(Refusal::commands_waiting,
-                   "the server is busy: " + std::to_string(commands_.commands_max()) +
-                       " commands wait already (limits.commands_waiting_max); try again");
+    return refused(
+        Refusal::commands_waiting,
+        fmt::format("the server is busy: {} commands wait already (limits.commands_waiting_max); try again",
+                    commands_.commands_max()));
   departures_.asked(session.id());
   times_.received(session.id(), command.request, now_s);
   return true;

@@ -20,7 +20,7 @@ std::optional<Departed> Returns::resume(const std::string& ticket, const Grant& 
   const bool connected = there != nullptr && same_right(there->grant, grant);
   if (connected) {
     const auto session = there->session;  // closing it erases the entry
-    session->close("it goes on by another connection");
+    session->close("the session continues on another connection");
   }
   const Departed* const departed = id ? tickets_.departed(*id) : nullptr;
   if (departed == nullptr || !same_right(departed->grant, grant)) {

@@ -1,6 +1,7 @@
 #include "server/net/room.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <tuple>
 
@@ -34,11 +35,12 @@ tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const
   if (sessions.joined() + std::min(reserved, kept_max) < most) return {};
   if (const auto leaver = who_gives_way(sessions, newcomer, grant, now_s)) {
     leaver->session->refuse(
-        {Refusal::idle_made_room, "the server is full, and " + leaver->why + ": another has your place"});
+        {Refusal::idle_made_room,
+         fmt::format("the server is full, and {}: another client has your place", leaver->why)});
     return {};
   }
   return refuse(Refusal::sessions_max,
-                "the server is full: " + std::to_string(most) + " sessions (sessions-max); try again later");
+                fmt::format("the server is full: {} sessions (sessions-max); try again later", most));
 }
 
 bool holds_token(const Grant& grant) {
@@ -57,10 +59,11 @@ std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const Client
     if (entry.session->phase() != ClientSession::Phase::joined || entry.grant.role == Role::admin)
       return nullptr;
     const bool idle = entry.session->may_make_room(now_s);
-    if (holds_token(entry.grant)) return idle && holds_token(grant) ? "you did nothing for long" : nullptr;
-    if (idle) return "you did nothing for long";
-    if (holds_token(grant)) return "those who hold a token go first";
-    return held[entry.session->address()] > few ? "your address holds many places" : nullptr;
+    if (holds_token(entry.grant))
+      return idle && holds_token(grant) ? "you were idle for a long time" : nullptr;
+    if (idle) return "you were idle for a long time";
+    if (holds_token(grant)) return "clients with a token have priority";
+    return held[entry.session->address()] > few ? "your address has many clients" : nullptr;
   };
   const auto rank = [&](const SessionEntry& entry) {
     return std::tuple(!holds_token(entry.grant), held[entry.session->address()],

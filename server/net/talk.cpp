@@ -43,17 +43,17 @@ bool Talk::may_say(Entry& speaker, double now_s) {
 
 std::optional<Talk::Heard> Talk::say(uint64_t session, const std::string& text, double now_s) {
   const auto answer = [](std::string words) { return Heard{{0, "", std::move(words)}, false}; };
-  if (!chat_) return answer("this server passes no lines on (--chat)");
+  if (!chat_) return answer("chat is off on this server (--chat)");
   const auto speaker = persons_.find(session);
   if (speaker == persons_.end()) return std::nullopt;
   std::string line = trimmed(showable(text, limits::line_bytes_max));
   if (line.empty()) return std::nullopt;
   if (!may_say(speaker->second, now_s))
     return answer(
-        fmt::format("more than {} lines at once, or {} a second, or too many by all who share with you: that "
-                    "one was not passed on",
+        fmt::format("more than {} lines at once, or more than {} a second, or too many from your address or "
+                    "token: this line was not sent",
                     limits::lines_burst_max, limits::lines_per_second_max));
-  if (!all_lines_.try_spend(now_s)) return answer("too many speak at once: that line was not passed on");
+  if (!all_lines_.try_spend(now_s)) return answer("too many people write at once: this line was not sent");
   return Heard{{session, speaker->second.name, std::move(line)}, true};
 }
 

@@ -92,7 +92,7 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
                    "too many requests a second from your address (limits.http_requests_per_second_max)");
   if (stopping_) return refusal(503, Refusal::server_stops, "the server stops");
   if (config_.access.tls_required && !from.encrypted()) {
-    HttpResponse elsewhere = refusal(307, Refusal::tls_required, "this server is reached by https alone");
+    HttpResponse elsewhere = refusal(307, Refusal::tls_required, "this server accepts only https");
     if (!request.host.empty())
       elsewhere.fields.emplace_back("Location", "https://" + request.host + request.path);
     return elsewhere;

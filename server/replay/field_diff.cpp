@@ -84,7 +84,7 @@ std::string within(const EditedBrick& a, const EditedBrick& b, BrickCoord coord,
     return place_of(v, voxel_size_m) +
            fmt::format(" has the code {}, in the other {}", +a.brick.codes[at], +b.brick.codes[at]);
   }
-  return place_of(first_voxel(coord), voxel_size_m) + " begins a brick that is painted otherwise";
+  return place_of(first_voxel(coord), voxel_size_m) + " begins a brick that is painted differently";
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ Tick TickOrTime::nearest_tick(uint32_t tick_rate_hz) const {
 
 Result<TickOrTime> parse_tick_or_time(const std::string& text) {
   const auto refused =
-      fail(fmt::format("'{}' is no moment: write a tick, as 5400, or a time, as 90s, 1.5m or 1:30", text));
+      fail(fmt::format("'{}' is not a moment: write a tick, as 5400, or a time, as 90s, 1.5m or 1:30", text));
   if (text.empty()) return refused;
   const bool is_tick = text.find_first_not_of("0123456789") == std::string::npos;
   const size_t unit = std::string_view("smh").find(text.back());

@@ -102,7 +102,7 @@ std::string setting_difference(const Side& a, const Side& b) {
   for (const SettingValue& value : a.settings) {
     const auto other = std::ranges::find(b.settings, value.name, &SettingValue::name);
     if (other == b.settings.end())
-      return fmt::format("{}={}, which the other has not", value.name, value.value);
+      return fmt::format("{}={}, which the other does not have", value.name, value.value);
     if (other->value != value.value)
       return fmt::format("{}={}, in the other {}", value.name, value.value, other->value);
   }
@@ -195,7 +195,7 @@ class Comparison {
 
   /// Bodies differ by less than poses tell; where that shows first.
   Result<std::string> first_piece_after(Tick tick) {
-    const std::string exact = "the exact motions differ, by less than poses say";
+    const std::string exact = "the exact motions differ by less than poses can store";
     const Tick end = std::min(result_.last, tick + looked_ahead_max);
     for (Tick later = tick + 1; later <= end; ++later) {
       const auto one = TRY(a_.reader->frame(later));

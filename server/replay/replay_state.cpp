@@ -104,7 +104,7 @@ Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickD
   std::erase_if(poses, [this](const auto& pose) { return !pieces.contains(pose.first); });
   for (const auto& [id, volume] : pieces) {
     const auto pose = poses.find(id);
-    if (pose == poses.end()) return damaged(fmt::format("piece {} is nowhere", id));
+    if (pose == poses.end()) return damaged(fmt::format("piece {} has no pose", id));
     delta.pieces.push_back({id, pose->second});
   }
   CHECK(poses.size() == pieces.size());

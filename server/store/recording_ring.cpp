@@ -27,8 +27,10 @@ constexpr std::array units = {Unit{'s', 1.0, 0},
 
 Result<RingLimit> ring_limit_of(const std::string& text) {
   const auto refused = [&] {
-    return fail(fmt::format(
-        "'{}' is no length of a ring: 10s to 10000000s (s, m or h), or 64M to 100T (M, G or T bytes)", text));
+    return fail(
+        fmt::format("'{}' is not a length of a ring: write 10s to 10000000s (s, m or h), or 64M to 100T (M, "
+                    "G or T bytes)",
+                    text));
   };
   if (text.size() < 2) return refused();
   uint32_t number = 0;
@@ -95,8 +97,7 @@ std::string RecordingRing::over_limit(const RecordingSize& size, uint64_t bytes)
         mb(size.log_bytes));
   if (bytes > room())
     return fmt::format(
-        "{}: the terrain's edits and the last {} s, which are kept whatever they take, need as much "
-        "(--record-ring)",
+        "{}: the terrain's edits and the last {} s are always kept, and they need so much (--record-ring)",
         ring, static_cast<int>(limits::ring_seconds_min));
   return {};
 }

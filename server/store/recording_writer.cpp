@@ -194,7 +194,7 @@ Result<void> RecordingWriter::State::count_bytes() {
 Result<void> RecordingWriter::State::measure() {
   if (database.has_moved())
     return fail(database.path() +
-                " was moved or removed while it was recorded: what follows is not recorded (--record)");
+                " was moved or removed while it was recorded: later ticks are not recorded (--record)");
   const auto bytes_of = [](const std::string& path) {
     std::error_code none;
     const uint64_t found = std::filesystem::file_size(path, none);

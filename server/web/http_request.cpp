@@ -56,11 +56,12 @@ Result<HttpRequest> parse_http_head(std::string_view text) {
   parser.header_limit(limits::http_head_bytes_max);
   boost::beast::error_code error;
   const size_t used = parser.put(boost::asio::const_buffer(text.data(), text.size()), error);
-  if (error) return fail("no HTTP request: " + error.message());
-  if (!parser.is_header_done() || used != text.size()) return fail("no HTTP request: its head has no end");
+  if (error) return fail("not an HTTP request: " + error.message());
+  if (!parser.is_header_done() || used != text.size())
+    return fail("not an HTTP request: its head has no end");
   const Head& head = parser.get();
   if (head.version() != 10 && head.version() != 11) return fail("this server speaks HTTP/1.1");
-  if (has_body(head)) return fail("a request with a body: this server takes none");
+  if (has_body(head)) return fail("a request has a body, which this server does not accept");
   const size_t hosts = head.count(http::field::host);
   if (hosts > 1 || (hosts == 0 && head.version() == 11)) return fail("a request names one host (Host)");
   const std::string target(head.target().data(), head.target().size());

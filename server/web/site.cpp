@@ -119,8 +119,8 @@ HttpResponse Site::open_websocket(const HttpRequest& request, bool from_here) co
   if (request.method != HttpMethod::get)
     return refusal(405, Refusal::http_malformed, "a WebSocket is opened by GET");
   if (!request.wants_websocket || request.websocket_version != websocket_version) {
-    HttpResponse no = refusal(426, Refusal::http_malformed,
-                              "here is a WebSocket of version 13 (RFC 6455), and nothing else");
+    HttpResponse no =
+        refusal(426, Refusal::http_malformed, "this path accepts only a WebSocket of version 13 (RFC 6455)");
     no.fields.emplace_back("Upgrade", "websocket");
     no.fields.emplace_back("Sec-WebSocket-Version", websocket_version);
     return no;

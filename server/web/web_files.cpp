@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fmt/format.h>
 #include <fstream>
 #include <vector>
 
@@ -72,8 +73,8 @@ Result<std::vector<fs::path>> paths_in(const fs::path& folder) {
     if (!served || !entry->is_regular_file(unreadable)) continue;
     paths.push_back(entry->path().lexically_relative(folder));
     if (paths.size() > limits::web_files_max)
-      return fail(folder.string() + ": more than " + std::to_string(limits::web_files_max) +
-                  " files are no page (--web)");
+      return fail(fmt::format("{}: more than {} files: that is not a page (--web)", folder.string(),
+                              limits::web_files_max));
   }
   if (error) return fail(folder.string() + ": " + error.message() + " (--web)");
   return paths;
@@ -83,8 +84,8 @@ Result<std::shared_ptr<const std::string>> read(const fs::path& path, size_t& ro
   std::error_code error;
   const uintmax_t size = fs::file_size(path, error);
   if (!error && size > room)
-    return fail(path.parent_path().string() + ": more than " + std::to_string(limits::web_bytes_max >> 20) +
-                " MiB are no page (--web)");
+    return fail(fmt::format("{}: more than {} MiB: that is not a page (--web)", path.parent_path().string(),
+                            limits::web_bytes_max >> 20));
   std::ifstream file(path, std::ios::binary);
   std::string bytes(error ? 0 : size, '\0');
   if (error || !file.read(bytes.data(), static_cast<std::streamsize>(size)))
@@ -116,7 +117,7 @@ bool holds_hash(std::string_view name) {
 Result<std::shared_ptr<const WebFiles>> WebFiles::load(const std::string& folder) {
   std::error_code error;
   const fs::path root = fs::canonical(folder, error);
-  if (error || !fs::is_directory(root, error)) return fail(folder + " is no folder (--web)");
+  if (error || !fs::is_directory(root, error)) return fail(folder + " is not a folder (--web)");
   const auto paths = TRY(paths_in(root));
   auto files = std::make_shared<WebFiles>();
   size_t room = limits::web_bytes_max;

@@ -54,11 +54,11 @@ Result<void> RequestQueue::may_wait(const WaitingRequest& request) const {
   const auto party = parties_.find(party_of(request.command));
   const size_t own = party == parties_.end() ? 0 : party->second.requests;
   if (own >= limits::requests_waiting_max - size_)
-    return fail(
-        std::to_string(own) +
-        " requests of this client, or of those who share with it, are waiting, as many as there are places "
-        "left of " +
-        std::to_string(limits::requests_waiting_max) + " (limits.requests_waiting_max): ask again later");
+    return fail(std::to_string(own) +
+                " requests of this client, or of clients with its address or token, are waiting, and only " +
+                std::to_string(limits::requests_waiting_max - size_) + " of " +
+                std::to_string(limits::requests_waiting_max) +
+                " places are free (limits.requests_waiting_max): ask again later");
   if (party == parties_.end()) return {};
   const auto session = party->second.sessions.find(request.command.session);
   if (session == party->second.sessions.end()) return {};

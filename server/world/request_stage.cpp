@@ -49,8 +49,8 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const
   if (grant.contested)
     return {
         Refusal::pieces_share,
-        "other clients share this server's room for pieces (pieces-max): of " + std::to_string(alive) +
-            " alive " + std::to_string(state.shares.of(party)) + " are this client's: " +
+        "other clients share this server's room for pieces (pieces-max), and this client has " +
+            std::to_string(state.shares.of(party)) + " of the " + std::to_string(alive) + " pieces: " +
             (grant.pieces_most > 0 ? "ask for " + most + " seeds at most" : "wait until some have settled")};
   return {Refusal::pieces_max,
           std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +

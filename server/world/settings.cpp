@@ -81,20 +81,22 @@ constexpr std::array table{
     choice<&Methods::recombine>("recombine", "how pieces at rest become terrain again; off: never"),
     choice<&Methods::group_merges>("group-merges",
                                    "whether pieces that rest together become terrain in one pass"),
-    choice<&Methods::cutter>("cutter", "how what breaks is cut into pieces"),
+    choice<&Methods::cutter>("cutter", "how broken rock is divided into pieces"),
     choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
-    number<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; carves beyond are refused",
+    number<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; further carves are refused",
                                      {limits::pieces_max_min, limits::pieces_max_max, "pieces"}, few_pieces),
     number<&WorldConfig::memory_max_mb>("memory-max",
-                                        "memory of the terrain and the program; edits beyond are refused",
+                                        "memory of the terrain and the program; further edits are refused",
                                         {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}),
     number<&WorldConfig::work_percent>(
-        "work-percent", "of a tick's length, for its work; lowered while ticks are late",
+        "work-percent", "the part of a tick's length that its work may take; lowered while ticks are late",
         {limits::work_percent_min, limits::work_percent_max, "percent"}, little_work),
-    number<&ServiceLimits::sessions_max>("sessions-max", "clients at once; more are refused",
+    number<&ServiceLimits::sessions_max>("sessions-max",
+                                         "clients at once; when full, the server drops an idle client, or "
+                                         "one without a token if the newcomer has one",
                                          {1, limits::sessions_max_max, "clients"}),
     number<&ServiceLimits::requests_per_second>(
-        "requests-per-second", "carves, fills and paint of one client; more are refused",
+        "requests-per-second", "carves, fills and paints of one client; more are refused",
         {limits::requests_per_second_min, limits::requests_per_second_max, "requests a second", false}),
 };
 
@@ -196,7 +198,7 @@ Result<void> set_all(WorldConfig& config, const SettingValues& values) {
 Result<void> check_together(const WorldConfig& config) {
   if (config.methods.support && !config.methods.islands)
     return fail(
-        "support needs islands, by which what breaks off falls: set islands=true, too, or support=false");
+        "support needs islands, which make broken terrain fall: set islands=true, too, or support=false");
   return {};
 }
 

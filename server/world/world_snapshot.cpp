@@ -197,7 +197,7 @@ class Restoring {
         for (const WaitingValue& request : session.requests) {
           const auto& [asker, number, body, in_common] = request.command;
           if (request.since > m_.tick || !is_valid(s_, {asker, number, body, in_common}))
-            return fail("a request waits that no world takes in");
+            return fail("a waiting request is not valid");
         }
     return s_.requests.restore(m_.requests);
   }
@@ -205,10 +205,10 @@ class Restoring {
   Result<void> refractures() {
     for (const PendingRefracture& pending : m_.refractures) {
       if (pending.pieces < 2 || pending.pieces > limits::seeds_max)
-        return fail("a piece is to be cut into none, or too many");
+        return fail("a piece is to be cut into no pieces, or too many");
       TRY(validate_shatter_pattern(pending.pattern));
       if (pending.thrown_by != nullptr && !is_valid(s_, {0, 0, *pending.thrown_by}))
-        return fail("a cut's pieces are thrown by what is no carve");
+        return fail("a cut's pieces are thrown by an operation that is not a carve");
       s_.refractures.push_back(pending);
     }
     return {};

@@ -97,11 +97,11 @@ constexpr std::optional<Kind> kind_named(std::string_view name) {
   return std::nullopt;
 }
 
-/// Refuses a number that has no row: "the material is none that is known (rock, soil or ice)".
+/// Refuses a number that has no row: "the material is not a known one (rock, soil or ice)".
 template <HasRows Kind>
 Result<void> validate_kind(Kind kind, std::string_view what) {
   if (is_known(kind)) return {};
-  return fail("the " + std::string(what) + " is none that is known (" + listed(kind_names<Kind>) + ")");
+  return fail("the " + std::string(what) + " is not a known one (" + listed(kind_names<Kind>) + ")");
 }
 
 }  // namespace scree

@@ -279,7 +279,7 @@ void Field::bring_in(ChunkCoord chunk, const ReadChunk& read) {
   if (!bricks) throw ChunkUnreadable(bricks.error().message);
   if (!page_in(chunk, *bricks))
     throw ChunkUnreadable("chunk " + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
-                          std::to_string(chunk.z) + " was read, and is not what left memory");
+                          std::to_string(chunk.z) + " was read, and differs from the chunk that left memory");
 }
 
 void Field::touch(ChunkCoord chunk) {

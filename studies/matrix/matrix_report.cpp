@@ -53,16 +53,13 @@ ReportSection method_section(const MatrixResults& results) {
       "**Frame**: the mean tick, and the frame's drawing: the method's update, and the drawing until the GPU "
       "has finished, by the median of a session's frames" +
           least_of_rounds(results) +
-          ". **Tick**: the mean of all ticks. **Memory**: the most that the world held on the heap, and "
-          "the drawing "
-          "method's on both sides. **Mass error**: of the mass that was moved, what is dust at the end, in "
-          "neither terrain nor "
-          "pieces; the ledger itself is exact, and is compared with the field measured afresh. **Surface "
-          "error**, in voxels: "
-          "the root of the sum of five squares, of how far pieces are cut from their exact cells, merged "
-          "terrain is from the exact union, points of pieces lie in rock, bodies are from their pieces, and "
-          "the drawn surface is "
-          "from the field."};
+          ". **Tick**: the mean of all ticks. **Memory**: the most that the world held on the heap, and the "
+          "drawing method's on both sides. **Mass error**: of the mass that was moved, what is dust at the "
+          "end, in neither terrain nor pieces; the ledger itself is exact, and is compared with the field "
+          "measured afresh. **Surface error**, in voxels: the root of the sum of five squares. These are the "
+          "distances of cut pieces from their exact cells, of merged terrain from the exact union, of bodies "
+          "from their pieces and of the drawn surface from the field, and the depth of pieces' points in "
+          "rock."};
   for (const std::string& missing : results.left_out) section.text.push_back("Left out: " + missing + ".");
   if (!results.repeated_ms.empty()) {
     const auto [least, most] = std::ranges::minmax(results.repeated_ms);
@@ -112,11 +109,10 @@ ReportSection answer_section(const MatrixResults& results, const std::vector<Mat
       "paper's program is "
       "`raymarch` with `" +
           text_of(papers_program()) + "`; the defaults are `mesh` with `" + text_of(Simulated{}) + "`.",
-      fmt::format("**The balanced choice is `{}`.** The rule: of the combinations than which no other is as "
-                  "good in all five "
-                  "and better in one (the Pareto front, {} of {}), the one whose worst rank is the least; a "
-                  "rank is the share "
-                  "of all combinations that are better. Its worst rank is {}.",
+      fmt::format("**The balanced choice is `{}`.** The rule: on the Pareto front ({} of {}) choose the "
+                  "combination whose worst rank is the least. A combination is on that front if no other is "
+                  "as good in all five criteria and better in one. A rank is the share of all combinations "
+                  "that are better. Its worst rank is {}.",
                   text_of(combination_of(results, balanced)), pareto_front(scores).size(), scores.size(),
                   figure(std::ranges::max(ranks_of(scores)[balanced]))),
       situations_text(results), control_text(results)};
@@ -124,7 +120,7 @@ ReportSection answer_section(const MatrixResults& results, const std::vector<Mat
 }
 
 ReportSection front_section(const MatrixResults& results, const std::vector<MatrixScore>& scores) {
-  ReportSection section{"The Pareto front", {"Of five criteria, two are drawn: time and exactness."}};
+  ReportSection section{"The Pareto front", {"The plots show two of the five criteria: time and exactness."}};
   const std::vector<size_t> front = pareto_front(scores);
   const std::set<size_t> on_front(front.begin(), front.end());
   const auto point = [&](size_t i, size_t x) { return std::pair(scores[i][x], scores[i][4]); };
@@ -185,9 +181,8 @@ StudyReport matrix_report(const MatrixResults& results) {
   report.title = "Every combination of methods";
   report.command = results.quick ? "./scree bench matrix --quick" : "./scree bench matrix";
   report.summary = {
-      fmt::format("Of {} combinations, `{}` is the balanced choice: {} ms a frame, {} ms a tick, {} MiB, {} "
-                  "% of the mass moved "
-                  "is dust, surfaces are {} voxels off.",
+      fmt::format("Among {} combinations, `{}` is the balanced choice: {} ms a frame, {} ms a tick and {} "
+                  "MiB; {} % of the mass moved is dust, and surfaces are {} voxels off.",
                   scores.size(), text_of(combination_of(results, balanced)), figure(scores[balanced][0]),
                   figure(scores[balanced][1]), figure(scores[balanced][2]), figure(scores[balanced][3]),
                   figure(scores[balanced][4]))};

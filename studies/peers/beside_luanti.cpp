@@ -270,20 +270,19 @@ void add_run(const Session& ours, const Session& theirs, PeerFindings& findings)
 
 void say_conditions(size_t viewers, size_t carves, size_t nodes, PeerFindings& findings) {
   findings.conditions = {
+      fmt::format("Debian's `minetestserver` has {} of its own clients (`minetest` with `video_driver = "
+                  "null`: no pictures, 10 frames a second, all else as usual). These are as many as this "
+                  "machine has room for with less than {:.0f} % of its cores busy at rest, at most {}. "
+                  "`scree-server` has as many viewers, whose mirrors apply everything and check every hash. "
+                  "All run on loopback and these cores.",
+                  viewers, 100.0 * busy_max, viewers_max),
       fmt::format(
-          "Debian's `minetestserver` and {} of its own clients (`minetest` with `video_driver = null`: no "
-          "pictures, 10 frames a second, all else as usual), as many as this machine has room for with "
-          "less than {:.0f} % of its cores busy at rest, at most {}; against `scree-server` and as many "
-          "viewers, whose mirrors apply everything and check every hash. All on loopback and these cores.",
-          viewers, 100.0 * busy_max, viewers_max),
-      fmt::format(
-          "Both worlds are flat. When all viewers have all and nothing has been on its way for a while, "
-          "{} balls with a radius of {} voxels are taken out, one each {:.0f} s; all look down from "
-          "{:.0f} voxels above, with every ball in sight, for Luanti's server sends no block that is out "
-          "of sight; all see {} voxels far. A node of Luanti is a voxel here, whatever its size is "
-          "called. Its carve is Lua's fast way, a voxel manipulator with light: {} nodes go, and nothing "
-          "else happens. Scree's makes {} pieces that fly, fall and become terrain again; its figures "
-          "have all of that.",
+          "Both worlds are flat. When all viewers have everything and nothing is on its way, {} balls with a "
+          "radius of {} voxels are taken out, one each {:.0f} s. All viewers look down from {:.0f} voxels "
+          "above, with every ball in sight, because Luanti's server sends no block that is out of sight. All "
+          "see {} voxels far. A node of Luanti is a voxel here, whatever its size is called. Its carve is "
+          "Lua's fast way, a voxel manipulator with light: {} nodes go, and nothing else happens. Scree's "
+          "makes {} pieces that fly, fall and become terrain again; its figures have all of that.",
           carves, radius_voxels, carve_every_s, eye_voxels, view_voxels, nodes, seeds_a_carve),
       "Settings that cost time are Luanti's defaults: a step of 90 ms (Scree: 16.7 ms), its own limits of "
       "blocks on the way. Bytes are those of datagrams and of streams, without their headers; Luanti's "

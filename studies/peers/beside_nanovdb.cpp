@@ -156,9 +156,9 @@ PeerFindings beside_nanovdb(const PeerOptions& options) {
           "Hills of 0.25 m voxels with {} balls of 1.5 m carved out, seen across from 14 m height. NanoVDB "
           "has a grid of floats of 128 × 80 × 128 m of them; Scree's field is all of the world.",
           carves),
-      "On the processor, one thread, its processor time: Scree's `trace()`, sphere tracing of trilinear "
-      "samples of a field that can be edited, exact to 0.02 voxel, against `ZeroCrossing()` of NanoVDB's "
-      "HDDA with one accessor on a grid that never changes, exact to the voxel.",
+      "The times on the processor are the processor time of one thread. Scree's `trace()` is sphere tracing "
+      "of trilinear samples of a field that can be edited, exact to 0.02 voxel. `ZeroCrossing()` of "
+      "NanoVDB's HDDA works with one accessor on a grid that never changes, exact to the voxel.",
       "Frames are drawn by " + (*stage)->renderer->description() +
           ", from start to finish, by the clock. Scree's atlas draws the whole picture, to the horizon: "
           "sun with half shadows, occlusion, sky, material. `PNanoVDB.h` in GLSL draws its grid alone: a "

@@ -85,13 +85,13 @@ Result<StudyResult> run_peers_study(const StudyOptions& options) {
   report.summary = summary_of(all);
   ReportSection whole{
       "All peers",
-      {fmt::format("Each figure was measured {} times, Scree and the peer in turns, in one run of one "
-                   "program on one machine; the ratio is the median of the runs' own. The spread is the "
-                   "distance of the largest from the smallest, in percent of the median; the noise is the "
-                   "spread that is stated for the ratio, or for the value of a figure without one: a "
-                   "machine that is slower for a while is so for both sides. The conditions are said peer "
-                   "by peer below.",
-                   options.quick ? 1 : runs)}};
+      {fmt::format(
+          "Each figure was measured {} times, Scree and the peer in turns, in one run of one program on one "
+          "machine; the ratio is the median of the runs' own. The spread is the distance of the largest from "
+          "the smallest, in percent of the median. The noise is the spread that is stated for the ratio, or "
+          "for the value of a figure without a ratio. A machine that is slower for a while is slower for "
+          "both sides. The conditions of each peer are below.",
+          options.quick ? 1 : runs)}};
   whole.tables.push_back(table_of(all));
   whole.plots.push_back(ratios_of(all));
   report.sections.push_back(std::move(whole));

@@ -11,8 +11,8 @@
 namespace scree {
 namespace {
 
-constexpr const char* strict_help = "exit with 3 when a check is missed";
-constexpr const char* quick_help = "fewer rounds and points: to see that it runs";
+constexpr const char* strict_help = "exit with status 3 if a check fails";
+constexpr const char* quick_help = "run fewer rounds and points, only to see that it runs";
 
 int list() {
   for (const Study& study : all_studies())

@@ -290,9 +290,9 @@ std::vector<std::string> MachineMeasure::terms_text() const {
 
 std::string MachineMeasure::left_out_text() const {
   const std::string rule =
-      "A load with fewer than 59 ticks a second, with refused carves or lost connections, or with carves in "
-      "fewer than 90 of 100 turns was not carried out: its processor time is that of less work, and the fit "
-      "leaves it out. ";
+      "A load was not carried out if it had fewer than 59 ticks a second, refused carves, lost connections, "
+      "or carves in fewer than 90 of 100 turns. Its processor time is that of less work, so the fit leaves "
+      "it out. ";
   if (left_out_.empty()) return rule + "No load was left out.";
   return rule + fmt::format("Left out: {}.", fmt::join(left_out_, ", "));
 }

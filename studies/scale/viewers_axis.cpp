@@ -64,14 +64,11 @@ Result<Axis> measure_viewers_axis(const ScaleRun& run) {
   axis.checks.push_back(linear_check(fan_out, run.quick));
   axis.text.push_back(
       "All viewers look at the same storm, a blow of 64 pieces twice a second, from one place, and read all "
-      "they get. "
-      "They are sockets of the same machine, read by one thread of lower priority. Fan-out is the processor "
-      "time a tick "
-      "of all threads but the simulation's and the viewers'; what a tick costs whoever looks is in it, so "
-      "that the "
-      "exponent over all sizes is lower than that of the last three. The age of a frame counts from the "
-      "moment in which "
-      "the simulation handed it over until it was read.");
+      "they get. They are sockets of the same machine, read by one thread of lower priority. Fan-out is the "
+      "processor time a tick of all threads but the simulation's and the viewers'. It includes the costs of "
+      "a tick that do not depend on viewers, so the exponent over all sizes is lower than that of the last "
+      "three. The age of a frame counts from the moment in which the simulation handed it over until it was "
+      "read.");
   return axis;
 }
 

@@ -54,7 +54,7 @@ TEST_F(RoleTest, without_a_token_is_what_the_server_says) {
     start();
     if (anonymous) join("", *anonymous);
     if (!anonymous) {
-      EXPECT_TRUE(holds(refusal(hello("")), "takes nobody without a token (--token)"));
+      EXPECT_TRUE(holds(refusal(hello("")), "requires a token (--token)"));
     }
   }
 }
@@ -82,7 +82,7 @@ TEST_F(RoleTest, a_full_server_has_room_for_tokens_and_keeps_those_who_hold_one)
   const auto builder = join(token(Role::builder), Role::builder);
   const auto displaced = first->receive_as<RefusalMessage>();
   ASSERT_TRUE(displaced);
-  EXPECT_TRUE(holds(displaced->reason, "another has your place"));
+  EXPECT_TRUE(holds(displaced->reason, "another client has your place"));
   const auto administrator = join(the_admin_token, Role::admin);
   EXPECT_TRUE(second->receive_as<RefusalMessage>());
   std::this_thread::sleep_for(std::chrono::duration<double>(limits::inert_seconds_max));
@@ -97,7 +97,7 @@ TEST_F(RoleTest, guesses_at_the_admin_token_by_hellos_are_slowed_down_and_access
   EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "the admin token is wrong"));
   const std::string said = refusal(hello(the_admin_token));
   if (wait.over()) GTEST_SKIP() << "the machine stood still: the next guess is looked at";
-  EXPECT_TRUE(holds(said, "the next is looked at in")) << said;
+  EXPECT_TRUE(holds(said, "the server checks the next one in")) << said;
   EXPECT_TRUE(comes_to_refuse(Refusal::token_guesses));
   for (int i = 0; i < 20; ++i)
     EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "wrong, as it was before")) << "which is no guess";

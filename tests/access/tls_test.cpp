@@ -144,7 +144,7 @@ TEST_F(TlsTest, a_self_signed_certificate_is_refused_naming_its_fingerprint_whic
   for (const std::string& wrong :
        {std::string("abc"), pinned.trust.fingerprint + "0", std::string(64, 'g')}) {
     pinned.trust.fingerprint = wrong;
-    EXPECT_TRUE(holds(trouble(pinned), "is no fingerprint")) << wrong;
+    EXPECT_TRUE(holds(trouble(pinned), "is not a fingerprint")) << wrong;
   }
   ServerEndpoint own = endpoint();
   own.trust.ca_path = folder / "certificate";
@@ -180,7 +180,7 @@ TEST_F(TlsTest, a_server_that_does_not_speak_it_is_recognised) {
 
 TEST_F(TlsTest, who_must_come_by_it_is_told_so) {
   start([](NetConfig& config) { config.access.tls_required = true; });
-  EXPECT_TRUE(holds(trouble({.port = server->port()}), "reached by TLS alone (--tls)"));
+  EXPECT_TRUE(holds(trouble({.port = server->port()}), "accepts only TLS (--tls)"));
   EXPECT_EQ(trouble(endpoint()), "");
   EXPECT_EQ(server->stats().refusals.of(Refusal::tls_required), 1U);
 }
@@ -219,7 +219,7 @@ TEST_F(TlsTest, files_are_read_again_and_kept_when_the_new_ones_are_wrong) {
   EXPECT_TRUE(holds(mismatch.error().message, "does not belong to the TLS certificate"))
       << mismatch.error().message;
   std::ofstream(folder / "certificate") << "no certificate\n";
-  EXPECT_TRUE(holds(server->reload().error().message, "no certificate in PEM form"));
+  EXPECT_TRUE(holds(server->reload().error().message, "not a certificate in PEM form"));
   std::filesystem::remove(folder / "certificate");
   EXPECT_TRUE(holds(server->reload().error().message, "certificate cannot be read"));
   EXPECT_TRUE(holds(trouble(endpoint()), "another host")) << "the last good one stays in force";

@@ -115,7 +115,8 @@ TEST(AccessTokens, a_list_of_revoked_ones_names_the_line_that_is_wrong) {
   std::ofstream(folder / "good") << "# lost laptops\n0000000000000005  # Ann\n\nfedcba9876543210\n";
   EXPECT_EQ(read_revoked(folder / "good").value(), (std::vector<uint64_t>{5, 0xFEDCBA9876543210ULL}));
   std::ofstream(folder / "bad") << "0000000000000005\nfive\n";
-  EXPECT_TRUE(holds(read_revoked(folder / "bad").error().message, "bad, line 2: 'five' is no token's id"));
+  EXPECT_TRUE(
+      holds(read_revoked(folder / "bad").error().message, "bad, line 2: 'five' is not the id of a token"));
   EXPECT_TRUE(holds(read_revoked(folder / "none").error().message, "cannot be read"));
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   for (const std::string& odd : {folder / "pipe", folder / "", std::string("/dev/zero")})
@@ -238,7 +239,7 @@ TEST(Roles, what_is_open_to_everybody_is_said_except_on_this_machine) {
     EXPECT_TRUE(open_doors(config, here).empty()) << here;
   auto open = open_doors(config, "0.0.0.0");
   ASSERT_EQ(open.size(), 2U);
-  EXPECT_TRUE(holds(open[0], "whoever reaches 0.0.0.0 may look, carve, fill and paint without a token"));
+  EXPECT_TRUE(holds(open[0], "anyone who reaches 0.0.0.0 may look, carve, fill and paint without a token"));
   EXPECT_TRUE(holds(open[1], "--tls-cert"));
   config.anonymous = std::nullopt;
   config.tls_certificate_path = config.tls_key_path = "file";

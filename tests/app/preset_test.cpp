@@ -75,7 +75,7 @@ TEST(Preset, comes_by_the_environment_too) {
   const LiveConfig live = live_by({});
   ::unsetenv("SCREE_PRESET");
   EXPECT_EQ(live.world.tick_rate_hz, 30U);
-  EXPECT_EQ(live_by({}).world, WorldConfig{}) << "none, unless said";
+  EXPECT_EQ(live_by({}).world, WorldConfig{}) << "none by default";
 }
 
 TEST(Preset, goes_with_a_replay_which_has_its_own_tick_rate) {

@@ -50,7 +50,7 @@ TEST(KindTable, refuses_a_number_without_a_row_and_says_what_there_is) {
     EXPECT_FALSE(is_known(unknown));
     const Result<void> refused = validate_kind(unknown, "fruit");
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().message, "the fruit is none that is known (apple, pear or plum)");
+    EXPECT_EQ(refused.error().message, "the fruit is not a known one (apple, pear or plum)");
   }
   EXPECT_DEATH(static_cast<void>(traits_of(static_cast<Fruit>(3))), "is_known");
 }

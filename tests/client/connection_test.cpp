@@ -96,7 +96,7 @@ TEST(Connection, something_that_is_no_server_is_recognised) {
     const std::string text = "HTTP/1.1 400 Bad Request\r\n\r\n";
     s.send_bytes({reinterpret_cast<const uint8_t*>(text.data()), text.size()});
   });
-  EXPECT_TRUE(holds(failure(server.port()), "not this protocol"));
+  EXPECT_TRUE(holds(failure(server.port()), "does not follow this protocol"));
 }
 
 TEST(Connection, another_protocol_is_refused_by_the_client) {

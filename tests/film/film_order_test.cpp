@@ -78,7 +78,7 @@ TEST_F(FilmOrders, an_eye_sees_what_its_person_saw) {
     EXPECT_EQ(camera_at(plan({.camera = PersonsEye{nameless}}).shot, 3.0).eye_m, glm::vec3(0.0F, 5.0F, 0.0F))
         << "as the viewer calls who has no name";
   const std::string early = refused({.to = TickOrTime{30.0, false}, .camera = PersonsEye{"Ann"}});
-  EXPECT_NE(early.find("is not in these ticks"), std::string::npos) << early;
+  EXPECT_NE(early.find("is not seen in these ticks"), std::string::npos) << early;
   const std::string reason = refused({.camera = PersonsEye{"Cy"}});
   EXPECT_NE(reason.find("'Cy'"), std::string::npos) << reason;
   EXPECT_NE(reason.find("Ann, Bo, client 7"), std::string::npos) << reason;

@@ -205,10 +205,10 @@ TEST_F(SolidFiles, that_are_none_are_refused_in_words) {
   const auto says = [](const std::string& words, const char* part) {
     return words.find(part) != std::string::npos ? std::string() : words;
   };
-  EXPECT_EQ(says(refusal("garbage.vdb", "this is no vdb file at all"), "no OpenVDB file"), "");
-  EXPECT_EQ(says(refusal("empty.vdb", ""), "no OpenVDB file"), "");
+  EXPECT_EQ(says(refusal("garbage.vdb", "this is no vdb file at all"), "not an OpenVDB file"), "");
+  EXPECT_EQ(says(refusal("empty.vdb", ""), "not an OpenVDB file"), "");
   EXPECT_EQ(says(refusal("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "triangle"), "");
-  EXPECT_EQ(says(refusal("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "no number"), "");
+  EXPECT_EQ(says(refusal("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "not a number"), "");
   EXPECT_EQ(says(refusal("huge.obj",
                          "v 0 0 0\nv 1e9 0 0\nv 0 1e9 0\nv 0 0 1e9\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n"),
                  "limits.world_half_width_m"),

@@ -212,8 +212,8 @@ TEST(LinkText, what_is_wrong_is_named_with_the_way_to_write_it) {
   EXPECT_TRUE(holds(error("delay"), "not by 'delay'"));
   EXPECT_TRUE(holds(error("delay=1ms,,"), "not by ''"));
   EXPECT_TRUE(holds(error("delay=1ms,"), "not by ''")) << "nothing follows the comma";
-  EXPECT_TRUE(holds(error("delay=1ms,rate=1Mbit,delay=2ms"), "told twice what its delay is"));
-  EXPECT_TRUE(holds(error("up.cut=1,up.cut=2"), "told twice what its up.cut is"));
+  EXPECT_TRUE(holds(error("delay=1ms,rate=1Mbit,delay=2ms"), "two values for its delay"));
+  EXPECT_TRUE(holds(error("up.cut=1,up.cut=2"), "two values for its up.cut"));
   EXPECT_TRUE(holds(error("down.seed=3"), "one seed for both ways: write seed=3, not 'down.seed=3'"));
   EXPECT_TRUE(holds(error("rate=10001Mbit"), "1kbit to 10000Mbit, not '10001Mbit'"));
   EXPECT_TRUE(holds(error("cut=1e13"), "at most 1000000MB"));

@@ -49,7 +49,7 @@ TEST_F(NetServerTest, a_client_that_does_nothing_makes_room_when_the_server_is_f
   RawClient later(server->port());
   ASSERT_TRUE(later.send(hello()));
   EXPECT_TRUE(later.receive_as<WelcomeMessage>().has_value());
-  expect_refused(inert, "another has your place");
+  expect_refused(inert, "another client has your place");
   EXPECT_EQ(server->stats().refusals.of(Refusal::idle_made_room), 1U);
 }
 
@@ -139,7 +139,7 @@ TEST_F(NetServerTest, tokens_are_guessed_once_a_second_and_then_more_slowly) {
   for (int i = 0; i < 5; ++i) {
     const std::string said = guess("a token of some length");
     if (wait.over()) GTEST_SKIP() << "the machine stood still: the next guess is looked at";
-    EXPECT_TRUE(holds(said, "is looked at in")) << said;
+    EXPECT_TRUE(holds(said, "checks the next one in")) << said;
   }
   expect_witness_unmoved();
   EXPECT_EQ(server->stats().refusals.of(Refusal::admin_token_wrong), 1U);

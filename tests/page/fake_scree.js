@@ -5,7 +5,7 @@ const catalogue = {
     { name: 'mesh', summary: 'cached surface nets of blocks of terrain, rebuilt where they change', missing: null },
     { name: 'dual', summary: 'the same by dual contouring: sharp edges of the rock stay sharp', missing: null },
     { name: 'cubes', summary: 'the same by marching cubes', missing: null },
-    { name: 'raymarch', summary: 'rays through an atlas of bricks, whatever was edited', missing: null },
+    { name: 'raymarch', summary: 'rays through an atlas of bricks; edits do not slow it down', missing: null },
     { name: 'grid', summary: 'marching cubes by a geometry shader, from a grid of points about the camera', missing: 'this OpenGL has no geometry shaders' },
   ],
   qualities: ['low', 'medium', 'high'], tools: ['sphere', 'box', 'tunnel', 'crater'], uses: ['carve', 'fill', 'paint'],

@@ -222,7 +222,7 @@ test('a timeline is dragged, and played by its buttons', async () => {
   await page.mouse.up();
   const sought = (await calls(page, 'replay_seek')).map(([, tick]) => tick);
   assert.ok(Math.abs(sought[0] - 960) < 5 && Math.abs(sought.at(-1) - 1920) < 5, sought.join());
-  const buttons = [['Play or hold (J)', 'replay_play'], ['The next event (0)', 'replay_next_event'], ['The event before (9)', 'replay_previous_event']];
+  const buttons = [['Play or hold (J)', 'replay_play'], ['The next event (0)', 'replay_next_event'], ['The previous event (9)', 'replay_previous_event']];
   for (const [i, [label, action]] of buttons.entries()) {
     await page.click(`#timeline [aria-label="${label}"]`);
     assert.deepEqual((await calls_from(page, 'act', i + 1)).at(-1), ['act', action]);

@@ -31,7 +31,7 @@ struct Phrase {
 };
 constexpr std::array phrases = {Phrase{"whoever", "name the person or the program"},
                                 Phrase{"stands over", "overrides"}, Phrase{"stand over", "override"},
-                                Phrase{"unless said otherwise", "by default"}};
+                                Phrase{"unless said", "by default"}};
 
 size_t columns_of(const std::string& line) {
   return static_cast<size_t>(

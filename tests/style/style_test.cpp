@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "tests/style/comment_rules.h"
+#include "tests/style/message_rules.h"
 #include "tests/style/style_rules.h"
 
 namespace scree::style {
@@ -100,6 +101,9 @@ TEST(Style, the_tree_is_found) {
 }
 TEST(Style, comments_are_plain_english) {
   expect_clean(over_tree(check_comments, false));
+}
+TEST(Style, messages_are_plain_english) {
+  expect_clean(over_tree(check_messages, true));
 }
 TEST(Style, files_are_short) {
   expect_clean(over_tree(check_file_length, false));

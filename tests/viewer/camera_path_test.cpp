@@ -81,7 +81,7 @@ TEST(CameraPath, what_is_wrong_is_named) {
             std::string::npos);
   const std::string still = R"({"time_s": 0, "camera": [0, 0, 0, 0, 0]})";
   EXPECT_EQ(refusal("{\"keys\": [" + still + "," + still + "]}"),
-            "key 2: its time does not come 0.000500 s or more after the one before (limits.path_step_min_s)");
+            "key 2: its time is not 0.000500 s or more after the time before it (limits.path_step_min_s)");
   EXPECT_NE(refusal("{\"keys\": [" + still + R"(,{"time_s": 1e6, "camera": [0, 0, 0, 0, 0]}]})")
                 .find("path_duration_max_s"),
             std::string::npos);

@@ -128,7 +128,7 @@ class WholeHud {
     hud_.help(all ? Telling::all : Telling::basics, all, all ? ControlsOf::both : ControlsOf::live);
     if (all) hud_.banner("the server is gone - trying again");
     if (all) hud_.timeline(timeline_, 10.0);
-    hud_.messages(facts, {"click into the picture to take the mouse: then it looks, and a click strikes"});
+    hud_.messages(facts, {"click the picture to look around with the mouse; then a click strikes"});
     screen_.end();
   }
   const HudPanels& panels() const { return hud_.panels(); }

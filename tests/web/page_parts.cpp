@@ -57,7 +57,7 @@ void what_is_no_protocol_closes() {
   const std::vector<uint8_t> nonsense(64, 0xFF);
   socket.received(nonsense);
   CHECK(!socket.next() && socket.is_closed());
-  CHECK(socket.end().message.find("not this protocol") != std::string::npos);
+  CHECK(socket.end().message.find("does not follow this protocol") != std::string::npos);
   socket.open({HelloMessage{}});
   CHECK(socket.pop_wish() == Wish::close);  // the old one first
   CHECK(socket.pop_wish() == Wish::open);

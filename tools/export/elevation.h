@@ -18,7 +18,7 @@ struct ElevationGrid {
   double north_m = 0.0;  ///< z of the northern side: rows go on with larger z
 };
 
-/// `cell_m`: unless said, as large as a voxel. The error says that cells are smaller.
+/// `cell_m`: by default as large as a voxel. The error says that cells are smaller.
 Result<ElevationGrid> elevation_grid(const ChunkBox& box, float voxel_size_m, std::optional<double> cell_m);
 
 struct ElevationSums {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/common.hpp>
 
 #include "tools/export/limits.h"
@@ -42,8 +43,8 @@ ChunkBox chunks_of(glm::vec3 lo_m, glm::vec3 hi_m, float voxel_size_m) {
 
 Result<void> check_count(const ChunkBox& box) {
   if (box.count() <= limits::export_chunks_max) return {};
-  return fail("more than " + std::to_string(limits::export_chunks_max) +
-              " chunks (limits.export_chunks_max): --box makes them fewer");
+  return fail(fmt::format("more than {} chunks (limits.export_chunks_max): --box makes them fewer",
+                          limits::export_chunks_max));
 }
 
 Result<ChunkBox> whole_of(const Field& field) {
@@ -58,7 +59,7 @@ Result<ChunkBox> whole_of(const Field& field) {
     add(chunks_of({-extent->half_width_m, floor_m(source) - below_m, -extent->half_depth_m},
                   {extent->half_width_m, top_m(source) + 1.0F, extent->half_depth_m}, source.voxel_size_m));
   }
-  if (!box) return fail("nothing was edited, and the ground has no end: --box says which part is wanted");
+  if (!box) return fail("nothing was edited, and the ground has no end: choose a part of it (--box)");
   return *box;
 }
 

@@ -144,8 +144,8 @@ Result<std::unique_ptr<FrameSink>> open_encoded_film(const FilmFormat& format, S
   const Encoding* encoding = encoding_of(format.file);
   CHECK(encoding != nullptr);
   if (encoding->even && (format.width % 2 != 0 || format.height % 2 != 0))
-    return fail(fmt::format("the sides of a film in {} are even: {}x{} is none", encoding->ending,
-                            format.width, format.height));
+    return fail(fmt::format("the width and height of a film in {} must be even: {}x{} is not",
+                            encoding->ending, format.width, format.height));
   std::string partial = format.file + "." + std::to_string(::getpid()) + ".partial";
   auto encoder = TRY(ChildProcess::start(
       command_of(*encoding, format, partial),

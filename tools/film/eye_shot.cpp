@@ -34,8 +34,8 @@ class PersonSearch {
   tl::unexpected<Error> nobody(const std::string& path) const {
     std::string there;
     for (const std::string& name : seen_) there += (there.empty() ? "" : ", ") + name;
-    return fail(path + ": the eye of '" + person_ + "' is not in these ticks of it (--from, --to)" +
-                (there.empty() ? "; nobody's is" : "; there are those of " + there));
+    return fail(path + ": the eye of '" + person_ + "' is not seen in these ticks (--from, --to)" +
+                (there.empty() ? "; nobody is" : "; there are " + there));
   }
 
  private:

@@ -69,11 +69,12 @@ class FilmOptionParser {
 
 FilmOptionParser::FilmOptionParser(CLI::App& app) {
   app.add_option("RECORDING", options_.recording, "a recording")->required();
-  app.add_option("-o,--out", options_.format.file,
-                 "the film: a file that ends in .mp4, .webp or .gif, or a folder of PNGs, which ends in /")
+  app.add_option(
+         "-o,--out", options_.format.file,
+         "the film: a file whose name ends in .mp4, .webp or .gif, or a folder of PNGs, whose name ends in /")
       ->required()
       ->check(understood_by(check_film_name), "FILE");
-  app.add_option("--ground", options_.ground, "its ground file, where that does not lie beside it");
+  app.add_option("--ground", options_.ground, "its ground file; default: found in the same folder");
   declare_moments(app);
   declare_camera(app);
   declare_pictures(app);
@@ -82,12 +83,13 @@ FilmOptionParser::FilmOptionParser(CLI::App& app) {
 
 void FilmOptionParser::declare_moments(CLI::App& app) {
   const auto moment = understood_by(parse_tick_or_time);
-  app.add_option("--from", from_, "the first moment: a tick, as 600, or a time, as 10s, 1.5m or 1:30")
-      ->check(moment, "MOMENT");
   app.add_option(
-         "--to", to_,
-         "the moment at which it ends; unless said, an orbit shows 8 s about its event, a path's film is as "
-         "long as the path, and any other shows all of the recording")
+         "--from", from_,
+         "the first moment: a tick (600) or a time (10s, 1.5m or 1:30); default: by the camera, see --to")
+      ->check(moment, "MOMENT");
+  app.add_option("--to", to_,
+                 "the last moment; default: an orbit shows 8 s around its event, a path is shown once, any "
+                 "other camera shows the whole recording")
       ->check(moment, "MOMENT");
   bounded(app.add_option("--fps", options_.order.frames_per_s, "frames a second"),
           {limits::film_fps_min, limits::film_fps_max})
@@ -100,19 +102,21 @@ void FilmOptionParser::declare_moments(CLI::App& app) {
 
 void FilmOptionParser::declare_camera(CLI::App& app) {
   CLI::Option_group* const places = app.add_option_group(
-      "camera", "from where it is seen: at most one; unless said, an orbit round the largest event");
+      "camera", "the camera, at most one of these; default: an orbit around the largest event");
   places
       ->add_option("--camera", camera_,
-                   "from one place: x,y,z,yaw,pitch in metres and degrees, as the viewer's")
+                   "a fixed camera: x,y,z,yaw,pitch in metres and degrees, as in the viewer")
       ->check(understood_by(parse_camera), "PLACE");
-  places->add_option("--path", path_, "FILE with key frames of the camera, as the viewer's (K records one)");
-  places->add_option("--eye", eye_,
-                     "by the eye of a person who was there: the name, or the number of who has none");
+  places->add_option("--path", path_,
+                     "FILE with key frames of the camera, as in the viewer (key K records one)");
+  places->add_option(
+      "--eye", eye_,
+      "the view of a person in the recording: the name, or the session's number if there is no name");
   places
-      ->add_option(
-          "--orbit", orbit_,
-          "round an event: its number in `scree replay events`, counted from 1, or the largest of a kind: " +
-              listed(kind_names<EventKind>))
+      ->add_option("--orbit", orbit_,
+                   "an orbit around an event: its number in `scree replay events`, from 1, or the largest of "
+                   "a kind: " +
+                       listed(kind_names<EventKind>))
       ->check(understood_by(parse_event), "EVENT");
   places->require_option(0, 1);
   refuse_empty(*places);
@@ -122,23 +126,25 @@ void FilmOptionParser::declare_pictures(CLI::App& app) {
   app.add_option("--size", size_, "WIDTHxHEIGHT, pixels")
       ->check(understood_by(parse_size), "SIZE")
       ->capture_default_str();
-  app.add_option("--method", method_, "how it is drawn:\n" + describe_methods())
+  app.add_option("--method", method_, "drawing method:\n" + describe_methods())
       ->check(understood_by(check_method), "METHOD")
       ->capture_default_str();
   for (const DrawOption* option : all_draw_options()) add_draw_option(app, *option, method_options_[option]);
-  app.add_option("--quality", quality_, "what a frame may cost: " + listed(kind_names<Quality>))
+  app.add_option("--quality", quality_, "quality: " + listed(kind_names<Quality>))
       ->check(understood_by(check_quality), "QUALITY")
       ->capture_default_str();
   bounded(app.add_option("--view-radius", view_radius_m_,
-                         "how far terrain is drawn in detail, metres, instead of the quality's"),
+                         "distance of detailed terrain, metres; default: by the quality"),
           {limits::view_radius_min_m, limits::view_radius_max_m});
   app.add_option("--particles", options_.drawn.particles,
-                 "dust, grit and splinters where rock breaks, strikes and settles: true or false")
+                 "draw dust, grit and splinters where rock breaks, strikes and settles: true or false")
       ->capture_default_str();
   encoder_quality_given_ =
-      bounded(app.add_option("--encoder-quality", encoder_quality_,
-                             "of .mp4 and .webp: more is nearer to the pictures, and larger"),
-              whole_within(1, 100))
+      bounded(
+          app.add_option(
+              "--encoder-quality", encoder_quality_,
+              "quality of .mp4 and .webp, 1 to 100; a higher one gives better pictures and a larger file"),
+          whole_within(1, 100))
           ->capture_default_str();
 }
 
@@ -165,7 +171,7 @@ Result<FilmOptions> FilmOptionParser::understand() {
   FilmFormat& format = options_.format;
   const Encoding* encoding = encoding_of(format.file);
   if (encoder_quality_given_->count() > 0 && (encoding == nullptr || !encoding->has_quality))
-    return fail("--encoder-quality is of .mp4 and .webp alone");
+    return fail("--encoder-quality is only for .mp4 and .webp");
   format.width = drawn.size.width;
   format.height = drawn.size.height;
   format.frames_per_s = options_.order.frames_per_s;
@@ -176,7 +182,7 @@ Result<FilmOptions> FilmOptionParser::understand() {
 }  // namespace
 
 std::variant<FilmOptions, int> parse_film_options(int argc, const char* const* argv) {
-  CLI::App app("Makes a film of a recording, by drawing its moments one after the other.", "scree-render");
+  CLI::App app("Makes a film of a recording.", "scree-render");
   app.set_version_flag("--version", SCREE_VERSION);
   FilmOptionParser parser(app);
   try {

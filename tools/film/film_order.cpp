@@ -48,12 +48,12 @@ class EventSearch {
 
   Result<Event> found() const {
     if (found_ && found_->place_m) return *found_;
-    const std::string way_out = "; say a --camera or a --path, `scree replay events` lists what happened";
+    const std::string way_out = "; choose a --camera or a --path; `scree replay events` lists the events";
     if (found_)
       return fail(
           fmt::format("event {} is a {}, which has no place{}", number(), name_of(found_->kind), way_out));
     return fail(std::visit(
-        Overloaded{[&](std::monostate) { return "nothing happened in it" + way_out; },
+        Overloaded{[&](std::monostate) { return "it has no events" + way_out; },
                    [&](size_t wanted) {
                      return fmt::format("it has {} events and no event {}{}", number_, wanted, way_out);
                    },
@@ -148,7 +148,7 @@ Result<WhichEvent> parse_event(const std::string& text) {
   if (const auto kind = kind_named<EventKind>(text)) return *kind;
   if (const auto number = number_in<uint32_t>(text); number && *number > 0) return size_t{*number};
   return fail("'" + text +
-              "' is no event: write its number, from 1, as `scree replay events` has them, or one of " +
+              "' is not an event: write its number in `scree replay events`, from 1, or one of " +
               listed(kind_names<EventKind>));
 }
 

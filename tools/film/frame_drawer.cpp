@@ -1,6 +1,7 @@
 #include "tools/film/frame_drawer.h"
 
 #include <chrono>
+#include <fmt/format.h>
 #include <thread>
 #include <utility>
 
@@ -37,9 +38,8 @@ Result<void> FrameDrawer::prepare(RecordedScene& scene, const MirrorChanges& cha
   while (!methods_.complete()) {
     if (stopped()) return fail("stopped");
     if (steady_now_s() > until_s)
-      return fail("the terrain in view is not ready after " +
-                  std::to_string(static_cast<int>(limits::film_frame_s_max)) +
-                  " s (limits.film_frame_s_max)");
+      return fail(fmt::format("the terrain in view is not ready after {} s (limits.film_frame_s_max)",
+                              limits::film_frame_s_max));
     std::this_thread::sleep_for(std::chrono::milliseconds(limits::film_pause_ms));
     TRY(methods_.follow({}, shown, camera));
   }

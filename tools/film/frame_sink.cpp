@@ -19,7 +19,8 @@ Result<void> check_film_name(const std::string& file) {
   if (!is_folder(file) && std::filesystem::is_directory(file, unknown))
     return fail("'" + file + "' is a folder: write " + file + "/ for a film of PNGs in it");
   if (is_folder(file) || encoding_of(file) != nullptr) return {};
-  return fail("'" + file + "' is no film: it ends in .mp4, .webp or .gif, or in / for a folder of PNGs");
+  return fail("'" + file +
+              "' is not a film: the name must end in .mp4, .webp or .gif, or in / for a folder of PNGs");
 }
 
 Result<std::unique_ptr<FrameSink>> open_sink(const FilmFormat& format, Stopped stopped) {

@@ -65,8 +65,8 @@ Result<Grounds> grounds_of(const BricksImport& how, const std::vector<std::uniqu
   constexpr auto most_m = static_cast<double>(limits::height_max_m);
   if (!(std::abs(level_m) <= most_m))
     return fail(
-        fmt::format("the level rock below lies at {:.4g} m, beyond ± {:.0f} m (limits.height_max_m); "
-                    "--level says another height, --at another place",
+        fmt::format("the level rock below lies at {:.4g} m, beyond ± {:.0f} m (limits.height_max_m); choose "
+                    "another height (--level) or place (--at)",
                     level_m, most_m));
   const int side = std::max({std::abs(box.lo.x), std::abs(box.hi.x), std::abs(box.lo.z), std::abs(box.hi.z)});
   const float cell_m = std::clamp(2.0F * static_cast<float>(side) * voxel_size_m, limits::height_cell_min_m,
@@ -120,7 +120,7 @@ class Importer {
       progress(0.8 * static_cast<double>(++done) / static_cast<double>(candidates.size()));
     }
     if (level.empty())
-      return fail("all of it lies inside the rock of the ground: nothing would be seen of it");
+      return fail("all of it lies inside the rock of the ground, so it would not be visible");
     return level;
   }
 

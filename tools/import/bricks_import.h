@@ -13,10 +13,10 @@ namespace scree {
 struct BricksImport {
   /// What the solids stand on; null: level rock.
   std::shared_ptr<const GroundFile> on{};
-  /// Height of the level rock, metres; unless said, a voxel above the solids' lowest.
+  /// Height of the level rock, metres; default: a voxel above the solids' lowest.
   std::optional<double> level_m{};
-  std::optional<float> voxel_size_m{};      ///< unless said, that of `on`'s bricks, or 0.25
-  std::optional<MaterialHeights> layers{};  ///< unless said, those of `on`, or none
+  std::optional<float> voxel_size_m{};      ///< default: that of `on`'s bricks, or 0.25
+  std::optional<MaterialHeights> layers{};  ///< default: those of `on`, or none
   std::optional<Material> material{};       ///< of rock for which the solid says none
   /// The solids' codes are taken as they are, in place of the ground, in this box of chunks alone.
   struct Exact {

@@ -39,12 +39,11 @@ Result<Survey> survey(Raster& raster, const HeightsImport& how, const std::funct
     }
     progress(0.3 * (z + 1) / shape.rows);
   }
-  if (found.lowest_m > found.highest_m)
-    return fail("the raster has no height at all: every cell is without data");
+  if (found.lowest_m > found.highest_m) return fail("the raster has no heights: no cell has data");
   if (std::max(-found.lowest_m, found.highest_m) > limits::raster_height_max_m)
     return fail(
-        fmt::format("heights of {:.4g} to {:.4g} m are none in metres (limits.raster_height_max_m); "
-                    "--vertical-scale makes metres of other units",
+        fmt::format("heights of {:.4g} to {:.4g} m are too large (limits.raster_height_max_m); if they are "
+                    "in another unit, convert it by --vertical-scale",
                     found.lowest_m, found.highest_m));
   return found;
 }
@@ -120,14 +119,14 @@ class Resampled {
 Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& how) {
   if (shape.columns < 2 || shape.rows < 2)
     return fail(
-        fmt::format("{} × {} cells make no surface: at least 2 × 2 are needed", shape.columns, shape.rows));
+        fmt::format("{} × {} cells are too few: a surface needs at least 2 × 2", shape.columns, shape.rows));
   if (shape.columns > limits::raster_side_max || shape.rows > limits::raster_side_max)
     return fail(fmt::format("{} × {} cells: at most {} a side can be imported (limits.raster_side_max)",
                             shape.columns, shape.rows, limits::raster_side_max));
   const double cell_x_m = how.cell_m.value_or(shape.cell_x_m.value_or(none));
   const double cell_z_m = how.cell_m.value_or(shape.cell_z_m.value_or(none));
   if (!std::isfinite(cell_x_m) || !std::isfinite(cell_z_m))
-    return fail("the file does not say how wide its cells are: --cell METRES does");
+    return fail("the file does not say how wide its cells are: use --cell METRES");
   const double sample_m = how.sample_m.value_or(std::min(cell_x_m, cell_z_m));
   const double width = std::round(cell_x_m * (shape.columns - 1) / sample_m);
   const double depth = std::round(cell_z_m * (shape.rows - 1) / sample_m);

@@ -10,13 +10,13 @@
 namespace scree {
 
 struct HeightsImport {
-  std::optional<double> cell_m{};    ///< of the raster's cells; unless said, as the file says
-  std::optional<double> sample_m{};  ///< distance of the ground's samples; unless said, the cells'
+  std::optional<double> cell_m{};    ///< of the raster's cells; default: as the file says
+  std::optional<double> sample_m{};  ///< distance of the ground's samples; default: the cells'
   double vertical_scale = 1.0;
   std::optional<double> zero_m{};        ///< height that becomes y = 0, after the scale
-  std::optional<double> nodata_m{};      ///< height where the file has none; unless said, the lowest
-  std::optional<double> soil_below_m{};  ///< heights in the world; unless said, all of the ground
-  std::optional<double> ice_above_m{};   ///< unless said, none
+  std::optional<double> nodata_m{};      ///< height where the file has none; default: the lowest
+  std::optional<double> soil_below_m{};  ///< heights in the world; default: all of the ground
+  std::optional<double> ice_above_m{};   ///< default: none
 };
 
 struct HeightsImported {

@@ -15,7 +15,8 @@ Result<void> carry_out(World& world, const BuildStep& step) {
   const Command command{.body = std::visit([](const auto& request) { return Request(request); }, step)};
   std::shared_ptr<const TickDelta> delta = world.step({&command, 1});
   for (int tick = 1; delta->replies.empty(); ++tick) {
-    if (tick == ticks_a_request_max) return fail("the world does not answer what builds the scene");
+    if (tick == ticks_a_request_max)
+      return fail("the world does not answer the commands that build the scene");
     delta = world.step({});
   }
   const std::string& refusal = delta->replies.front().refusal;

@@ -22,13 +22,13 @@ usage() {
   cat <<'TEXT'
 usage: ./scree demo [--scene NAME] [--out DIR] [--carves N] [--seed N] [--rate N] [--size WxH] [--offscreen]
 
-  --scene NAME   a scene in place of the canyon: ./scree scene list names them
-  --out DIR      where pictures, reports and logs go (out/demo)
-  --carves N     carves of the bot (20)
-  --seed N       of the bot's random choices (7)
-  --rate N       carves a second (3)
-  --size WxH     of the window or the pictures (1280x720)
-  --offscreen    draw pictures, though there is a display
+  --scene NAME   show this scene instead of the canyon; ./scree scene list lists them
+  --out DIR      folder for pictures, reports and logs (default: out/demo)
+  --carves N     number of carves of the bot (default: 20)
+  --seed N       seed of the bot's random choices (default: 7)
+  --rate N       carves a second (default: 3)
+  --size WxH     size of the window or the pictures (default: 1280x720)
+  --offscreen    draw pictures, even if there is a display
 TEXT
 }
 
@@ -60,7 +60,7 @@ parse() {
     esac
     shift
   done
-  [[ $carves =~ ^[1-9][0-9]{0,5}$ ]] || die "--carves: how many, at least 1"
+  [[ $carves =~ ^[1-9][0-9]{0,5}$ ]] || die "--carves: write a number from 1 to 999999"
   # Of few carves, or slow ones, not so many pieces are ever in flight.
   if ((carves < 3)) || [[ $rate =~ ^[01](\.|$) ]]; then blast_pieces=30; fi
 }

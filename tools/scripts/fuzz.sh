@@ -19,16 +19,16 @@ die() {
 
 usage() {
   cat <<'TEXT'
-usage: ./scree fuzz --list                 names the targets
+usage: ./scree fuzz --list                 lists the targets
        ./scree fuzz NAME [--minutes N] [--seed S]
-                                           fuzzes a target for N minutes (5), on one core, from the corpus in the tree
-                                           and what was found before; ends at the first input on which it fails. With
-                                           a seed it tries the same inputs again, from the same corpus
+                                           fuzzes a target for N minutes (default: 5), on one core. It starts from the
+                                           corpus in the tree and the earlier findings, and ends at the first input
+                                           that fails. The same seed and corpus give the same inputs
        ./scree fuzz NAME FILE…             runs these inputs
-       ./scree fuzz NAME --merge           takes what adds most coverage of all that was found into the corpus in the tree
-       ./scree fuzz --seeds                writes the first inputs of all corpora anew
+       ./scree fuzz NAME --merge           adds the findings with the most new coverage to the corpus in the tree
+       ./scree fuzz --seeds                writes the first inputs of all corpora again
 
-What is found is kept in build/fuzz (found, failed, log). docs/fuzzing.md says how to add a target.
+Findings are kept in build/fuzz (found, failed, log). docs/fuzzing.md says how to add a target.
 TEXT
 }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Measures how long an edit takes to its tests' result: adds a line to a source, runs `./scree test FOLDER [FILTER]`, and
 # prints the seconds that passed and those of the processor. The sources are put back at the end.
-# usage: tools/scripts/loop_times.sh [FILE:FOLDER[:FILTER]…], five files of five rooms unless said otherwise
+# usage: tools/scripts/loop_times.sh [FILE:FOLDER[:FILTER]…]; default: five files of five rooms
 set -euo pipefail
 cd "$(dirname "$(readlink -f "$0")")/../.."
 

@@ -103,8 +103,9 @@ std::optional<uint64_t> session_number(const std::string& text) {
 int kick(const Options& options) {
   const auto session = session_number(options.whom);
   if (!session)
-    return complain({"'" + options.whom + "' is no session's number; scree admin sessions lists them"},
-                    exit_usage);
+    return complain(
+        {"'" + options.whom + "' is not the number of a session; scree admin sessions lists them"},
+        exit_usage);
   return told(scree::kick_session(options.server, {*session, options.reason}));
 }
 
@@ -142,27 +143,30 @@ int control(const Options& options) {
 }
 
 void add_control_options(CLI::App* command, Options& options) {
-  CLI::Option* play = command->add_flag("--play", options.play, "goes on");
-  command->add_flag("--pause", options.pause, "stands still")->excludes(play);
+  CLI::Option* play = command->add_flag("--play", options.play, "continues the replay");
+  command->add_flag("--pause", options.pause, "stops the replay")->excludes(play);
   const double most = scree::replay_speed_most;
   scree::bounded(
-      command->add_option("--speed", options.speed, "times real time, 0.1 to 16, negative: backwards"),
+      command->add_option("--speed", options.speed,
+                          "speed in multiples of real time, 0.1 to 16; a negative speed plays backwards"),
       {-most, most})
       ->check(
           [](const std::string& text) {
             const bool stands = std::abs(std::strtod(text.c_str(), nullptr)) < scree::replay_speed_least;
-            return stands ? "less than 0.1 either way is no speed; --pause stands still" : "";
+            return stands ? "a speed is at least 0.1 or at most -0.1; --pause stops the replay" : "";
           },
           "");
-  CLI::Option_group* const moves = command->add_option_group("moves", "at most one");
+  CLI::Option_group* const moves = command->add_option_group("moves", "at most one of these");
   scree::bounded(moves->add_option("--to", options.to_tick, "goes to this tick"),
                  scree::whole_within(0, scree::whole_most));
-  scree::bounded(moves->add_option("--step", options.steps, "goes so many ticks on, or back: -1"),
+  scree::bounded(moves->add_option("--step", options.steps,
+                                   "moves by this number of ticks; a negative number moves back"),
                  scree::whole_within(-scree::whole_most, scree::whole_most));
   scree::bounded(moves->add_option("--time", options.time_s, "goes to this second of the recording"),
                  {0.0, 1.0e9});
   moves->add_flag("--next-event", options.next_event, "goes to the next tick in which something happened");
-  moves->add_flag("--previous-event", options.previous_event, "goes to the one before");
+  moves->add_flag("--previous-event", options.previous_event,
+                  "goes to the previous tick in which something happened");
   moves->require_option(0, 1);
 }
 
@@ -171,27 +175,30 @@ using Run = int (*)(const Options&);
 /// A row each: what to run when the subcommand was given.
 std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options& options) {
   const auto add = [&](const char* name, const char* what) { return app.add_subcommand(name, what); };
-  CLI::App* show = add("show", "prints every setting as it stands");
-  CLI::App* status = add("status", "prints what the last second's ticks took and had to do, and the ledger");
-  CLI::App* set = add("set", "changes settings, all or none, and prints how every one stands");
-  set->add_option("NAME=VALUE", options.changes, "scree-server --help lists them")->required();
-  CLI::App* sessions = add("sessions", "lists who is there, with role and address");
+  CLI::App* show = add("show", "prints every setting");
+  CLI::App* status =
+      add("status", "prints the times and the work of the last second's ticks, and the ledger");
+  CLI::App* set = add("set", "changes all of these settings or none, and prints every setting");
+  set->add_option("NAME=VALUE", options.changes, "a setting; scree-server --help lists them")->required();
+  CLI::App* sessions = add("sessions", "lists the sessions, with role and address");
   CLI::App* kicked = add("kick", "ends a session");
-  kicked->add_option("SESSION", options.whom, "its number")->required();
-  CLI::App* banned = add("ban", "refuses an address, and ends the sessions from there");
-  banned->add_option("WHOM", options.whom, "an IPv4 or IPv6 address, or the number of a session from there")
+  kicked->add_option("SESSION", options.whom, "number of the session")->required();
+  CLI::App* banned = add("ban", "bans an address, and ends its sessions");
+  banned
+      ->add_option("WHOM", options.whom,
+                   "an IPv4 or IPv6 address, or the number of a session, whose address is banned")
       ->required();
-  scree::bounded(
-      banned->add_option("--minutes", options.minutes, "after which it ends; 0: when it is lifted"),
-      scree::whole_within(0, scree::limits::ban_minutes_max))
+  scree::bounded(banned->add_option("--minutes", options.minutes,
+                                    "length of the ban in minutes; 0: until somebody lifts it"),
+                 scree::whole_within(0, scree::limits::ban_minutes_max))
       ->capture_default_str();
   for (CLI::App* command : {kicked, banned})
-    command->add_option("--reason", options.reason, "told to who is sent away");
-  CLI::App* replay = add("replay", "controls a replay that a server plays, and prints where it stands");
+    command->add_option("--reason", options.reason, "reason, which the client is shown");
+  CLI::App* replay = add("replay", "controls a server's replay, and prints its position");
   add_control_options(replay, options);
-  CLI::App* bans = add("bans", "lists the addresses that are refused");
-  CLI::App* unban = add("unban", "lets an address in again");
-  unban->add_option("ADDRESS", options.whom, "as bans lists it")->required();
+  CLI::App* bans = add("bans", "lists the banned addresses");
+  CLI::App* unban = add("unban", "lifts the ban of an address");
+  unban->add_option("ADDRESS", options.whom, "the address, as `bans` lists it")->required();
   return {{show, [](const Options& o) { return print(scree::read_settings(o.server), o.json); }},
           {status, [](const Options& o) { return print(scree::read_status(o.server), o.json); }},
           {set, change},
@@ -207,12 +214,12 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Shows how a running server stands, changes its settings, and manages its sessions.",
+  CLI::App app("Shows the state of a running server, changes its settings, and manages its sessions.",
                "scree-admin");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   scree::EndpointOptions endpoint(app, options.server, "SCREE_ADMIN_TOKEN");
-  scree::bounded(app.add_option("--timeout", options.timeout_s, "seconds to wait for its answers"),
+  scree::bounded(app.add_option("--timeout", options.timeout_s, "seconds to wait for the server's answers"),
                  {0.1, 3600.0})
       ->capture_default_str();
   app.add_flag("--json", options.json, "prints JSON");

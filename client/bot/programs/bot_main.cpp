@@ -40,13 +40,13 @@ struct Options {
 
 void add_interest(CLI::App& app, Options& options) {
   scree::BotConfig& bot = options.bot;
-  scree::bounded(
-      app.add_option("--interest", bot.interest_radius_m, "metres around the centre that the bot follows"),
-      {0.0, scree::limits::interest_radius_max_m})
+  scree::bounded(app.add_option("--interest", bot.interest_radius_m,
+                                "radius of the terrain that the bot follows, metres"),
+                 {0.0, scree::limits::interest_radius_max_m})
       ->envname("SCREE_INTEREST")
       ->capture_default_str();
   scree::bounded(
-      app.add_option("--reconnects", bot.reconnects_max, "connections to make anew before giving up"),
+      app.add_option("--reconnects", bot.reconnects_max, "how often to reconnect before the bot gives up"),
       scree::whole_within(0, 1e6))
       ->envname("SCREE_RECONNECTS")
       ->capture_default_str();
@@ -55,30 +55,30 @@ void add_interest(CLI::App& app, Options& options) {
 void add_carving(CLI::App& app, Options& options) {
   scree::BotConfig& bot = options.bot;
   scree::bounded(
-      app.add_option("--carves", bot.carves, "carves to ask for; 0 checks that the server answers"),
+      app.add_option("--carves", bot.carves, "number of carves; 0 only checks that the server answers"),
       scree::whole_within(0, 1e6))
       ->envname("SCREE_CARVES")
       ->capture_default_str();
-  scree::bounded(app.add_option("--seed", bot.random_seed, "of the random choices"),
+  scree::bounded(app.add_option("--seed", bot.random_seed, "seed of the random choices"),
                  scree::whole_within(0, scree::whole_most))
       ->envname("SCREE_SEED")
       ->capture_default_str();
-  scree::bounded(app.add_option("--rate", bot.rate_hz, "carves a second; 0: as fast as the replies come"),
+  scree::bounded(app.add_option("--rate", bot.rate_hz, "carves a second; 0: one after each reply"),
                  {0.0, 1000.0})
       ->envname("SCREE_RATE")
       ->capture_default_str();
   // A radius over the server's limit is allowed, to show the server's refusal; so are too many seeds.
-  scree::bounded(app.add_option("--radius", bot.carver.radius_m, "of a carve, metres"), {0.0, 1e6})
+  scree::bounded(app.add_option("--radius", bot.carver.radius_m, "radius of a carve, metres"), {0.0, 1e6})
       ->envname("SCREE_RADIUS")
       ->capture_default_str();
-  scree::bounded(app.add_option("--seeds", bot.carver.seeds, "pieces that a carve may break into"),
+  scree::bounded(app.add_option("--seeds", bot.carver.seeds, "largest number of pieces of a carve"),
                  scree::whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->envname("SCREE_SEEDS")
       ->capture_default_str();
   std::vector<std::string> shapes;
   for (const scree::ShapeKind kind : scree::bot_shapes) shapes.emplace_back(scree::name_of(kind));
   app.add_option("--shape", options.shape,
-                 "of a carve: sphere, or crater, whose wall in the same ball is rough rock")
+                 "shape of a carve: sphere, or crater, a ball with a wall of rough rock")
       ->envname("SCREE_SHAPE")
       ->check(CLI::IsMember(shapes))
       ->capture_default_str();
@@ -86,8 +86,8 @@ void add_carving(CLI::App& app, Options& options) {
   patterns.emplace_back(both_patterns);
   app.add_option(
          "--pattern", options.pattern,
-         "of the seeds: " + scree::listed(scree::kind_names<scree::SeedPattern>) +
-             "; both: uniform and radial in turn. Points, if it needs any, are those of a wall's stones")
+         "pattern of the seeds: " + scree::listed(scree::kind_names<scree::SeedPattern>) +
+             "; both: uniform and radial in turn. A pattern that needs points gets those of a stone wall")
       ->envname("SCREE_PATTERN")
       ->check(CLI::IsMember(patterns))
       ->capture_default_str();
@@ -101,25 +101,27 @@ void add_carving(CLI::App& app, Options& options) {
       ->envname("SCREE_AREA")
       ->capture_default_str();
   app.add_option("--paint", options.paint,
-                 "paint the rock of each carve before: " + scree::listed(scree::kind_names<scree::Material>))
+                 "before each carve, paint the rock with this material: " +
+                     scree::listed(scree::kind_names<scree::Material>))
       ->envname("SCREE_PAINT")
       ->check(CLI::IsMember(names_of<scree::Material>()));
 }
 
 void add_ending(CLI::App& app, Options& options) {
   scree::BotConfig& bot = options.bot;
-  app.add_flag("--linger", bot.linger, "stay until every piece has merged and the terrain is at rest")
+  app.add_flag("--linger", bot.linger, "wait until every piece has merged and the terrain is at rest")
       ->envname("SCREE_LINGER");
-  app.add_flag("--check-hash", bot.check_hash, "fail unless the edits' hash equals the server's in the end")
+  app.add_flag("--check-hash", bot.check_hash,
+               "fail if the hash of the edits differs from the server's at the end")
       ->envname("SCREE_CHECK_HASH");
-  scree::bounded(app.add_option("--timeout", bot.timeout_s, "seconds after which all this has failed"),
+  scree::bounded(app.add_option("--timeout", bot.timeout_s, "seconds until the bot gives up and fails"),
                  {0.1, 86400.0})
       ->envname("SCREE_TIMEOUT")
       ->capture_default_str();
   app.add_option("--report", options.report, "file for the report, JSON; - is the standard output")
       ->envname("SCREE_REPORT")
       ->check([](const std::string& path) { return path == "-" ? "" : scree::check_writable(path); }, "FILE");
-  app.add_flag("--quiet", options.quiet, "say nothing but errors");
+  app.add_flag("--quiet", options.quiet, "print errors only");
 }
 
 /// Derives the rest of the configuration from the parsed options.

@@ -32,28 +32,28 @@ constexpr auto spacings = [] {
 }();
 
 /// In the order of GridShape's members.
-constexpr std::array options{
-    DrawOption{.name = "grid-resolution",
-               .label = "grid cells",
-               .unit = "a side",
-               .help = "For grid: cells along a side",
-               .values = resolutions,
-               .names = {},
-               .usual = GridShape().resolution},
-    DrawOption{.name = "grid-scale",
-               .label = "spacing",
-               .unit = "voxels",
-               .help = "For grid: voxels between two points",
-               .values = scales,
-               .names = {},
-               .usual = GridShape().scale},
-    DrawOption{.name = "grid-spacing",
-               .label = "",
-               .unit = "",
-               .help = "For grid: the same between all points, or growing with the distance from the camera",
-               .values = spacings,
-               .names = kind_names<GridSpacing>,
-               .usual = static_cast<int>(GridShape().spacing)}};
+constexpr std::array options{DrawOption{.name = "grid-resolution",
+                                        .label = "grid cells",
+                                        .unit = "a side",
+                                        .help = "For grid: cells along a side",
+                                        .values = resolutions,
+                                        .names = {},
+                                        .usual = GridShape().resolution},
+                             DrawOption{.name = "grid-scale",
+                                        .label = "spacing",
+                                        .unit = "voxels",
+                                        .help = "For grid: voxels between two points",
+                                        .values = scales,
+                                        .names = {},
+                                        .usual = GridShape().scale},
+                             DrawOption{.name = "grid-spacing",
+                                        .label = "",
+                                        .unit = "",
+                                        .help = "For grid: spacing of the points, the same everywhere or "
+                                                "growing with the distance from the camera",
+                                        .values = spacings,
+                                        .names = kind_names<GridSpacing>,
+                                        .usual = static_cast<int>(GridShape().spacing)}};
 
 /// Points after the centre, in units of the scale; the centre is a multiple of all spacings.
 std::vector<int> half_line(const GridShape& shape) {

@@ -46,7 +46,7 @@ Result<Camera> parse_camera(const std::string& text) {
   for (size_t i = 0; i < values.size(); ++i) {
     char comma = ',';
     if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> values[i]))
-      return fail("'" + text + "' is no place to look from; write x,y,z,yaw,pitch (metres, degrees)");
+      return fail("'" + text + "' is not a camera; write x,y,z,yaw,pitch (metres, degrees)");
   }
   if (in.peek() != std::istringstream::traits_type::eof())
     return fail("'" + text + "' has more than x,y,z,yaw,pitch");

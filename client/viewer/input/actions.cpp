@@ -59,7 +59,7 @@ constexpr std::array table{
     Binding{Action::replay_tick_on, "replay_tick_on", GLFW_KEY_8, unbound, "8", "", "replay: a tick on",
             true},
     Binding{Action::replay_previous_event, "replay_previous_event", GLFW_KEY_9, unbound, "9", "",
-            "replay: to the event before", true},
+            "replay: to the previous event", true},
     Binding{Action::replay_next_event, "replay_next_event", GLFW_KEY_0, unbound, "0", "",
             "replay: to the next event", true},
     Binding{Action::replay_start, "replay_start", GLFW_KEY_HOME, unbound, "Home", "", "replay: to its start",

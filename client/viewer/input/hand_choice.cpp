@@ -20,7 +20,7 @@ std::string describe(const HandChoice& choice, Action action) {
       return told("mouse x %.2f", choice.mouse_speed);
     case Action::smaller_text:
     case Action::larger_text:
-      return told("text x %.2f, as far as the panels leave it room", choice.text_scale);
+      return told("text x %.2f, limited by the room of the panels", choice.text_scale);
     default:
       return {};
   }

@@ -67,8 +67,8 @@ Result<void> CameraPath::add(double time_s, const Camera& camera) {
   if (keys_.empty()) start_s_ = time_s;
   time_s -= start_s_;
   if (!keys_.empty() && !(time_s - keys_.back().time_s >= limits::path_step_min_s))
-    return fail("its time does not come " + std::to_string(limits::path_step_min_s) +
-                " s or more after the one before (limits.path_step_min_s)");
+    return fail("its time is not " + std::to_string(limits::path_step_min_s) +
+                " s or more after the time before it (limits.path_step_min_s)");
   double yaw = static_cast<double>(camera.yaw);
   if (!keys_.empty()) {
     const double before = keys_.back().values[3];

@@ -26,7 +26,7 @@ Result<ScreenshotOrder> parse_screenshot(std::string_view text) {
   order.file = text.substr(0, at);
   if (order.file.empty()) return fail("--screenshot: the file's name is missing");
   if (!order.file.ends_with(".png"))
-    return fail("--screenshot: '" + order.file + "' is no name of a PNG: it must end in .png");
+    return fail("--screenshot: '" + order.file + "' is not the name of a PNG: it must end in .png");
   if (at == std::string_view::npos) return order;
   const std::string_view when = text.substr(at + 1);
   if (when == "joined") return order;
@@ -40,7 +40,7 @@ Result<ScreenshotOrder> parse_screenshot(std::string_view text) {
     const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), order.pieces);
     if (error == std::errc{} && end == number.data() + number.size() && order.pieces > 0) return order;
   }
-  return fail("--screenshot: '" + std::string(when) + "' is no moment; use joined, pieces>=N or settled");
+  return fail("--screenshot: '" + std::string(when) + "' is not a moment; use joined, pieces>=N or settled");
 }
 
 ScreenshotQueue::ScreenshotQueue(std::vector<ScreenshotOrder> orders)

@@ -50,7 +50,7 @@ struct Texts {
 
 void declare_preset(CLI::App& app, Texts& texts) {
   app.add_option("--preset", texts.preset,
-                 "Values for a kind of machine, over which each option that is said stands:\n" +
+                 "Values for a kind of machine; options that you give override them:\n" +
                      describe_presets(viewer_presets, viewer_preset_options))
       ->envname("SCREE_PRESET");
 }
@@ -61,19 +61,18 @@ void declare_view(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--camera", texts.camera,
                  "x,y,z,yaw,pitch in metres and degrees; yaw 0 looks along -z and grows to the left")
       ->envname("SCREE_CAMERA");
-  app.add_option("--method", texts.method, "How it is drawn:\n" + describe_methods())
-      ->envname("SCREE_METHOD");
-  app.add_option(
-         "--quality", texts.quality,
-         "What a frame may cost: low, medium, high, or auto: by the first frames; without a window, high")
+  app.add_option("--method", texts.method, "Drawing method:\n" + describe_methods())->envname("SCREE_METHOD");
+  app.add_option("--quality", texts.quality,
+                 "Quality: low, medium, high, or auto, which chooses by the time of the first frames "
+                 "(without a window: high)")
       ->envname("SCREE_QUALITY");
   bounded(app.add_option("--view-radius", options.view_radius_m,
-                         "How far terrain is drawn in detail, metres, instead of the quality's"),
+                         "Distance of detailed terrain, metres; default: by the quality"),
           {limits::view_radius_min_m, limits::view_radius_max_m})
       ->envname("SCREE_VIEW_RADIUS");
   bounded(app.add_option("--render-scale", options.render_scale,
-                         "Pixels drawn along a side for one that is shown, instead of the quality's; above 1 "
-                         "of raymarch alone"),
+                         "Pixels drawn along a side for each pixel shown; default: by the quality; only "
+                         "raymarch accepts more than 1"),
           {limits::render_scale_min, limits::render_scale_max})
       ->envname("SCREE_RENDER_SCALE");
   for (const DrawOption* option : all_draw_options())
@@ -88,8 +87,8 @@ std::array<std::string_view, tool_patterns.size()> names_of_patterns() {
 
 void declare_input(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--pattern", texts.pattern,
-                 "How the pieces of your carves lie: " + listed(names_of_patterns()) +
-                     "; in a window, where key R has the next")
+                 "Pattern of the pieces of your carves: " + listed(names_of_patterns()) +
+                     "; key R changes it (only in a window)")
       ->envname("SCREE_PATTERN");
   app.add_option("--predict", options.predict,
                  "Show your own carves at once, before the server answers: true or false")
@@ -98,16 +97,17 @@ void declare_input(CLI::App& app, ViewerOptions& options, Texts& texts) {
                  "Show dust, grit and splinters where rock breaks, strikes and settles: true or false")
       ->envname("SCREE_PARTICLES");
   app.add_option("--sound", options.sound,
-                 "Play what breaks, strikes and settles, in a window where there is a device: true or false")
+                 "Play the sounds of rock that breaks, strikes and settles, in a window with a sound device: "
+                 "true or false")
       ->envname("SCREE_SOUND");
   app.add_option("--sound-file", options.sound_file,
-                 "FILE for what there is to hear from the camera, a WAV, as long as the program runs")
+                 "FILE (WAV) for the sound at the camera, written until the program ends")
       ->envname("SCREE_SOUND_FILE")
       ->check(check_writable, "FILE");
 }
 
 void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
-  app.add_flag("--offscreen", options.offscreen, "No window: take the screenshots, then exit")
+  app.add_flag("--offscreen", options.offscreen, "Open no window: take the screenshots, then exit")
       ->envname("SCREE_OFFSCREEN");
   app.add_option(
          "--screenshot", texts.screenshots,
@@ -127,8 +127,8 @@ void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
                "Offscreen: draw the path's frames as fast as possible, print their times as a line of JSON")
       ->envname("SCREE_TIMEDEMO");
   app.add_option("--reference", options.reference,
-                 "Offscreen: PNG to compare the screenshot with; prints the difference, exits with 3 above "
-                 "--threshold")
+                 "Offscreen: PNG to compare the screenshot with; prints the difference, and exits with "
+                 "status 3 if it is above --threshold")
       ->envname("SCREE_REFERENCE");
   bounded(app.add_option("--threshold", options.threshold,
                          "Root mean square of the difference of all colour values, 0 (equal) to 1"),
@@ -150,7 +150,7 @@ void declare(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_TIMEOUT");
   app.add_option(
          "--trace", options.trace_file,
-         "FILE to write what took how long to, at the end; chrome://tracing and ui.perfetto.dev open it")
+         "FILE for the times of all work, written at the end; chrome://tracing and ui.perfetto.dev open it")
       ->envname("SCREE_TRACE")
       ->check(check_writable, "FILE");
   app.add_flag("--gl-debug", options.gl_debug, "Ask for a debug context, and fail on any OpenGL error")
@@ -165,7 +165,7 @@ Result<void> understand_pictures(ViewerOptions& options) {
   if (!options.reference.empty() && (!options.offscreen || options.screenshots.size() != 1))
     return fail("--reference needs --offscreen and exactly one --screenshot FILE to compare");
   if (options.offscreen && options.screenshots.empty() && !every_frame)
-    return fail("--offscreen without --screenshot FILE, --frames DIR or --timedemo shows nothing to anyone");
+    return fail("--offscreen needs --screenshot FILE, --frames DIR or --timedemo");
   if (options.path_file.empty()) return {};
   Result<CameraPath> path = CameraPath::read(options.path_file);
   if (!path) return fail(path.error().message);
@@ -226,7 +226,7 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
   options.frames_per_s = 30.0;
   options.threshold = 0.01;
   Texts texts;
-  CLI::App app("Looks at a Scree server's terrain, live or replayed, and carves it.", "scree-viewer");
+  CLI::App app("Shows a Scree server's terrain, live or replayed, and carves it.", "scree-viewer");
   app.set_version_flag("--version", SCREE_VERSION);
   app.option_defaults()->always_capture_default();
   EndpointOptions endpoint(app, options);

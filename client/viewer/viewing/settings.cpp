@@ -92,7 +92,7 @@ std::string settings_file() {
 Result<Settings> parse_settings(const std::string& text) {
   TRY(check_json_depth(text));
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object()) return fail("it is no JSON object");
+  if (!json.is_object()) return fail("it is not a JSON object");
   Settings settings;
   Reader reader(json);
   reader.number("width", settings.width, 1, limits::image_side_max);

@@ -130,7 +130,7 @@ void Hud::lower_right(const HudFacts& facts, const PersonsMessage* persons, bool
       ImGui::TextUnformatted(std::string(name_of(person.role)).c_str());
     }
     if (persons->more > 0) ImGui::Text("and %u more", persons->more);
-    ImGui::TextUnformatted(persons->chat ? "Enter: say something to all" : "this server passes no lines on");
+    ImGui::TextUnformatted(persons->chat ? "Enter: say something to all" : "chat is off on this server");
   }
   if (with_graphs) graphs(facts);
   panels_.end();

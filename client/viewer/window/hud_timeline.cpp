@@ -184,7 +184,7 @@ void show_buttons(Timeline& timeline) {
   std::snprintf(speed.data(), speed.size(), "%gx", static_cast<double>(playback.speed));
   ImGui::Text("%-5s", speed.data());
   ImGui::SameLine();
-  button("< event", Action::replay_previous_event, "the event before (9)");
+  button("< event", Action::replay_previous_event, "the previous event (9)");
   button("event >", Action::replay_next_event, "the next event (0)");
   ImGui::EndDisabled();
 }
@@ -253,7 +253,7 @@ void Hud::timeline(Timeline& timeline, double now_s) {
   show_rest(timeline, timeline.moment(now_s), right);
   if (!timeline.may_control()) {
     ImGui::PushTextWrapPos(width + ImGui::GetStyle().WindowPadding.x);
-    ImGui::TextColored(refusal_colour, "you may look on: %s", timeline.playback().refusal.c_str());
+    ImGui::TextColored(refusal_colour, "you may only look on: %s", timeline.playback().refusal.c_str());
     ImGui::PopTextWrapPos();
   }
   panels_.end();

@@ -91,7 +91,7 @@ class Page {
   }
 
   #take_wishes({ camera, method, quality, view, unfit }) {
-    if (unfit) this.#notices.say('The token in the address is none: it was left out.');
+    if (unfit) this.#notices.say('The token in the address is not valid, so it is ignored.');
     const set = (name, value) => value !== undefined && this.#client.set(name, value);
     set('camera', camera);
     if (set('method', method)) this.#chosen_view.method = method;
@@ -215,7 +215,7 @@ class Page {
       if (document.fullscreenElement) await document.exitFullscreen();
       else await document.documentElement.requestFullscreen();
     } catch {
-      this.#notices.say('This browser fills no screen.');
+      this.#notices.say('This browser cannot show a full screen.');
     }
   }
 

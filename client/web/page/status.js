@@ -73,8 +73,8 @@ function ask_token(why) {
 }
 
 const WHY = {
-  401: 'The server shows its figures to administrators alone.',
-  403: 'This token does not hold, or is of no administrator.',
+  401: 'The server shows its figures only to administrators.',
+  403: 'This token is not valid, or not a token of an administrator.',
   429: 'Too many wrong tokens came from here: wait a little.',
 };
 

@@ -34,7 +34,7 @@ export class Timeline {
       this.#canvas, this.#played, this.#hand);
     const act = (name, does, action) => button(name, does, () => client.act(action));
     this.#play = act('play', 'Play or hold (J)', 'replay_play');
-    this.#controls = [act('before', 'The event before (9)', 'replay_previous_event'), this.#play,
+    this.#controls = [act('before', 'The previous event (9)', 'replay_previous_event'), this.#play,
       act('next', 'The next event (0)', 'replay_next_event'), act('turn', 'Backwards or forwards (Y)', 'replay_turn'), this.#speed];
     for (const factor of SPEEDS) this.#speed.append(make('option', { value: factor }, `${factor} ×`));
     this.#speed.addEventListener('change', () => client.speed(Number(this.#speed.value)));
@@ -112,7 +112,7 @@ export class Timeline {
     const playback = this.#playback;
     if (!playback) return;
     if (part === null || !this.#marks) {
-      write(this.#near, playback.refusal ? `You may look on: ${playback.refusal}` : playback.grows ? 'being recorded' : '');
+      write(this.#near, playback.refusal ? `You may only look on: ${playback.refusal}` : playback.grows ? 'being recorded' : '');
       return;
     }
     const near = events_near(part, NEAR_PIXELS / this.#track.clientWidth, this.#marks, playback);

@@ -293,20 +293,20 @@ CLI::App* add_command(CLI::App& app, Options& options, const char* name, const c
 }
 
 void add_ground(CLI::App* command, Options& options) {
-  command->add_option("--ground", options.ground, "its ground file, where that does not lie beside it");
+  command->add_option("--ground", options.ground, "its ground file; default: found in the same folder");
 }
 
 using Run = int (*)(const Options&);
 
 /// A row each: what to run when the subcommand was given.
 std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options& options) {
-  CLI::App* info_command = add_command(app, options, "info", "says what a recording holds");
+  CLI::App* info_command = add_command(app, options, "info", "describes a recording");
   CLI::App* verify_command =
       add_command(app, options, "verify",
                   "simulates it again from the commands, and compares every tick's hash and events");
-  CLI::App* diff_command = add_command(
-      app, options, "diff",
-      "the first tick in which two recordings differ, in which stage and where; exit status 0: none");
+  CLI::App* diff_command = add_command(app, options, "diff",
+                                       "finds the first tick in which two recordings differ, with the stage "
+                                       "and the place; exit status 0: they are the same");
   diff_command->add_option("OTHER", options.other, "another recording")->required();
   CLI::App* cut_command =
       add_command(app, options, "cut", "makes a shorter recording, which plays and verifies by itself");
@@ -315,14 +315,13 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   cut_command->add_option("--to", options.last, "its last tick, or a time");
   for (CLI::App* command : {info_command, verify_command, diff_command, cut_command})
     command->add_flag("--json", options.json, "prints JSON");
-  CLI::App* events =
-      add_command(app, options, "events", "prints what happened, an event a line (JSON Lines)");
+  CLI::App* events = add_command(app, options, "events", "prints the events, one a line (JSON Lines)");
   events->add_flag("--csv", options.csv, "prints CSV");
   CLI::App* exported = add_command(
-      app, options, "export", "writes events and ticks as JSON Lines, or as CSV where the name ends in .csv");
-  exported->add_option("--events", options.events_path, "file of the events; -: the standard output");
+      app, options, "export", "writes events and ticks as JSON Lines, or as CSV if the name ends in .csv");
+  exported->add_option("--events", options.events_path, "file for the events; -: the standard output");
   exported->add_option("--ticks", options.ticks_path,
-                       "file of every tick's duration and ledger; -: the standard output");
+                       "file for every tick's duration and ledger; -: the standard output");
   exported->require_option(1, 0);
   for (CLI::App* command : {verify_command, events, exported, diff_command, cut_command})
     add_ground(command, options);
@@ -342,7 +341,7 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Looks at recordings of scree-server.", "scree-replay");
+  CLI::App app("Describes, verifies, compares and shortens recordings of scree-server.", "scree-replay");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   Options options;

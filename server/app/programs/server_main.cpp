@@ -33,9 +33,10 @@ sigset_t block_signals() {
 
 void reload(LiveServer& server) {
   if (const auto reloaded = server.reload(); reloaded)
-    spdlog::info("certificate, keys, revoked tokens and the page are read again (SIGHUP)");
+    spdlog::info("certificate, keys, revoked tokens and the page were read again (SIGHUP)");
   else
-    spdlog::error("nothing is read again (SIGHUP), the old stays in force: {}", reloaded.error().message);
+    spdlog::error("nothing was read again (SIGHUP), the old values stay in force: {}",
+                  reloaded.error().message);
 }
 
 void wait_for_end(LiveServer& server, const sigset_t& signals) {

@@ -138,8 +138,8 @@ Result<void> weigh_ground(const TerrainSource& terrain, ChunkCoord chunk, std::s
   const GroundMasses measured = measured_ground(terrain, bricks);
   const auto mass = measured.find(chunk);
   if (mass == measured.end() || ground.try_emplace(chunk, mass->second).first->second != mass->second)
-    return fail("the ground of chunk (" + std::to_string(chunk.x) + ", " + std::to_string(chunk.y) + ", " +
-                std::to_string(chunk.z) + ") does not have the mass that its row says");
+    return fail(fmt::format("the ground of chunk ({}, {}, {}) does not have the mass that its row says",
+                            chunk.x, chunk.y, chunk.z));
   return {};
 }
 
@@ -252,7 +252,7 @@ int repair(const Options& options) {
   if (!done) return complain({told_of(done.error().message, copy, options.path)});
   const WorldMoment &before = repaired.before, &after = repaired.after;
   if (lost.empty() && after.field_hash != before.field_hash)
-    lost.emplace_back("its chunks are whole, but are not all that were saved");
+    lost.emplace_back("its chunks are undamaged, but some saved chunks are missing");
   print({{"file", options.path},
          {"repaired", options.to},
          {"lost", lost},
@@ -322,28 +322,28 @@ struct CommandRow {
 
 constexpr CommandRow commands[] = {
     {.name = "info",
-     .what = "says what it holds; also while a server runs",
+     .what = "describes the world; works while a server runs",
      .act = info,
      .needs_ground = false},
     {.name = "check",
-     .what = "checks all that a server's start does; also while a server runs",
+     .what = "checks the file as the start of a server does; works while a server runs",
      .act = check},
     {.name = "backup",
-     .what = "copies it as of one moment; also while a server runs",
+     .what = "copies the world as it is at one moment; works while a server runs",
      .act = backup,
      .makes_file = true},
     {.name = "repair",
-     .what = "keeps in a new file all that is whole, and says what was lost",
+     .what = "copies every undamaged part to a new file, and lists the lost ones",
      .act = repair,
      .makes_file = true},
-    {.name = "compact", .what = "gives room back", .act = compact, .needs_ground = false},
+    {.name = "compact", .what = "returns unused space to the disk", .act = compact, .needs_ground = false},
     {.name = "rollback",
-     .what = "takes it back to a tick of its recording; what it was stays beside it",
+     .what = "takes the world back to a tick of its recording; keeps the newer file beside it",
      .act = rollback,
      .has_recording = true},
-    {.name = "new", .what = "makes it of a tick of a recording", .act = make_new, .has_recording = true},
+    {.name = "new", .what = "makes a world from a recording's tick", .act = make_new, .has_recording = true},
     {.name = "dump-chunk",
-     .what = "prints the edited bricks of a chunk as text; also while a server runs",
+     .what = "prints the edited bricks of a chunk as text; works while a server runs",
      .act = dump_chunk,
      .needs_ground = false,
      .has_chunk = true}};
@@ -354,10 +354,10 @@ CLI::App* add_command(CLI::App& app, Options& options, const CommandRow& row) {
   if (!row.has_chunk) command->add_flag("--json", options.json, "prints JSON");
   if (row.makes_file) command->add_option("NEW", options.to, "the new file")->required();
   if (row.needs_ground)
-    command->add_option("--ground", options.ground, "its ground file, where that does not lie beside it");
+    command->add_option("--ground", options.ground, "its ground file; default: found in the same folder");
   if (row.has_recording) {
     command->add_option("--from", options.recording, "a recording")->required();
-    command->add_option("--to", options.tick, "tick of the recording; its last unless said otherwise")
+    command->add_option("--to", options.tick, "tick of the recording; default: its last")
         ->required(row.act == rollback);
   }
   if (row.has_chunk)
@@ -367,7 +367,7 @@ CLI::App* add_command(CLI::App& app, Options& options, const CommandRow& row) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Looks after the file that keeps a world (scree-server --world).", "scree-world");
+  CLI::App app("Checks, copies and repairs the file of a world (scree-server --world).", "scree-world");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
   Options options;

@@ -55,10 +55,9 @@ ReportTable settings_table(const std::vector<const SweepFound*>& sweeps, const s
 
 std::string why_grid_draws(double exponent) {
   if (exponent >= cubic_from)
-    return "The cells of the volume grow with the cube of the cells a side, and their work does nearly so: "
-           "the blocks of cells "
-           "that have nothing to show are left out, but looking for them and drawing the rest takes most of "
-           "the time.";
+    return "The cells of the volume grow with the cube of the cells a side, and their work grows nearly so. "
+           "Blocks of cells with nothing to show are left out, but finding them and drawing the rest takes "
+           "most of the time.";
   if (exponent >= square_from)
     return "The cells of the volume grow with the cube of the cells a side, but blocks of 8³ cells that are "
            "air, rock or out of "

@@ -108,9 +108,8 @@ void append(std::vector<ReportSection>& to, std::vector<ReportSection> sections)
 std::string summary_of(const std::vector<Claim>& claims) {
   const auto count = [&](Verdict verdict) { return std::ranges::count(claims, verdict, &Claim::verdict); };
   return fmt::format(
-      "Of {} claims, {} are confirmed here, {} refuted, and {} undecided. A claim is judged by the rule "
-      "beside "
-      "it.",
+      "There are {} claims: {} are confirmed here, {} refuted, and {} undecided. A claim is judged by the "
+      "rule beside it.",
       claims.size(), count(Verdict::confirmed), count(Verdict::refuted), count(Verdict::undecided));
 }
 

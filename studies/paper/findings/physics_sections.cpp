@@ -128,13 +128,11 @@ ReportSection draw_spikes(const RebuildFound& found, Conclusions& conclusions) {
       {"Figure 26: drawing while collision shapes are made anew",
        "When the physics mesh is recalculated, drawing has a sudden spike: the GPU computes it and sends it "
        "back to the processor.",
-       fmt::format(
-           "{} pieces lie about when the carves begin. Of {} rebuilds by the collider `mesh`, the "
-           "frame drawn after them takes {:.2f} "
-           "times what its neighbours take in the median and {:.2f} at the worst, each frame by {}. The "
-           "claim is {}.",
-           found.pieces, mesh.ticks, mesh.median_ratio, mesh.worst_ratio, the_least_of(found.runs),
-           name_of(verdict)),
+       fmt::format("{} pieces lie about when the carves begin. After {} rebuilds by the collider `mesh`, the "
+                   "next frame takes {:.2f} times as long as its neighbours in the median and {:.2f} times "
+                   "at the worst, each frame by {}. The claim is {}.",
+                   found.pieces, mesh.ticks, mesh.median_ratio, mesh.worst_ratio, the_least_of(found.runs),
+                   name_of(verdict)),
        why_draw_spikes(verdict)},
       {rebuild_plot(found, "figure-26", "Draw frame time while collision shapes are made anew",
                     "draw frame time, ms", draw_of)},

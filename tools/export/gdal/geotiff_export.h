@@ -8,7 +8,7 @@
 namespace scree {
 
 struct GeotiffExport {
-  std::optional<double> cell_m{};  ///< unless said, as large as a voxel
+  std::optional<double> cell_m{};  ///< default: as large as a voxel
   double zero_m = 0.0;             ///< height in the file of what is y = 0 in the world
 };
 

@@ -183,7 +183,7 @@ class Fetcher {
     TRY(complete_edits());
     if (!has_all_edits_)
       return fail(fmt::format(
-          "edits lie farther than {:.0f} m from the middle of the world: --box says which part is wanted",
+          "edits lie farther than {:.0f} m from the middle of the world: choose a part of it (--box)",
           client_.welcome()->interest_radius_m));
     auto box = TRY(whole_of(mirror().field()));
     TRY(check_count(box));

@@ -17,8 +17,9 @@ namespace scree {
 
 struct LiveFetch {
   ServerEndpoint server;
-  /// The box that is wanted, by the terrain without its edits. Unless said, all that was edited and all of a
-  /// ground that ends: an error when edits lie beyond the interest of one session in its middle.
+  /// The box that is wanted, by the terrain without its edits. By default all edited terrain, and the whole
+  /// of a ground that has an end. It is an error when edits lie beyond the interest of one session in its
+  /// middle.
   std::function<Result<ChunkBox>(const Field& unedited)> box{};
   std::chrono::seconds within{600};
 };

@@ -146,12 +146,11 @@ Write writer_of(const std::string& path) {
 
 Result<void> run(const Options& options) {
   const Write write = writer_of(options.out);
-  if (write == nullptr)
-    return fail(options.out + ": files of .vdb, .ply, .obj, .glb and .tif can be written");
-  const std::array files{NamedFile{"what is exported", options.from, false, true},
+  if (write == nullptr) return fail(options.out + ": the name must end in .vdb, .ply, .obj, .glb or .tif");
+  const std::array files{NamedFile{"the exported file", options.from, false, true},
                          NamedFile{"--ground", options.ground}, NamedFile{"--out", options.out, true}};
   TRY(check_distinct(files));
-  if (options.cell_m && write != write_elevation) return fail("--cell is of elevation models (.tif) alone");
+  if (options.cell_m && write != write_elevation) return fail("--cell is only for elevation models (.tif)");
   Json line{{"file", options.out}};
   if (options.tick) line["tick"] = *options.tick;
   const auto what = options.live ? read_server(options, line) : read_file(options);
@@ -175,23 +174,23 @@ void declare(CLI::App& app, Options& options) {
                                      "the file of a world, a ground (.ground), or, with --tick, a recording");
   app.get_option("--server")->excludes(from);
   app.add_option("--ground", options.ground,
-                 "the ground file of the world; unless said, looked for beside it and among all grounds")
+                 "the ground file of the world; default: found in the world's folder or among all grounds")
       ->needs(from);
-  bounded(app.add_option("--tick", options.tick, "of a recording: the terrain after this tick"),
+  bounded(app.add_option("--tick", options.tick, "export the terrain after this tick of a recording"),
           whole_within(0, whole_most))
       ->needs(from);
-  bounded(app.add_option("--timeout", options.timeout_s, "seconds that a server's terrain may take"),
+  bounded(app.add_option("--timeout", options.timeout_s, "seconds to wait for a server's terrain"),
           whole_within(1, 86400))
       ->needs(app.get_option("--server"))
       ->capture_default_str();
   app.add_option("-o,--out", options.out, "the file to write: .vdb, .ply, .obj, .glb or .tif")->required();
-  app.add_option(
-         "--box", options.box_m,
-         "x,y,z,x,y,z: the lowest and the highest corner, metres, rounded to chunks; unless said, all that "
-         "was edited and all of a ground that ends")
+  app.add_option("--box", options.box_m,
+                 "x,y,z,x,y,z of the lowest and the highest corner, metres, rounded to chunks; default: all "
+                 "edited terrain, and the whole of a ground that has an end")
       ->delimiter(',')
       ->expected(6);
-  app.add_option("--cell", options.cell_m, "metres between a .tif's samples; unless said, the voxels' size")
+  app.add_option("--cell", options.cell_m,
+                 "metres between the samples of a .tif; default: the size of a voxel")
       ->check(CLI::Range(double{limits::voxel_size_min_m}, 1024.0));
 }
 
@@ -201,8 +200,8 @@ void declare(CLI::App& app, Options& options) {
 int main(int argc, char** argv) {
   scree::fail_at_file_limit();
   CLI::App app(
-      "Writes the rock of a kept world, of a ground, of a recording's tick or of a running server as an "
-      "OpenVDB level set, as a mesh or as an elevation model.",
+      "Exports rock as an OpenVDB level set, a mesh or an elevation model. The rock comes from a saved "
+      "world, a ground, a tick of a recording or a running server.",
       "scree-export");
   app.set_version_flag("--version", SCREE_VERSION);
   scree::Options options;
@@ -213,7 +212,7 @@ int main(int argc, char** argv) {
   const auto completed = endpoint.complete();
   if (!completed || options.live != options.from.empty()) {
     scree::refuse(app, completed
-                           ? scree::Error{"either the file of a world, ground or recording, or --server"}
+                           ? scree::Error{"name either a file (of a world, ground or recording) or --server"}
                            : completed.error());
     return scree::exit_usage;
   }

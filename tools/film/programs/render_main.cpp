@@ -44,9 +44,8 @@ int run(int argc, char** argv) {
     if (!printed) std::fprintf(stderr, "scree-render: %s\n", printed.error().message.c_str());
     return printed ? 0 : failed;
   }
-  const std::string why = signals.asked()
-                              ? "stopped: the film is not whole; of its files only whole PNGs stay"
-                              : film.error().message;
+  const std::string why = signals.asked() ? "stopped: the film is not complete; only complete PNGs are kept"
+                                          : film.error().message;
   std::fprintf(stderr, "scree-render: %s\n", why.c_str());
   return failed;
 }

@@ -32,7 +32,7 @@ Result<TriangleMesh> mesh_of(const aiScene& scene, const aiMesh& from, const aiM
     mesh.points.push_back(placed(transform * from.mVertices[i], place));
     const glm::dvec3& p = mesh.points.back();
     if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-      return fail(fmt::format("mesh '{}' has a point that is no number", name));
+      return fail(fmt::format("mesh '{}' has a point that is not a number", name));
   }
   for (unsigned i = 0; i < from.mNumFaces; ++i) {
     const aiFace& face = from.mFaces[i];

@@ -81,7 +81,8 @@ Result<std::unique_ptr<Raster>> open_raster(const std::string& path) {
   CPLErrorReset();
   Dataset dataset(GDALDataset::FromHandle(GDALOpenEx(
       path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr)));
-  if (!dataset) return fail(path + ": no elevation model: " + gdal_words("GDAL does not know its form"));
+  if (!dataset)
+    return fail(path + ": not an elevation model: " + gdal_words("GDAL does not know its format"));
   if (dataset->GetRasterCount() < 1) return fail(path + ": it has no band of heights");
   if (GDALDataTypeIsComplex(dataset->GetRasterBand(1)->GetRasterDataType()) != 0)
     return fail(path + ": its numbers are complex, not heights");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <map>
 #include <set>
@@ -68,8 +69,10 @@ class MeshSolid final : public Solid {
       const VoxelBox box = voxels_of(mesh_.triangles[i]).grown(band_around);
       touched += count_chunks(box);
       if (touched > limits::solid_surface_max)
-        return fail("it is too large for voxels of " + std::to_string(voxel_m_) +
-                    " m (limits.solid_surface_max); larger ones (--voxel-size) or a smaller --scale fit");
+        return fail(
+            fmt::format("it is too large for voxels of {:.6g} m (limits.solid_surface_max); larger ones "
+                        "(--voxel-size) or a smaller --scale fit",
+                        voxel_m_));
       for_each_chunk(box, [&](ChunkCoord chunk) { near_[chunk].push_back(i); });
     }
     return {};

@@ -30,51 +30,55 @@ struct Options {
 
 void declare_heights(CLI::App& app, Options& options) {
   HeightsImport& how = options.how;
-  app.add_option("--cell", how.cell_m, "metres between the file's samples; unless said, as the file says")
+  app.add_option("--cell", how.cell_m, "metres between the file's samples; default: as the file says")
       ->check(CLI::PositiveNumber);
-  app.add_option("--sample", how.sample_m, "metres between the ground's samples; unless said, as the file's")
+  app.add_option("--sample", how.sample_m, "metres between the ground's samples; default: as in the file")
       ->check(CLI::PositiveNumber);
-  app.add_option("--vertical-scale", how.vertical_scale, "times the file's heights, metres")
+  app.add_option("--vertical-scale", how.vertical_scale, "factor that turns the file's heights into metres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_option("--zero", how.zero_m,
-                 "height, after the scale, that becomes y = 0; unless said, the lowest");
+                 "height (after the scale) that becomes y = 0, metres; default: the lowest");
   app.add_option("--nodata", how.nodata_m,
-                 "height, after the scale, where the file has none; unless said, the lowest");
+                 "height (after the scale) where the file has none, metres; default: the lowest");
   app.add_option("--preview", options.preview, "draws a shaded relief to this PNG file");
 }
 
 void declare_solids(CLI::App& app, Options& options) {
   SolidsImport& how = options.solids;
-  app.add_option("--on", options.on, "solids stand on this ground file; unless said, on level rock");
-  app.add_option("--level", options.level_m,
-                 "height of the level rock, y; unless said, a voxel above the lowest of the solids");
-  app.add_option("--at", how.place.at_m, "x,y,z: where the origin of the files lies in the world, metres")
+  app.add_option("--on", options.on, "ground file on which solids stand; default: level rock");
+  app.add_option(
+      "--level", options.level_m,
+      "height of the level rock, y in metres; default: a voxel above the lowest point of the solids");
+  app.add_option("--at", how.place.at_m, "x,y,z of the files' origin in the world, metres; default: 0,0,0")
       ->delimiter(',');
-  app.add_option("--scale", how.place.scale, "metres a unit of the files")
+  app.add_option("--scale", how.place.scale, "length of the files' unit, metres")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
-  app.add_flag("--z-up", how.place.z_up, "z points up in the files, not y");
+  app.add_flag("--z-up", how.place.z_up, "says that z points up in the files, not y");
   app.add_option("--voxel-size", options.voxel_size_m,
-                 "metres; unless said, that of the bricks of --on, or 0.25")
+                 "size of a voxel, metres; default: that of the bricks of --on, or 0.25")
       ->check(CLI::Range(limits::voxel_size_min_m, limits::voxel_size_max_m));
-  app.add_option("--grid", how.grid, "name of the grid in an OpenVDB file; unless said, the first of floats");
-  app.add_option("--density", how.density, "rock is where a fog volume is denser")->capture_default_str();
+  app.add_option("--grid", how.grid,
+                 "name of the grid in an OpenVDB file; default: the first grid of floats");
+  app.add_option("--density", how.density, "density of a fog volume above which there is rock")
+      ->capture_default_str();
   app.add_option("--material", options.material,
-                 "of what no file says it of: " + listed(kind_names<Material>));
+                 "default material where the file names none: " + listed(kind_names<Material>));
 }
 
 void declare(CLI::App& app, Options& options) {
-  app.add_option(
-         "file", options.files,
-         "an elevation model (GeoTIFF, ESRI ASCII, 16-bit PNG, whatever GDAL reads); or solids: OpenVDB "
-         "(.vdb) and meshes (.obj, .ply, .stl, .gltf, .glb, .off, .dae, .3ds)")
+  app.add_option("file", options.files,
+                 "an elevation model (GeoTIFF, ESRI ASCII, 16-bit PNG, or another format of GDAL); or "
+                 "solids: OpenVDB (.vdb) and meshes (.obj, .ply, .stl, .gltf, .glb, .off, .dae, .3ds)")
       ->required();
   app.add_option("-o,--out", options.out, "the ground file to write")->required();
   app.add_option("--soil-below", options.how.soil_below_m,
-                 "a metre of soil covers ground below this y; unless said, all of an elevation model");
-  app.add_option("--ice-above", options.how.ice_above_m, "ice covers ground above this y; unless said, none");
-  app.add_option("--memory-max", options.memory_max_mib, "megabytes; a file that needs more is refused")
+                 "a metre of soil covers ground below this y, metres; default: all of an elevation model");
+  app.add_option("--ice-above", options.how.ice_above_m,
+                 "ice covers ground above this y, metres; default: none");
+  app.add_option("--memory-max", options.memory_max_mib,
+                 "limit of the import's memory, megabytes; a file that needs more is refused")
       ->check(CLI::Range(256, 1 << 20))
       ->capture_default_str();
   declare_heights(app, options);
@@ -113,8 +117,8 @@ void print(const Options& options, const HeightsImported& imported, double secon
 Result<void> run_heights(const Options& options) {
   const auto began = std::chrono::steady_clock::now();
   const std::string& file = options.files.front();
-  if (options.files.size() > 1) return fail("of elevation models one at a time is imported");
-  if (!options.on.empty()) return fail(file + ": an elevation model stands on no other ground (--on)");
+  if (options.files.size() > 1) return fail("only one elevation model can be imported at a time");
+  if (!options.on.empty()) return fail(file + ": an elevation model cannot stand on another ground (--on)");
   auto raster = TRY(open_raster(file));
   const auto imported = with_bar(
       [&](const auto& progress) { return import_heights(*raster, options.out, options.how, progress); });
@@ -168,12 +172,12 @@ Result<BricksImport> bricks_import_of(const Options& options, float voxel_size_m
 
 Result<void> run_solids(const Options& options) {
   const auto began = std::chrono::steady_clock::now();
-  if (!options.preview.empty()) return fail("--preview draws elevation models alone");
+  if (!options.preview.empty()) return fail("--preview is only for elevation models");
   std::shared_ptr<const GroundFile> on;
   if (!options.on.empty()) {
     auto file = TRY(GroundFile::open(options.on));
     on = std::move(file);
-    if (options.level_m) return fail("--level is of solids that stand on no ground (--on)");
+    if (options.level_m) return fail("--level cannot be used with --on: solids then stand on that ground");
   }
   SolidsImport solids = options.solids;
   if (options.voxel_size_m)
@@ -196,7 +200,9 @@ Result<void> run(const Options& options) {
     const auto solids = std::ranges::count_if(options.files, is_solid_file);
     if (solids == 0) return run_heights(options);
     if (solids < std::ssize(options.files))
-      return fail("elevation models and solids are not imported together: solids stand on a ground (--on)");
+      return fail(
+          "elevation models and solids cannot be imported together: import the model first, then the solids "
+          "with --on");
     return run_solids(options);
   } catch (const std::bad_alloc&) {
     return fail(options.files.front() + ": it does not fit into memory (--memory-max)");
@@ -208,7 +214,7 @@ Result<void> run(const Options& options) {
 
 int main(int argc, char** argv) {
   scree::fail_at_file_limit();
-  CLI::App app("Makes a ground file of an elevation model or of solids: what scree-server --ground hosts.",
+  CLI::App app("Makes a ground file for scree-server --ground, from an elevation model or from solids.",
                "scree-import");
   app.set_version_flag("--version", SCREE_VERSION);
   scree::Options options;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 #include <openvdb/tools/Interpolation.h>
 #include <set>
@@ -53,8 +54,10 @@ class GridSolid final : public Solid {
     TRY(layout_around(box_, static_cast<float>(voxel_m_)));
     find_surface();
     if (touched_ > limits::solid_surface_max)
-      return fail("it is too large for voxels of " + std::to_string(voxel_m_) +
-                  " m (limits.solid_surface_max); larger ones (--voxel-size) or a smaller --scale fit");
+      return fail(
+          fmt::format("it is too large for voxels of {:.6g} m (limits.solid_surface_max); larger ones "
+                      "(--voxel-size) or a smaller --scale fit",
+                      voxel_m_));
     return {};
   }
 

@@ -37,21 +37,21 @@ Result<FloatGrid::Ptr> grid_of(const openvdb::GridPtrVec& grids, const std::stri
     if (!name.empty() && grid->getName() != name) continue;
     if (auto floats = floats_of(grid)) return floats;
     if (!name.empty())
-      return fail(fmt::format("its grid '{}' is of {}, not of floats", name, grid->valueType()));
+      return fail(fmt::format("its grid '{}' has values of type {}, not floats", name, grid->valueType()));
   }
   if (grids.empty()) return fail("it holds no grid");
-  return fail(name.empty() ? fmt::format("it holds no grid of floats, but {}", list_of(grids))
-                           : fmt::format("it holds no grid '{}', but {}", name, list_of(grids)));
+  return fail(name.empty() ? fmt::format("it has no grid of floats; it has {}", list_of(grids))
+                           : fmt::format("it has no grid '{}'; it has {}", name, list_of(grids)));
 }
 
 Result<void> check_values(const FloatGrid& grid) {
   if (grid.empty()) return fail("the grid is empty");
-  if (!std::isfinite(grid.background())) return fail("the grid's background is no number");
+  if (!std::isfinite(grid.background())) return fail("the grid's background is not a number");
   for (auto value = grid.cbeginValueAll(); value; ++value)
     if (!std::isfinite(*value)) {
       const openvdb::Coord at = value.getCoord();
       return fail(
-          fmt::format("the grid has a value that is no number, at ({}, {}, {})", at.x(), at.y(), at.z()));
+          fmt::format("the grid has a value that is not a number, at ({}, {}, {})", at.x(), at.y(), at.z()));
     }
   const openvdb::Vec3d size = grid.voxelSize();
   for (int axis = 0; axis < 3; ++axis)
@@ -112,7 +112,7 @@ Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
   const GridSide side =
       solid.is_level_set ? GridSide{0.0F, 1.0F} : GridSide{static_cast<float>(how.density), -1.0F};
   if (side.sign * ((*grid)->background() - side.iso) < 0.0F)
-    return fail("all around the grid is rock, without end: its background must be outside");
+    return fail("the grid's background is inside the rock: it must be outside");
   auto made = TRY(solid_of_grid(*grid, materials, side, how.place, how.voxel_size_m));
   solid.solid = std::move(made);
   apply_metadata(**grid, how, solid);
@@ -129,7 +129,7 @@ Result<VdbSolid> read_vdb(const std::string& path, const VdbImport& how) {
   } catch (const std::bad_alloc&) {
     return fail(path + ": it does not fit into memory (--memory-max)");
   } catch (const std::exception& error) {
-    return fail(path + ": no OpenVDB file, or damaged: " + error.what());
+    return fail(path + ": not an OpenVDB file, or a damaged one: " + error.what());
   }
 }
 

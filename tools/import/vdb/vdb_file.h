@@ -9,7 +9,7 @@
 namespace scree {
 
 struct VdbImport {
-  std::string grid{};    ///< its name; unless said, the first of floats
+  std::string grid{};    ///< its name; default: the first of floats
   double density = 0.5;  ///< of a fog volume: rock where it is more
   Placement place{};
   float voxel_size_m = 0.25F;  ///< of the world

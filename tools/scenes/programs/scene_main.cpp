@@ -46,7 +46,7 @@ glm::vec3 middle_of(const std::vector<CarveRequest>& strikes) {
 int make(const std::string& name, const std::string& path) {
   const SceneRow* scene = scene_named(name);
   if (scene == nullptr) {
-    std::fprintf(stderr, "there is no scene '%s': it is %s\n", name.c_str(), scene_names().c_str());
+    std::fprintf(stderr, "there is no scene '%s'; the scenes are %s\n", name.c_str(), scene_names().c_str());
     return usage_error;
   }
   const std::string folder = std::filesystem::absolute(path).parent_path().string();
@@ -64,15 +64,15 @@ int make(const std::string& name, const std::string& path) {
 }
 
 int run(int argc, char** argv) {
-  CLI::App app("Makes worlds of the scenes of tests, benches and pictures.", "scree-scene");
+  CLI::App app("Makes worlds from the scenes of tests, benches and pictures.", "scree-scene");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(1);
-  const CLI::App* list_command = app.add_subcommand("list", "names the scenes");
+  const CLI::App* list_command = app.add_subcommand("list", "lists the scenes");
   CLI::App* make_command =
-      app.add_subcommand("make", "makes the file of a world, and its ground's beside it");
+      app.add_subcommand("make", "makes the file of a world, and the file of its ground in the same folder");
   std::string name, path;
-  make_command->add_option("SCENE", name, "one of list")->required();
-  make_command->add_option("FILE", path, "the new file: scree-server --world FILE hosts it")->required();
+  make_command->add_option("SCENE", name, "name of a scene (see list)")->required();
+  make_command->add_option("FILE", path, "the new file, for scree-server --world FILE")->required();
   refuse_empty(*make_command);
   try {
     app.parse(argc, argv);
