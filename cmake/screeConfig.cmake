@@ -1,6 +1,6 @@
 # find_package(scree): the targets of this build tree, with scree:: before their names, and the libraries that they link.
 # The simulation is always there. COMPONENTS server: to serve worlds (scree_app_lib, scree_net, ...); client: clients
-# without a window (scree_mirror, scree_connection, ...).
+# without a window (scree_client, scree_mirror, scree_connection, ...).
 list(APPEND CMAKE_MODULE_PATH /usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB)
 include(CMakeFindDependencyMacro)
 find_dependency(OpenVDB)

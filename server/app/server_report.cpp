@@ -4,6 +4,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "server/app/web_folder.h"
+
 namespace scree {
 
 namespace {
@@ -217,6 +219,13 @@ std::string to_json(const ServerReport& report) {
   if (!report.world_path.empty()) json["world"] = json_of(report.world_path, report.saving);
   if (report.error) json["error"] = *report.error;
   return json.dump(2) + "\n";
+}
+
+std::string listening_line(uint16_t port, const NetConfig& net) {
+  Json line{{"listening", port}, {"bind", net.bind}};
+  if (!net.web.folder.empty())
+    line["page"] = page_url(net.bind, port, !net.access.tls_certificate_path.empty());
+  return line.dump();
 }
 
 }  // namespace scree

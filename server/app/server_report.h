@@ -77,5 +77,7 @@ struct ServerReport {
 };
 
 std::string to_json(const ServerReport& report);
+/// Tells programs where the server listens, as one line of JSON: port, addresses and, if it serves one, the page.
+std::string listening_line(uint16_t port, const NetConfig& net);
 
 }  // namespace scree

@@ -20,7 +20,7 @@ namespace {
 
 /// Texture units: 0 and 1 are BrickWorld's.
 constexpr int lines_unit = 2;
-constexpr int shadow_unit = 3;
+constexpr int grid_shadow_unit = 3;
 constexpr int cases_unit = 4;
 
 /// As client/shaders/grid.geom reads it: for each case a row of corners of triangles, and one that ends it.
@@ -48,14 +48,14 @@ Result<gl::Program> link_grid(std::string_view name, std::span<const std::string
   return gl::Program::link(name, vertex, fragment, geometry);
 }
 
-struct Programs {
+struct GridPrograms {
   gl::Program grid;
   gl::Program grid_shadow;
   SurfaceProgram piece;
   SurfaceProgram piece_shadow;
 };
 
-Result<Programs> link_programs() {
+Result<GridPrograms> link_grid_programs() {
   Result<gl::Program> grid = link_grid("grid", surface_fragment_parts());
   if (!grid) return fail(grid.error().message);
   Result<gl::Program> shadow = link_grid("grid_shadow", std::array{shader_source("surface_shadow.frag")});
@@ -64,12 +64,12 @@ Result<Programs> link_programs() {
   if (!piece) return fail(piece.error().message);
   Result<SurfaceProgram> piece_shadow = link_surface_shadow();
   if (!piece_shadow) return fail(piece_shadow.error().message);
-  return Programs{std::move(*grid), std::move(*shadow), std::move(*piece), std::move(*piece_shadow)};
+  return GridPrograms{std::move(*grid), std::move(*shadow), std::move(*piece), std::move(*piece_shadow)};
 }
 
 class GridMethod final : public DrawMethod {
  public:
-  GridMethod(WorkPool& pool, float view_radius_m, Programs&& programs);
+  GridMethod(WorkPool& pool, float view_radius_m, GridPrograms&& programs);
 
   void changed(const MirrorChanges& changes) override {
     bricks_.insert(bricks_.end(), changes.bricks.begin(), changes.bricks.end());
@@ -89,7 +89,7 @@ class GridMethod final : public DrawMethod {
 
   WorkPool& pool_;
   float view_radius_m_;
-  Programs programs_;
+  GridPrograms programs_;
   GridShape shape_;
   gl::Texture cases_;
   gl::Query triangles_;  ///< of the terrain in the last colour pass
@@ -102,7 +102,7 @@ class GridMethod final : public DrawMethod {
   DrawStats pass_;
 };
 
-GridMethod::GridMethod(WorkPool& pool, float view_radius_m, Programs&& programs)
+GridMethod::GridMethod(WorkPool& pool, float view_radius_m, GridPrograms&& programs)
     : pool_(pool), view_radius_m_(view_radius_m), programs_(std::move(programs)) {
   glBindTexture(GL_TEXTURE_2D, cases_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -143,7 +143,7 @@ void GridMethod::draw_terrain(const DrawPass& pass, const Frustum& frustum) {
   points_.place(shape_, *world_, pass.eye_m, frustum);
   program.use();
   world_->use(program, pass.eye_m);
-  set_lighting(program, pass, shadow_unit);
+  set_lighting(program, pass, grid_shadow_unit);
   program.set("u_view_projection", pass.view_projection);
   glUniform4f(program.uniform("u_rotation"), 0.0F, 0.0F, 0.0F, 1.0F);
   program.set("u_loose", 0.0F);
@@ -167,7 +167,7 @@ void GridMethod::draw_pieces(const DrawPass& pass, const Frustum& frustum) {
   const SurfaceProgram& program = shadow ? programs_.piece_shadow : programs_.piece;
   program.program.use();
   program.program.set("u_view_projection", pass.view_projection);
-  if (!shadow) set_lighting(program.program, pass, shadow_unit);
+  if (!shadow) set_lighting(program.program, pass, grid_shadow_unit);
   pieces_.draw(program, frustum, world_->voxel_m(), pass_);
   glBindVertexArray(0);
 }
@@ -202,7 +202,7 @@ std::optional<std::string> grid_method_missing() {
 }
 
 Result<std::unique_ptr<DrawMethod>> make_grid_method(WorkPool& pool, float view_radius_m) {
-  Result<Programs> programs = link_programs();
+  Result<GridPrograms> programs = link_grid_programs();
   if (!programs) return fail(programs.error().message);
   return std::make_unique<GridMethod>(pool, view_radius_m, std::move(*programs));
 }

@@ -23,9 +23,9 @@ namespace scree {
 namespace {
 
 /// Texture units: 0 and 1 are BrickWorld's, 2 the tiles' or the pieces' entries.
-constexpr int shadow_unit = 3;
+constexpr int raymarch_shadow_unit = 3;
 
-struct Programs {
+struct RaymarchPrograms {
   gl::Program cone;
   gl::Program march;
   gl::Program piece;
@@ -44,7 +44,7 @@ Result<gl::Program> link(std::string_view name, std::initializer_list<std::strin
   return gl::Program::link(name, sources(vertex), sources(fragment));
 }
 
-Result<Programs> link_programs() {
+Result<RaymarchPrograms> link_raymarch_programs() {
   Result<gl::Program> cone =
       link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"});
   if (!cone) return fail(cone.error().message);
@@ -62,8 +62,8 @@ Result<Programs> link_programs() {
   if (!shadow) return fail(shadow.error().message);
   Result<gl::Program> composite = link("composite", {"screen.vert"}, {"composite.frag"});
   if (!composite) return fail(composite.error().message);
-  return Programs{std::move(*cone), std::move(*march), std::move(*piece), std::move(*shadow),
-                  std::move(*composite)};
+  return RaymarchPrograms{std::move(*cone), std::move(*march), std::move(*piece), std::move(*shadow),
+                          std::move(*composite)};
 }
 
 /// Radius that a pixel covers at one metre: half the distance between two rays.
@@ -78,7 +78,7 @@ float pixel_at_one_metre(const glm::mat4& inverse, int height) {
 
 class RaymarchMethod final : public DrawMethod {
  public:
-  RaymarchMethod(WorkPool& pool, float view_radius_m, Programs&& programs)
+  RaymarchMethod(WorkPool& pool, float view_radius_m, RaymarchPrograms&& programs)
       : pool_(pool), view_radius_m_(view_radius_m), programs_(std::move(programs)) {}
 
   void changed(const MirrorChanges& changes) override {
@@ -99,7 +99,7 @@ class RaymarchMethod final : public DrawMethod {
 
   WorkPool& pool_;
   float view_radius_m_;
-  Programs programs_;
+  RaymarchPrograms programs_;
   MarchTargets targets_;
   gl::VertexArray nothing_;  ///< core profiles draw with an array bound only
   std::optional<BrickWorld> world_;
@@ -160,7 +160,7 @@ void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse,
   world_->use(program, pass.eye_m);
   program.set("u_inverse_view_projection", inverse);
   program.set("u_view_projection", pass.view_projection);
-  set_lighting(program, pass, shadow_unit);
+  set_lighting(program, pass, raymarch_shadow_unit);
   program.set("u_pieces", pieces_.count() > 0 ? 1 : 0);
   program.set("u_pixel", pixel);
   program.set("u_tile", MarchTargets::tile);
@@ -182,7 +182,7 @@ void RaymarchMethod::draw_pieces(const DrawPass& pass) {
   const GpuTimers::Part part(pass.timers, "pieces");
   program.use();
   world_->use(program, pass.eye_m);
-  set_lighting(program, pass, shadow_unit);
+  set_lighting(program, pass, raymarch_shadow_unit);
   program.set("u_view_projection", pass.view_projection);
   const glm::vec3 from = shadow ? pass.lighting.sun : pass.eye_m;
   glUniform4f(program.uniform("u_viewpoint"), from.x, from.y, from.z, shadow ? 0.0F : 1.0F);
@@ -229,7 +229,7 @@ DrawStats RaymarchMethod::stats() const {
 }  // namespace
 
 Result<std::unique_ptr<DrawMethod>> make_raymarch_method(WorkPool& pool, float view_radius_m) {
-  Result<Programs> programs = link_programs();
+  Result<RaymarchPrograms> programs = link_raymarch_programs();
   if (!programs) return fail(programs.error().message);
   return std::make_unique<RaymarchMethod>(pool, view_radius_m, std::move(*programs));
 }

@@ -13,7 +13,7 @@ namespace {
 
 /// Air stops a puff: part of its speed that is lost, a second.
 constexpr float drag_per_s = 2.2F;
-constexpr float rise_m_s = 0.10F;
+constexpr float dust_rise_m_s = 0.10F;
 /// Beyond it, an event throws no more.
 constexpr float size_max_m = 3.0F;
 
@@ -155,7 +155,7 @@ Particle Dust::aged(const Grain& grain, float age_s) {
     left = std::min(1.0F, 5.0F * (1.0F - share));
   } else {
     const float way_s = (1.0F - std::exp(-drag_per_s * age_s)) / drag_per_s;
-    now.place_m += grain.speed_m_s * way_s + glm::vec3(0.0F, rise_m_s * age_s, 0.0F);
+    now.place_m += grain.speed_m_s * way_s + glm::vec3(0.0F, dust_rise_m_s * age_s, 0.0F);
     now.radius_m *= 1.0F + 2.0F * std::sqrt(share);
     left = std::min(1.0F, 12.0F * share) * (1.0F - share) * (1.0F - share);
   }

@@ -89,14 +89,14 @@ constexpr std::array table{
 };
 
 /// What no single key does.
-struct Motion {
+struct CameraMotion {
   std::string_view by_hand;
   std::string_view by_gamepad;
   std::string_view does;
   bool changes = false;  ///< the world, which a replay does not let
 };
 
-constexpr std::array<Motion, 4> motions{{
+constexpr std::array<CameraMotion, 4> motions{{
     {"W A S D", "pad left stick", "move (Shift or left trigger: faster)"},
     {"Space C", "pad stick presses", "up, down; on foot, Space jumps"},
     {"mouse", "pad right stick", "look"},
@@ -143,7 +143,7 @@ std::string describe_controls(Telling telling, bool gamepad, ControlsOf of) {
     if (gamepad) text.append(button).append(gamepad_column - button.size(), ' ');
     text.append(does).append("\n");
   };
-  for (const Motion& motion : motions)
+  for (const CameraMotion& motion : motions)
     if (of != ControlsOf::replay || !motion.changes) add(motion.by_hand, motion.by_gamepad, motion.does);
   const std::span<const Action> first =
       of == ControlsOf::replay ? std::span<const Action>(replay_basics) : basics;

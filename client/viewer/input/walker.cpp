@@ -12,7 +12,7 @@ namespace {
 
 constexpr float tick_s = 1.0F / 120.0F;
 constexpr float frame_max_s = 0.1F;  ///< a longer one is shortened: after a stall, nobody has walked on
-constexpr float gravity_m_s2 = 9.81F;
+constexpr float fall_m_s2 = 9.81F;
 constexpr float walk_m_s = 4.0F;
 constexpr float run_m_s = 7.5F;
 constexpr float jump_m_s = 4.8F;  ///< 1.2 m high
@@ -56,7 +56,7 @@ Push deepest(glm::vec3 feet_m, Touch touch) {
 
 /// Out of it: ground that carries pushes straight up, so that nobody slides; a wall to the side, so that
 /// nobody climbs.
-glm::vec3 way_out(const Push& push) {
+glm::vec3 push_out_m(const Push& push) {
   const float upward = push.away.y;
   if (upward >= Walker::slope_cosine) return up * (push.depth_m / upward);
   const float sideward = glm::length(level(push.away));
@@ -78,7 +78,7 @@ Walker::Settled Walker::settle(glm::vec3 feet_m, WalkGround& ground) {
   Settled settled{feet_m, false, std::nullopt};
   const auto push_out = [&](const Push& push) {
     if (push.depth_m <= 0.0F) return false;
-    settled.feet_m += way_out(push);
+    settled.feet_m += push_out_m(push);
     if (push.away.y >= slope_cosine) {
       settled.carried = true;
     } else {
@@ -116,7 +116,7 @@ void Walker::speed_up(const WalkInput& input) {
     stands_ = false;
     still_ticks_ = 0;
   }
-  speed_m_s_.y = std::max(speed_m_s_.y - gravity_m_s2 * tick_s, -fall_max_m_s);
+  speed_m_s_.y = std::max(speed_m_s_.y - fall_m_s2 * tick_s, -fall_max_m_s);
 }
 
 void Walker::tick(const WalkInput& input, WalkGround& ground) {

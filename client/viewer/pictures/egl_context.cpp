@@ -7,7 +7,7 @@
 namespace scree {
 namespace {
 
-constexpr const char* way_out =
+constexpr const char* gl_advice =
     "; install libegl1 and libgl1-mesa-dri (Mesa's software driver needs no GPU), or run the viewer in a "
     "window";
 
@@ -48,11 +48,11 @@ Result<std::unique_ptr<EglContext>> EglContext::create(bool debug) {
   if (display == EGL_NO_DISPLAY)
     return fail(
         std::string("offscreen drawing needs EGL with its surfaceless platform, which was not found") +
-        way_out);
+        gl_advice);
   EGLint major = 0;
   EGLint minor = 0;
   if (eglInitialize(display, &major, &minor) != EGL_TRUE)
-    return fail(std::string("EGL was found but cannot start: no driver for it") + way_out);
+    return fail(std::string("EGL was found but cannot start: no driver for it") + gl_advice);
   // No config: nothing is ever drawn but into framebuffer objects (EGL_KHR_no_config_context).
   EGLContext context = make_desktop_context(display, EGL_NO_CONFIG_KHR, debug);
   if (context == EGL_NO_CONTEXT) context = make_es_context(display, EGL_NO_CONFIG_KHR);
@@ -60,7 +60,7 @@ Result<std::unique_ptr<EglContext>> EglContext::create(bool debug) {
       eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) != EGL_TRUE) {
     if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
     eglTerminate(display);
-    return fail(std::string("EGL's driver has neither OpenGL 3.3 nor OpenGL ES 3.0") + way_out);
+    return fail(std::string("EGL's driver has neither OpenGL 3.3 nor OpenGL ES 3.0") + gl_advice);
   }
   return std::unique_ptr<EglContext>(new EglContext(display, context));
 }

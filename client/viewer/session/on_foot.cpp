@@ -11,7 +11,7 @@ namespace scree {
 namespace {
 
 /// How fast the eye's height over the feet changes, so that steps are climbed without a jolt.
-constexpr float rise_m_s = 3.0F;
+constexpr float step_rise_m_s = 3.0F;
 
 }  // namespace
 
@@ -32,7 +32,7 @@ void OnFoot::step(Camera& camera, const FlyInput& input, float elapsed_s, const 
   walker_->step(walk, elapsed_s, ground);
   const glm::vec3 eye_m = walker_->eye_m();
   const bool steps = stood && walker_->stands() && std::abs(eye_m.y - camera.eye_m.y) < 2.0F * Walker::step_m;
-  const float most_m = rise_m_s * elapsed_s;
+  const float most_m = step_rise_m_s * elapsed_s;
   const float before_m = camera.eye_m.y;
   camera.eye_m = eye_m;
   if (steps) camera.eye_m.y = std::clamp(eye_m.y, before_m - most_m, before_m + most_m);

@@ -52,8 +52,8 @@ constexpr Manner manner_of(PieceEventKind kind) {
 
 constexpr float rate = static_cast<float>(Synthesiser::rate_hz);
 constexpr float sound_m_s = 343.0F;
-constexpr float loud_n_s = 4000.0F;  ///< impulse of full loudness at near_m
-constexpr float near_m = 3.0F;
+constexpr float loud_n_s = 4000.0F;  ///< impulse of full loudness at loud_within_m
+constexpr float loud_within_m = 3.0F;
 constexpr float silent = 1e-4F;
 constexpr std::array overtones{1.0F, 1.83F, 2.71F};  ///< of a block that is no string
 
@@ -70,7 +70,7 @@ void Synthesiser::add(const PieceEvent& event, const Ears& ears) {
   const glm::vec3 way_m = event.place_m - ears.place_m;
   const float far_m = glm::length(way_m);
   const float loud = std::sqrt(std::clamp(event.impulse_n_s / loud_n_s, 0.0F, 4.0F)) * manner.loudness *
-                     near_m / std::max(far_m, near_m);
+                     loud_within_m / std::max(far_m, loud_within_m);
   ++added_;
   if (!(loud > silent)) return;
   Voice voice;

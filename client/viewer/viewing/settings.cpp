@@ -13,19 +13,19 @@
 namespace scree {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 /// Reads one field after the other; keeps the first error.
 class Reader {
  public:
-  explicit Reader(const Json& json) : json_(json) {}
+  explicit Reader(const OrderedJson& json) : json_(json) {}
 
   void flag(const char* name, bool& value) {
-    if (const Json* found = find(name, &Json::is_boolean)) value = found->get<bool>();
+    if (const OrderedJson* found = find(name, &OrderedJson::is_boolean)) value = found->get<bool>();
   }
   template <typename T>
   void number(const char* name, T& value, T min, T max) {
-    const Json* found = find(name, &Json::is_number);
+    const OrderedJson* found = find(name, &OrderedJson::is_number);
     if (found == nullptr) return;
     const auto given = found->get<double>();
     if (!(given >= static_cast<double>(min) && given <= static_cast<double>(max)))
@@ -35,7 +35,7 @@ class Reader {
   /// The place in `names`.
   template <typename E, size_t n>
   void choice(const char* name, E& value, const std::array<E, n>& all) {
-    const Json* found = find(name, &Json::is_string);
+    const OrderedJson* found = find(name, &OrderedJson::is_string);
     if (found == nullptr) return;
     for (const E one : all) {
       if (name_of(one) != found->get<std::string>()) continue;
@@ -45,11 +45,12 @@ class Reader {
     wrong(name, "has no such value");
   }
   void text(const char* name, std::string& value) {
-    if (const Json* found = find(name, &Json::is_string)) value = found->get<std::string>();
+    if (const OrderedJson* found = find(name, &OrderedJson::is_string)) value = found->get<std::string>();
   }
   void option(const DrawOption& option, DrawOptionValues& values) {
     const std::string key = key_of(option);
-    const Json* found = find(key.c_str(), option.is_number() ? &Json::is_number : &Json::is_string);
+    const OrderedJson* found =
+        find(key.c_str(), option.is_number() ? &OrderedJson::is_number : &OrderedJson::is_string);
     if (found == nullptr) return;
     for (const int value : option.values) {
       const bool is_this = option.is_number() ? found->get<double>() == value
@@ -64,7 +65,7 @@ class Reader {
   const std::string& error() const { return error_; }
 
  private:
-  const Json* find(const char* name, bool (Json::*is_right)() const noexcept) {
+  const OrderedJson* find(const char* name, bool (OrderedJson::*is_right)() const noexcept) {
     const auto found = json_.find(name);
     if (found == json_.end()) return nullptr;
     if (((*found).*is_right)()) return &*found;
@@ -72,7 +73,7 @@ class Reader {
     return nullptr;
   }
 
-  const Json& json_;
+  const OrderedJson& json_;
   std::string error_;
 };
 
@@ -91,7 +92,7 @@ std::string settings_file() {
 
 Result<Settings> parse_settings(const std::string& text) {
   TRY(check_json_depth(text));
-  const Json json = Json::parse(text, nullptr, false);
+  const OrderedJson json = OrderedJson::parse(text, nullptr, false);
   if (!json.is_object()) return fail("it is not a JSON object");
   Settings settings;
   Reader reader(json);
@@ -133,35 +134,35 @@ Result<Settings> parse_settings(const std::string& text) {
 }
 
 std::string to_text(const Settings& settings) {
-  Json json{{"width", settings.width},
-            {"height", settings.height},
-            {"method", settings.method},
-            {"quality", settings.quality ? name_of(*settings.quality) : auto_name},
-            {"controls", name_of(settings.hud.help)},
-            {"figures", settings.hud.figures},
-            {"graphs", settings.hud.graphs},
-            {"panel", settings.hud.panel},
-            {"persons", settings.hud.persons},
-            {"field_of_view_degrees", settings.hand.field_of_view_degrees},
-            {"mouse_speed", settings.hand.mouse_speed},
-            {"text_scale", settings.hand.text_scale},
-            {"overlay", settings.overlay.shown},
-            {"overlay_interest", settings.overlay.interest},
-            {"overlay_chunks", settings.overlay.chunks},
-            {"overlay_pieces", settings.overlay.pieces},
-            {"overlay_physics", settings.overlay.physics},
-            {"tool", name_of(settings.tool.kind)},
-            {"use", name_of(settings.tool.use)},
-            {"material", name_of(settings.tool.material)},
-            {"radius_m", settings.tool.radius_m},
-            {"blast_speed_m_s", settings.tool.blast_speed_m_s},
-            {"pattern", name_of(settings.tool.pattern)},
-            {"seeds", settings.tool.seeds},
-            {"particles", settings.particles},
-            {"predict", settings.predict}};
+  OrderedJson json{{"width", settings.width},
+                   {"height", settings.height},
+                   {"method", settings.method},
+                   {"quality", settings.quality ? name_of(*settings.quality) : auto_name},
+                   {"controls", name_of(settings.hud.help)},
+                   {"figures", settings.hud.figures},
+                   {"graphs", settings.hud.graphs},
+                   {"panel", settings.hud.panel},
+                   {"persons", settings.hud.persons},
+                   {"field_of_view_degrees", settings.hand.field_of_view_degrees},
+                   {"mouse_speed", settings.hand.mouse_speed},
+                   {"text_scale", settings.hand.text_scale},
+                   {"overlay", settings.overlay.shown},
+                   {"overlay_interest", settings.overlay.interest},
+                   {"overlay_chunks", settings.overlay.chunks},
+                   {"overlay_pieces", settings.overlay.pieces},
+                   {"overlay_physics", settings.overlay.physics},
+                   {"tool", name_of(settings.tool.kind)},
+                   {"use", name_of(settings.tool.use)},
+                   {"material", name_of(settings.tool.material)},
+                   {"radius_m", settings.tool.radius_m},
+                   {"blast_speed_m_s", settings.tool.blast_speed_m_s},
+                   {"pattern", name_of(settings.tool.pattern)},
+                   {"seeds", settings.tool.seeds},
+                   {"particles", settings.particles},
+                   {"predict", settings.predict}};
   for (const DrawOption* option : all_draw_options()) {
     const int value = settings.method_options.of(*option);
-    json[key_of(*option)] = option->is_number() ? Json(value) : Json(text_of(*option, value));
+    json[key_of(*option)] = option->is_number() ? OrderedJson(value) : OrderedJson(text_of(*option, value));
   }
   return json.dump(2) + "\n";
 }

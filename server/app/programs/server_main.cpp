@@ -4,13 +4,11 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include "server/app/resident_memory.h"
 #include "server/app/server_options.h"
-#include "server/app/web_folder.h"
 #include "shared/base/program_output.h"
 
 namespace scree {
@@ -53,14 +51,6 @@ void wait_for_end(LiveServer& server, const sigset_t& signals) {
   }
 }
 
-void announce(const LiveServer& server, const NetConfig& net) {
-  nlohmann::ordered_json line{{"listening", server.port()}, {"bind", net.bind}};
-  if (!net.web.folder.empty())
-    line["page"] = page_url(net.bind, server.port(), !net.access.tls_certificate_path.empty());
-  std::printf("%s\n", line.dump().c_str());
-  std::fflush(stdout);
-}
-
 bool write_report(const LiveServer& server, const std::string& path) {
   if (path.empty()) return true;
   std::ofstream file(path);
@@ -80,7 +70,8 @@ int run(const ServerOptions& options) {
     spdlog::error("{}", server.error().message);
     return failed;
   }
-  announce(**server, options.live.net);
+  std::printf("%s\n", listening_line((*server)->port(), options.live.net).c_str());
+  std::fflush(stdout);
   wait_for_end(**server, signals);
   const auto stopped = (*server)->stop();
   const bool reported = write_report(**server, options.report_path);
