@@ -120,11 +120,10 @@ function(scree_program NAME MAIN)
   scree_optimise_little(${NAME} ${MAIN})
 endfunction()
 
-# A program whose library reads its options.
+# A program that is a function of its library.
 function(scree_program_of_library NAME MAIN)
   add_executable(${NAME} ${MAIN})
   target_link_libraries(${NAME} PRIVATE ${ARGN})
-  target_precompile_headers(${NAME} REUSE_FROM scree_precompiled)
 endfunction()
 
 # Asio, compiled once. What its headers define depends on these: every target in one program must say the same.

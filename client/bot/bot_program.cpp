@@ -1,0 +1,56 @@
+#include "client/bot/bot_program.h"
+
+#include <cstdio>
+#include <fstream>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include "client/bot/bot_options.h"
+#include "shared/base/program_output.h"
+
+namespace scree {
+
+namespace {
+
+constexpr int exit_failed = 1;
+constexpr int exit_refused = 3;
+
+bool write_report(const std::string& path, const std::string& json) {
+  if (path.empty()) return true;
+  if (path == "-") return std::fwrite(json.data(), 1, json.size(), stdout) == json.size();
+  std::ofstream file(path);
+  file << json << std::flush;
+  return file.good();
+}
+
+int run(const BotOptions& options) {
+  Bot bot(options.bot, [](const std::string& line) { spdlog::info(line); });
+  const BotReport report = bot.run();
+  const bool written = write_report(options.report, to_json(report));
+  if (!written) spdlog::error("cannot write the report to {}", options.report);
+  if (!report.failure.empty()) spdlog::error(report.failure);
+  spdlog::info("{} carves asked, {} accepted, {} refused, {} lost; {} pieces made, {} merged, {} alive",
+               report.carves_asked, report.carves_accepted, report.carves_refused, report.carves_lost,
+               report.seen.pieces_made, report.seen.pieces_merged, report.pieces_alive);
+  if (!report.failure.empty() || !written) return exit_failed;
+  const std::string refused = all_refused(report);
+  if (refused.empty()) return 0;
+  spdlog::error(refused);
+  return exit_refused;
+}
+
+}  // namespace
+
+int bot_program(int argc, char** argv) {
+  fail_at_file_limit();
+  const auto parsed = parse_bot_options(argc, argv);
+  if (const int* status = std::get_if<int>(&parsed)) return *status;
+  const auto& options = std::get<BotOptions>(parsed);
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("bot"));
+  spdlog::set_pattern("%H:%M:%S.%e %n %v");
+  if (options.quiet) spdlog::set_level(spdlog::level::err);
+  if (!options.warning.empty()) spdlog::warn(options.warning);
+  return run(options);
+}
+
+}  // namespace scree
