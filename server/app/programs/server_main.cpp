@@ -80,6 +80,9 @@ int run(const ServerOptions& options) {
     spdlog::error("{}", server.error().message);
     return failed;
   }
+  if (!options.token_made.empty())
+    spdlog::warn("an admin token was made: it is the line in {}, which only this server's user can read",
+                 options.token_made);
   announce(**server, options.live.net);
   wait_for_end(**server, signals);
   const auto stopped = (*server)->stop();
