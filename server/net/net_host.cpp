@@ -352,7 +352,8 @@ HealthMessage NetHost::health() {
 
 NetFigures NetHost::status_figures() {
   update_stats();
-  return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s())};
+  return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s()),
+          health()};
 }
 
 void NetHost::update_stats() {

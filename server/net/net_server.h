@@ -60,6 +60,7 @@ struct NetFigures {
   LatencyCounts latency;  ///< of requests that a tick answered, since the start
   StatusMessage status;   ///< what clients are told alike
   std::vector<SessionRow> sessions;
+  HealthMessage health;
 };
 
 struct NetConfig {

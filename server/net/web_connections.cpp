@@ -112,7 +112,8 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
     return no;
   }
   const Asker asker = asker_of(from, request);
-  if (!door_.may_request(asker.address, steady_now_s()))
+  const bool speaks_for_many = config_.proxies.contains(from.ip()) && asker.ip == from.ip();
+  if (!speaks_for_many && !door_.may_request(asker.address, steady_now_s()))
     return refusal(429, Refusal::http_requests_per_second,
                    "too many requests a second from your address (limits.http_requests_per_second_max)");
   if (stopping_) return refusal(503, Refusal::server_stops, "the server stops");

@@ -329,6 +329,8 @@ TEST_F(WebStatusTest, tells_this_machine_of_an_open_server) {
   EXPECT_EQ(json["now"]["tick"], 2);
   EXPECT_EQ(json["now"]["stages_ms"].size(), tick_stages.size());
   EXPECT_EQ(json["now"]["latency_ms"].size(), latency_stages.size());
+  EXPECT_EQ(json["health"]["well"], true);
+  EXPECT_EQ(json["health"]["faults"].size(), 0U);
   EXPECT_EQ(json["sessions"].size(), 1U);
   EXPECT_EQ(json["sessions"][0]["program"], "test");
   EXPECT_EQ(json["sessions"][0]["role"], "builder");
