@@ -62,6 +62,7 @@ struct Writing {
     to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
   }
   void operator()(const GoodbyeMessage&) const { to.mutable_goodbye(); }
+  void operator()(const AskHealthMessage&) const { to.mutable_ask_health(); }
   void operator()(const AskTilesMessage& from) const { write(*to.mutable_tiles(), from); }
   void operator()(const SayMessage& from) const { write(*to.mutable_say(), from); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
@@ -146,6 +147,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read_offer(from.offer(), check));
     case wire::ClientMessage::kGoodbye:
       return GoodbyeMessage{};
+    case wire::ClientMessage::kAskHealth:
+      return AskHealthMessage{};
     case wire::ClientMessage::kTiles:
       return checked(read_tile_request(from.tiles(), check));
     case wire::ClientMessage::kSay:

@@ -49,6 +49,7 @@ void write(wire::Hello& to, const HelloMessage& from) {
   if (!from.lacks_kernels) to.set_operations(from.operations);
   to.set_oldest_protocol(from.oldest_protocol);
   to.set_meets(from.meets);
+  to.set_administers(from.administers);
   to.set_ticket(from.ticket);
   to.set_world(from.world);
 }
@@ -66,6 +67,7 @@ HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
   hello.lacks_kernels = from.lacks_kernels();
   hello.operations = from.operations() == 0 ? operation_kinds_first : from.operations();
   hello.meets = from.meets();
+  hello.administers = from.administers();
   hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
   hello.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   hello.world = from.world();

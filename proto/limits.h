@@ -109,6 +109,9 @@ inline constexpr size_t piece_voxels_max = size_t{1} << 28;
 inline constexpr size_t refusal_counts_max = 64;
 inline constexpr size_t refusal_name_bytes_max = 32;
 
+/// Faults of a server's health: more than there are kinds. Above: refused.
+inline constexpr size_t health_faults_max = 16;
+
 /// Length of the word by which a status says how the world is saved, bytes. Above: refused.
 inline constexpr size_t saving_bytes_max = 32;
 

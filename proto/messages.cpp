@@ -55,6 +55,13 @@ size_t bytes_of(const std::vector<BanRow>& bans) {
   return bytes;
 }
 
+size_t bytes_of(const std::vector<HealthFault>& faults) {
+  size_t bytes = 0;
+  for (const HealthFault& fault : faults)
+    bytes += sizeof(HealthFault) + fault.name.size() + fault.words.size();
+  return bytes;
+}
+
 size_t bytes_of(const std::vector<BodyView>& bodies) {
   size_t bytes = 0;
   for (const BodyView& body : bodies) bytes += sizeof(BodyView) + bytes_of(body.hull_m);
@@ -88,6 +95,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const MarksMessage& m) { return bytes_of(m.marks); },
                      [](const RecordedCursorsMessage& m) { return bytes_of(m.cursors); },
                      [](const UnknownMessage& m) { return m.value.size(); },
+                     [](const HealthMessage& m) { return bytes_of(m.faults); },
                      [](const SaidMessage& m) { return m.name.size() + m.text.size(); },
                      [](const AdminListMessage& m) { return bytes_of(m.sessions) + bytes_of(m.bans); },
                      [](const PhysicsMessage& m) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "proto/cursor.h"
+#include "proto/health.h"
 #include "proto/marks.h"
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
@@ -42,6 +43,7 @@ struct HelloMessage {
   std::string ticket{};          ///< of the session that goes on, as its welcome gave it; empty: none
   uint64_t world = 0;            ///< of the OfferMessage that comes next; 0: none comes
   bool meets = false;            ///< it is a person's: PersonsMessage and SaidMessage are wanted
+  bool administers = false;      ///< it does nothing else: it sees and changes no terrain, and takes no place
   uint32_t oldest_protocol = 0;  ///< the oldest that it speaks; 0: none but `protocol`
   uint32_t operations = operation_kinds;  ///< it carries out so many kinds, in the order of their numbers
 };
@@ -148,7 +150,7 @@ struct AskTilesMessage {
 using ClientMessage =
     std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairMessage,
                  AckMessage, AdminMessage, CursorMessage, PhysicsSubscriptionMessage, AskGroundMessage,
-                 OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, UnknownMessage>;
+                 OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -381,7 +383,7 @@ using ServerMessage =
     std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
-                 MarksMessage, RecordedCursorsMessage, UnknownMessage>;
+                 MarksMessage, RecordedCursorsMessage, HealthMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -5,6 +5,7 @@
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
 #include "proto/frame_codec.h"
+#include "proto/health_codec.h"
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/operation_codec.h"
@@ -140,6 +141,7 @@ struct Writing {
   void operator()(const RecordedCursorsMessage& from) const {
     write(*to.mutable_recorded_cursors(), CursorsMessage{from.cursors});
   }
+  void operator()(const HealthMessage& from) const { write(*to.mutable_health(), from); }
   void operator()(const PhysicsMessage& from) const { write(*to.mutable_physics(), from); }
   void operator()(const StatusMessage& from) const { write(*to.mutable_status(), from); }
   void operator()(const UnknownMessage&) const {}
@@ -332,6 +334,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.physics(), check));
     case wire::ServerMessage::kStatus:
       return checked(read(from.status(), check));
+    case wire::ServerMessage::kHealth:
+      return checked(read(from.health(), check));
     case wire::ServerMessage::kAdminList:
       return checked(read_admin_list(from.admin_list(), check));
     case wire::ServerMessage::KIND_NOT_SET:

@@ -1,6 +1,7 @@
 #include "client/admin/admin.h"
 
 #include "client/connection/connection.h"
+#include "client/connection/health_probe.h"
 
 namespace scree {
 
@@ -68,6 +69,7 @@ Result<Talk> join(const AdminServer& server) {
   const Clock::time_point until = Clock::now() + server.within;
   HelloMessage hello;
   hello.client = "scree-admin";
+  hello.administers = true;
   auto connected = TRY(Connection::connect(server, hello, server.within));
   return Talk(std::move(connected), until);
 }
@@ -97,6 +99,10 @@ Result<void> done_by(const AdminServer& server, AdminRequest act) {
 }
 
 }  // namespace
+
+Result<HealthMessage> read_health(const AdminServer& server) {
+  return ask_health(server, server.within);
+}
 
 Result<StatusMessage> read_status(const AdminServer& server) {
   Talk talk = TRY(join(server));

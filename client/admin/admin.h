@@ -19,6 +19,12 @@ struct AdminServer : ServerEndpoint {
   std::chrono::milliseconds within{10000};  ///< all of the server's answers
 };
 
+/// The server's health: needs no token, no place and, where TLS is required, no TLS.
+Result<HealthMessage> read_health(const AdminServer& server);
+std::string health_json(const HealthMessage& health);
+/// "healthy, ready, at tick 1200", or what is wrong, a line each.
+std::string health_lines(const HealthMessage& health);
+
 /// The server's next status, settings included. Needs no token where anonymous sessions are taken.
 Result<StatusMessage> read_status(const AdminServer& server);
 /// The status as JSON, or as lines of a name and a value.

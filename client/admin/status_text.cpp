@@ -70,6 +70,26 @@ std::string line(const std::string& name, const Json& value) {
 
 }  // namespace
 
+std::string health_json(const HealthMessage& health) {
+  Json faults = Json::array();
+  for (const HealthFault& fault : health.faults)
+    faults.push_back({{"name", fault.name}, {"words", fault.words}});
+  const Json json{{"alive", health.alive},
+                  {"well", health.well},
+                  {"ready", health.ready},
+                  {"tick", health.tick},
+                  {"faults", std::move(faults)}};
+  return json.dump() + "\n";
+}
+
+std::string health_lines(const HealthMessage& health) {
+  std::string lines = health.well ? "healthy" : "not healthy";
+  lines += std::string(health.ready ? ", ready" : ", not ready") + ", at tick " +
+           std::to_string(health.tick) + "\n";
+  for (const HealthFault& fault : health.faults) lines += fault.name + ": " + fault.words + "\n";
+  return lines;
+}
+
 std::string status_json(const StatusMessage& status) {
   return json_of(status).dump(2) + "\n";
 }

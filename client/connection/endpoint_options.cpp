@@ -80,8 +80,18 @@ Result<void> EndpointOptions::parse_server() {
   return {};
 }
 
+/// One colon is none of an IPv6 address.
+Result<void> EndpointOptions::check_host() const {
+  const std::string& host = endpoint_.host;
+  const size_t colon = host.find(':');
+  if (colon == std::string::npos || host.find(':', colon + 1) != std::string::npos) return {};
+  return fail(fmt::format("--host: '{}' has a port in it: --host {} --port {}", host, host.substr(0, colon),
+                          host.substr(colon + 1)));
+}
+
 Result<void> EndpointOptions::complete() {
   if (names_server()) TRY(parse_server());
+  TRY(check_host());
   endpoint_.tls = endpoint_.tls || !endpoint_.trust.ca_path.empty() || !endpoint_.trust.fingerprint.empty();
   if (!link_.empty()) {
     const auto link = read_link(link_);

@@ -33,6 +33,7 @@ class EndpointOptions {
 
  private:
   Result<void> parse_server();
+  Result<void> check_host() const;
 
   ServerEndpoint& endpoint_;
   std::string server_;

@@ -80,6 +80,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const CursorsMessage&) -> Done { return {}; },
           [](const PersonsMessage&) -> Done { return {}; },
           [](const SaidMessage&) -> Done { return {}; },
+          [](const HealthMessage&) -> Done { return {}; },
           [](const PlaybackMessage&) -> Done { return {}; },
           [](const MarksMessage&) -> Done { return {}; },
           [](const RecordedCursorsMessage&) -> Done { return {}; },

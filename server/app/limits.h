@@ -76,6 +76,16 @@ inline constexpr uint32_t governor_calm_intervals = 4;
 inline constexpr double governor_late_share = 0.2;
 inline constexpr uint32_t governor_raise_percent = 5;
 
+/// Seconds without the end of a tick after which the simulation counts as standing still: the server is not
+/// healthy then, and the log says so, again and again after so many more. The longest ticks that were
+/// measured take a second.
+inline constexpr double still_seconds_max = 5.0;
+inline constexpr double still_line_seconds = 60.0;
+
+/// Seconds for which saves that are due may wait for the one that is being written. Above: the server is not
+/// healthy; a disk that hangs gives no error.
+inline constexpr double save_delay_seconds_max = 10.0;
+
 /// Milliseconds between two looks at what the process has in RAM.
 inline constexpr int resident_sample_ms = 500;
 

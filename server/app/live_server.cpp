@@ -37,6 +37,7 @@ void LiveServer::State::tell() {
         static_cast<uint32_t>(paged.chunks_read - std::exchange(read_before, paged.chunks_read));
   now.paging = {paged.chunks_in, paged.chunks_out, read_last_second, paged.waits, admission.held()};
   const std::scoped_lock lock(mutex);
+  save_delay.note(status, steady_now_s());
   told = std::move(now);
 }
 
@@ -175,8 +176,10 @@ bool LiveServer::State::sleep_until(Clock::time_point when) {
 }
 
 bool LiveServer::State::wait_for_clients() {
-  while (net->stats().sessions_joined < config.wait_clients)
+  while (net->stats().sessions_joined < config.wait_clients) {
+    heartbeat.beat(steady_now_s());
     if (!sleep_until(Clock::now() + wait_period) || time_is_over()) return false;
+  }
   return true;
 }
 
@@ -208,7 +211,9 @@ void LiveServer::State::run() {
   TickSchedule schedule(Clock::now(), period);
   while (sleep_until(schedule.due())) {
     const Clock::time_point began = Clock::now();
+    heartbeat.beat(steady_now_s());
     if (!step()) break;
+    heartbeat.beat(steady_now_s());
     const Clock::time_point ended = Clock::now();
     const TickSchedule::Delay delay = schedule.tick_ended(ended);
     count(delay);

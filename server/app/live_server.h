@@ -12,6 +12,7 @@
 #include <string>
 
 #include "server/app/host_hooks.h"
+#include "server/app/limits.h"
 #include "server/app/server_report.h"
 #include "server/app/tick_feed.h"
 #include "server/net/net_server.h"
@@ -39,6 +40,7 @@ struct LiveConfig {
   double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
   std::string trace_path;     ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
+  double still_seconds = limits::still_seconds_max;  ///< without a tick: the simulation stands still
   bool governed = false;      ///< the setting work-percent follows how late ticks are (load_governor.h)
   Tick ticks_max = 0;         ///< the server ends after so many ticks; 0: never
   double seconds_max = 0.0;   ///< the server ends after so many seconds; 0: never

@@ -38,6 +38,8 @@ Result<void> LiveServer::State::open() {
                 hex_of(given) + " (--ground)");
   config.net.said = config.hooks.said;
   config.net.status = [this](const NetFigures& figures) { return status(figures); };
+  config.net.health = [this] { return health(); };
+  config.net.checked = [this](double now_s) { check_heartbeat(now_s); };
   config.net.takes_cursors = !config.record_path.empty();
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
@@ -57,6 +59,7 @@ Result<void> LiveServer::State::open() {
       governor = std::make_unique<LoadGovernor>(config.world.tick_rate_hz, work_percent_most);
   }
   if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
+  heartbeat.beat(steady_now_s());
   is_open = true;
   return {};
 }

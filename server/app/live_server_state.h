@@ -9,17 +9,20 @@
 #include <thread>
 
 #include "server/app/admission.h"
+#include "server/app/heartbeat.h"
 #include "server/app/live_events.h"
 #include "server/app/live_server.h"
 #include "server/app/load_governor.h"
 #include "server/app/piece_forecast.h"
 #include "server/app/resident_memory.h"
+#include "server/app/save_delay.h"
 #include "server/app/saved_world.h"
 #include "server/app/terrain_ahead.h"
 #include "server/app/terrain_pager.h"
 #include "server/app/tick_schedule.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -29,7 +32,7 @@ struct LiveServer::State {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
   }
 
-  explicit State(const LiveConfig& c) : config(c) {}
+  explicit State(const LiveConfig& c) : config(c), heartbeat(steady_now_s(), c.still_seconds) {}
 
   Result<void> open();
   Result<void> open_world();
@@ -39,6 +42,8 @@ struct LiveServer::State {
   /// On the network thread.
   std::string status(const NetFigures& figures) const;
   Saving saving() const;
+  ServerHealth health() const;
+  void check_heartbeat(double now_s);
   void tell();
   std::shared_ptr<const TickDelta> save_and_filter(std::shared_ptr<const TickDelta> delta,
                                                    std::vector<Reply> refused);
@@ -76,6 +81,7 @@ struct LiveServer::State {
   std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
   std::unique_ptr<Trace> trace;         ///< null: no trace
   std::thread thread;
+  Heartbeat heartbeat;  ///< of the simulation's thread
   Clock::time_point started = Clock::now();
   Clock::duration period{};
   bool record_failed = false;  ///< used by the simulation thread only
@@ -91,6 +97,7 @@ struct LiveServer::State {
 
   mutable std::mutex mutex;  ///< guards the members below
   Saving told;
+  SaveDelay save_delay;
   std::condition_variable changed;
   bool stopping = false;
   bool running = true;

@@ -10,6 +10,7 @@
 #include "proto/messages.h"
 #include "server/app/config_file.h"
 #include "server/app/distinct_files.h"
+#include "server/app/door_options.h"
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
 #include "server/app/web_folder.h"
@@ -20,7 +21,6 @@
 #include "shared/base/listed.h"
 #include "shared/base/option_check.h"
 #include "shared/base/preset.h"
-#include "shared/base/token.h"
 #include "shared/base/workers.h"
 
 namespace scree {
@@ -32,12 +32,11 @@ constexpr int usage_error = 2;
 struct Raw {
   ServerOptions options;
   std::string preset;  ///< empty: none
-  std::string token_path;
+  DoorOptions doors;
   std::string durability = "second";
-  std::string anonymous;  ///< empty: by what else is given
-  std::string ground;     ///< empty: generated
-  std::string web;        ///< empty: the folder beside the program
-  bool loop = false;      ///< of a replay
+  std::string ground;  ///< empty: generated
+  std::string web;     ///< empty: the folder beside the program
+  bool loop = false;   ///< of a replay
   bool end = false;
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
@@ -112,47 +111,6 @@ void add_settings(CLI::App& app, Raw& raw) {
                                          std::string(row.help) + ": " + row.may_be())
         ->default_str(row.print(WorldConfig{}));
   }
-}
-
-void add_admin(CLI::App& app, Raw& raw) {
-  CLI::Option* token =
-      app.add_option("--admin-token", raw.options.live.net.admin_token,
-                     "token of administrators, who change settings, kick and ban; --admin-token-file is "
-                     "safer, because other users can see command lines");
-  app.add_option("--admin-token-file", raw.token_path, "file whose first line is the admin token")
-      ->excludes(token);
-}
-
-constexpr const char* nobody = "none";
-
-void add_access(CLI::App& app, Raw& raw) {
-  AccessConfig& access = raw.options.live.net.access;
-  CLI::Option* certificate =
-      app.add_option("--tls-cert", access.tls_certificate_path,
-                     "PEM file of the certificate, followed by its chain; lets clients connect by TLS");
-  CLI::Option* key =
-      app.add_option("--tls-key", access.tls_key_path, "PEM file of the certificate's private key");
-  certificate->needs(key);
-  key->needs(certificate);
-  app.add_flag("--tls-required", access.tls_required, "refuses connections without TLS")->needs(certificate);
-  CLI::Option* tokens = app.add_option("--token-key", access.token_key_path,
-                                       "public key that verifies access tokens (scree token key makes it)");
-  app.add_option("--token-revoked", access.token_revoked_path, "file of the revoked tokens, one id a line")
-      ->needs(tokens);
-  app.add_option("--anonymous", raw.anonymous,
-                 "role of clients without a token: viewer, carver, builder or none (refused); default: "
-                 "builder, or none with --token-key")
-      ->check(CLI::IsMember(std::vector<std::string>{"viewer", "carver", "builder", nobody}));
-  app.add_option("--world-name", access.world,
-                 "this server's name, for tokens that are valid in one world only");
-  app.add_option("--bans", access.bans_path, "file that keeps bans; without it, bans end with the server");
-}
-
-/// Who has a key for tokens wants them.
-void parse_anonymous(Raw& raw) {
-  AccessConfig& access = raw.options.live.net.access;
-  if (raw.anonymous.empty() && !access.token_key_path.empty()) raw.anonymous = nobody;
-  if (!raw.anonymous.empty()) access.anonymous = kind_named<Role>(raw.anonymous);  // none: no role
 }
 
 /// The world's file.
@@ -254,19 +212,6 @@ void parse_end(Raw& raw) {
   if (raw.end) raw.options.live.replay.at_end = AtEnd::end;
 }
 
-/// The token is looked at where mistakes in options are.
-void parse_token(Raw& raw) {
-  std::string& token = raw.options.live.net.admin_token;
-  if (!raw.token_path.empty()) {
-    Result<std::string> read = read_token(raw.token_path);
-    if (!read) throw CLI::ValidationError("--admin-token-file", read.error().message);
-    token = std::move(*read);
-  }
-  if (token.empty()) return;
-  if (Result<void> good = check_token(token); !good)
-    throw CLI::ValidationError("--admin-token", good.error().message);
-}
-
 /// A world's own limits are the only ones. Settings come in any order, so they are compared here, at last.
 void parse_world(Raw& raw) {
   WorldConfig& world = raw.options.live.world;
@@ -285,7 +230,7 @@ void refuse_shared_files(const Raw& raw, const std::string& config_path) {
   const std::array files = {NamedFile{"--config", config_path},
                             NamedFile{"--ground", raw.ground},
                             NamedFile{"--replay", live.replay.path, false, true},
-                            NamedFile{"--admin-token-file", raw.token_path},
+                            NamedFile{"--admin-token-file", raw.doors.token_path(), raw.doors.makes_token()},
                             NamedFile{"--tls-cert", access.tls_certificate_path},
                             NamedFile{"--tls-key", access.tls_key_path},
                             NamedFile{"--token-key", access.token_key_path},
@@ -317,8 +262,7 @@ void declare(CLI::App& app, Raw& raw) {
   add_network(app, raw);
   add_world(app, raw);
   add_settings(app, raw);
-  add_admin(app, raw);
-  add_access(app, raw);
+  raw.doors.declare(app, raw.options.live.net);
   add_saving_options(app, raw);
   add_recordings(app, raw);
   add_run(app, raw);
@@ -361,8 +305,8 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     app.parse(argc, argv);
     if (const auto preset = kind_named<Preset>(raw.preset)) apply_preset(app, *preset, server_preset_options);
     refuse_shared_files(raw, named_file(*config));
-    parse_token(raw);
-    parse_anonymous(raw);
+    raw.doors.complete(raw.options.live.net);
+    raw.options.token_made = raw.doors.token_made();
     raw.options.live.durability = *kind_named<Durability>(raw.durability);
     parse_end(raw);
     parse_web(raw);

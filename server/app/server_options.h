@@ -13,6 +13,7 @@ namespace scree {
 struct ServerOptions {
   LiveConfig live;
   std::string report_path;  ///< empty: none
+  std::string token_made;   ///< file of an admin token that was made; empty: none
   std::string log_level = "info";
 };
 

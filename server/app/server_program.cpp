@@ -71,6 +71,9 @@ int run(const ServerOptions& options) {
     spdlog::error("{}", server.error().message);
     return failed;
   }
+  if (!options.token_made.empty())
+    spdlog::warn("an admin token was made: it is the line in {}, which only this server's user can read",
+                 options.token_made);
   std::printf("%s\n", listening_line((*server)->port(), options.live.net).c_str());
   std::fflush(stdout);
   wait_for_end(**server, signals);

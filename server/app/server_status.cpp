@@ -41,6 +41,14 @@ StatusJson now_json(const StatusMessage& status) {
           {"saved_tick", status.saved_tick}};
 }
 
+StatusJson health_of(const HealthMessage& health) {
+  StatusJson faults = StatusJson::array();
+  for (const HealthFault& fault : health.faults)
+    faults.push_back({{"name", fault.name}, {"words", fault.words}});
+  return {
+      {"alive", health.alive}, {"well", health.well}, {"ready", health.ready}, {"faults", std::move(faults)}};
+}
+
 StatusJson session_json(const SessionRow& row) {
   return {{"session", row.session},    {"name", row.name},
           {"program", row.program},    {"address", row.address},
@@ -54,9 +62,13 @@ StatusJson session_json(const SessionRow& row) {
 std::string status_json(const ServerReport& report, const NetFigures& figures, const ServerFacts& facts) {
   StatusJson sessions = StatusJson::array();
   for (const SessionRow& row : figures.sessions) sessions.push_back(session_json(row));
-  const StatusJson json{{"version", SCREE_VERSION},        {"tick_rate_hz", facts.tick_rate_hz},
-                        {"replay", facts.replay},          {"now", now_json(figures.status)},
-                        {"sessions", std::move(sessions)}, {"report", StatusJson::parse(to_json(report))}};
+  const StatusJson json{{"version", SCREE_VERSION},
+                        {"tick_rate_hz", facts.tick_rate_hz},
+                        {"replay", facts.replay},
+                        {"now", now_json(figures.status)},
+                        {"health", health_of(figures.health)},
+                        {"sessions", std::move(sessions)},
+                        {"report", StatusJson::parse(to_json(report))}};
   return json.dump() + "\n";
 }
 

@@ -73,9 +73,10 @@ tl::expected<Grant, Refused> Access::grant(const std::string& token, uint64_t no
   if (!token.empty() && !admin_token_.empty()) {
     if (is_access_token(token))
       return refuse(Refusal::token_foreign, "this server accepts no access tokens (--token-key)");
-    return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
+    return refuse(Refusal::admin_token_wrong, "this server does not know the token");
   }
-  if (!anonymous_) return refuse(Refusal::token_missing, "this server requires a token (--token)");
+  if (!anonymous_)
+    return refuse(Refusal::token_missing, "this server requires an access token: ask its operator for one");
   return Grant{*anonymous_};
 }
 

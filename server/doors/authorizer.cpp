@@ -17,7 +17,7 @@ Result<void> Authorizer::open() {
 tl::expected<void, Refused> Authorizer::check_admin_token(const std::string& address,
                                                           const std::string& token, double now_s) {
   if (door_.knows_as_wrong(address, token))
-    return refuse(Refusal::admin_token_wrong, "the admin token is wrong, as it was before");
+    return refuse(Refusal::admin_token_wrong, "this server does not know the token, as before");
   if (const double wait_s = door_.wait_for_guess_s(address, now_s); wait_s > 0.0)
     return refuse(
         Refusal::token_guesses,
@@ -25,7 +25,7 @@ tl::expected<void, Refused> Authorizer::check_admin_token(const std::string& add
                     std::ceil(wait_s)));
   if (same_token(token, admin_token_)) return {};
   door_.guessed_wrong(address, token, now_s);
-  return refuse(Refusal::admin_token_wrong, "the admin token is wrong");
+  return refuse(Refusal::admin_token_wrong, "this server does not know the token");
 }
 
 tl::expected<Grant, Refused> Authorizer::grant_to(const Caller& caller, const std::string& token,
@@ -59,7 +59,7 @@ tl::expected<void, Refused> Authorizer::may_administer(Role role, const Caller& 
 tl::expected<void, Refused> check_role(Role role, Role needed) {
   if (may_act_as(role, needed)) return {};
   return refuse(Refusal::role,
-                fmt::format("that takes the role {}: this session is a {} (ask for a token, --token)",
+                fmt::format("that takes the role {}: this session is a {} (ask the operator for a token)",
                             name_of(needed), name_of(role)));
 }
 

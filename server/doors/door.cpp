@@ -28,6 +28,11 @@ std::string door_address(const std::string& ip) {
   return asio::ip::address_v6(bytes).to_string() + "/64";
 }
 
+std::string relayed_address(const std::string& ip) {
+  std::string address = door_address(ip);
+  return address == this_machine ? "a proxy's own machine" : address;
+}
+
 bool Door::is_free(const std::string& address) const {
   return rules_.loopback_is_free && address == this_machine;
 }

@@ -22,6 +22,9 @@ namespace scree {
 /// A text as of asio::ip::address; any text that is none is an address of its own.
 std::string door_address(const std::string& ip);
 
+/// Of a client for whom a trusted proxy speaks: likewise, but nobody behind a proxy is on this machine.
+std::string relayed_address(const std::string& ip);
+
 class Door {
  public:
   struct Rules {
@@ -37,6 +40,8 @@ class Door {
 
   /// A connection has come. With a reason it is not let in, and not to be given back.
   std::optional<Refusal> enter(const std::string& address, double now_s);
+  /// A connection of a trusted proxy has come, who speaks for many: no bound holds.
+  void enter_unbounded(const std::string& address, double now_s) { ++visitor(address, now_s).connections; }
   /// A connection that was let in has ended.
   void leave(const std::string& address, double now_s);
 

@@ -17,13 +17,6 @@ namespace scree {
 
 namespace {
 
-Refused words_for(Refusal reason) {
-  if (reason == Refusal::connects_per_second)
-    return {reason, "too many connections a second from your address (limits.connects_per_second_max)"};
-  CHECK(reason == Refusal::connections_per_address);
-  return {reason, "too many connections from your address (limits.connections_per_address_max)"};
-}
-
 /// What is not sent yet waits in the outbox, where newer state can still take its place, and not in the
 /// kernel. A socket that takes no options still works.
 void tune(asio::ip::tcp::socket& socket) {
@@ -36,6 +29,20 @@ void tune(asio::ip::tcp::socket& socket) {
 }
 
 }  // namespace
+
+Refused door_refusal(Refusal reason) {
+  if (reason == Refusal::connects_per_second)
+    return {reason, "too many connections a second from your address (connects-per-second); try again later"};
+  CHECK(reason == Refusal::connections_per_address);
+  return {reason, "too many connections from your address (connections-per-address)"};
+}
+
+void tell_and_close(asio::ip::tcp::socket socket, const Refused& refused) {
+  asio::error_code ignored;
+  socket.non_blocking(true, ignored);
+  const RefusalMessage told{refused.message, std::string(name_of(refused.reason))};
+  socket.write_some(asio::buffer(encode(ServerMessage(told))), ignored);
+}
 
 Result<void> Entrance::listen(const std::string& bind, uint16_t port) {
   const std::string where = endpoint_text(bind, port);
@@ -89,18 +96,14 @@ void Entrance::accepted(asio::ip::tcp::socket socket) {
   if (error) return;  // it has gone already
   const std::string ip = endpoint.address().to_string();
   const std::string address = door_address(ip);
-  if (const auto no = door_.enter(address, steady_now_s())) return turn_away(std::move(socket), ip, *no);
+  const bool by_proxy = proxies_.contains(ip);
   tune(socket);
-  host_.entered(std::move(socket), address);
-}
-
-void Entrance::turn_away(asio::ip::tcp::socket socket, const std::string& peer, Refusal reason) {
-  const Refused refused = words_for(reason);
-  asio::error_code ignored;
-  socket.non_blocking(true, ignored);
-  const RefusalMessage told{refused.message, std::string(name_of(refused.reason))};
-  socket.write_some(asio::buffer(encode(ServerMessage(told))), ignored);
-  host_.turned_away(peer, refused);
+  if (by_proxy) {
+    door_.enter_unbounded(address, steady_now_s());
+  } else if (const auto no = door_.enter(address, steady_now_s())) {
+    return host_.turned_away(std::move(socket), address, door_refusal(*no));
+  }
+  host_.entered(std::move(socket), address, by_proxy);
 }
 
 }  // namespace scree

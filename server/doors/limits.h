@@ -18,12 +18,25 @@ inline constexpr int socket_unsent_bytes = 2 * 1024;
 /// those that were sent. Above: it is cut off.
 inline constexpr double stall_seconds_max = 20.0;
 
-/// Connections that one address (Door) may hold; above: closed at once.
+/// Connections that one address (Door) may hold, unless the operator says otherwise
+/// (--connections-per-address); above: turned away.
 inline constexpr size_t connections_per_address_max = 64;
 
-/// Connections that one address may open, a second and at once; above: closed at once.
+/// Connections that one address may open a second, unless the operator says otherwise
+/// (--connects-per-second). After a silence it may open so many at once, or as many as it may hold. Above:
+/// turned away.
 inline constexpr double connects_per_second_max = 10.0;
 inline constexpr double connects_burst_max = 64.0;
+
+/// What an operator may say of them. Beyond: refused by name.
+inline constexpr double door_connections_most = 65535.0;
+inline constexpr double door_connects_least = 0.1;
+inline constexpr double door_connects_most = 100000.0;
+
+/// Connections that are turned away and told so at once, in the language that their first bytes are in, and
+/// the seconds for which such bytes are waited for. Above: told in the protocol's and closed, at once.
+inline constexpr size_t turned_away_max = 64;
+inline constexpr double turned_away_seconds_max = 1.0;
 
 /// HTTP requests from one address, a second and at once: a page is about ten, and a status page asks once a
 /// second. Above: 429, and closed.

@@ -6,27 +6,43 @@
 
 #include "server/net/limits.h"
 #include "shared/base/check.h"
+#include "shared/base/text.h"
 #include "shared/base/timing.h"
+#include "transport/proxied_transport.h"
 #include "transport/sniffing_transport.h"
 #include "transport/tcp_transport.h"
 
 namespace scree {
 
-void Arrivals::entered(asio::ip::tcp::socket socket, const std::string& address) {
-  begin(std::make_shared<TcpTransport>(std::move(socket)), address);
+void Arrivals::entered(asio::ip::tcp::socket socket, const std::string& address, bool by_proxy) {
+  std::shared_ptr<Transport> transport = std::make_shared<TcpTransport>(std::move(socket));
+  const uint64_t id = next_session_++;
+  if (by_proxy)
+    transport =
+        std::make_shared<ProxiedTransport>(std::move(transport), [this, id](const ProxiedTransport& stream) {
+          named(id, stream.address(), endpoint_text(stream.address(), stream.port()));
+        });
+  begin(std::move(transport), {address, by_proxy}, id);
 }
 
 bool Arrivals::enter(std::shared_ptr<Transport> transport) {
   const std::string address = door_address(transport->address());
   if (const auto no = parts_.door.enter(address, steady_now_s())) {
-    turned_away(transport->address(), {*no, "too many connections"});
+    count_turned_away(address, {*no, "too many connections"});
     return false;
   }
-  begin(std::move(transport), address);
+  begin(std::move(transport), {address}, next_session_++);
   return true;
 }
 
-void Arrivals::turned_away(const std::string& peer, const Refused& refused) {
+void Arrivals::turned_away(asio::ip::tcp::socket socket, const std::string& address, const Refused& refused) {
+  count_turned_away(address, refused);
+  if (parts_.sessions.turned_away() + parts_.web.turned_away() >= limits::turned_away_max)
+    return tell_and_close(std::move(socket), refused);
+  begin(std::make_shared<TcpTransport>(std::move(socket)), {address, false, false, refused}, next_session_++);
+}
+
+void Arrivals::count_turned_away(const std::string& peer, const Refused& refused) {
   ++parts_.counts.turned_away;
   parts_.counts.refusals.add(refused.reason);
   parts_.log.say(spdlog::level::warn, name_of(refused.reason),
@@ -34,13 +50,28 @@ void Arrivals::turned_away(const std::string& peer, const Refused& refused) {
   changed_();
 }
 
+/// The place at the door becomes the client's, if the door has one for it.
+void Arrivals::named(uint64_t id, const std::string& ip, const std::string& peer) {
+  SessionEntry* const entry = parts_.sessions.find(id);
+  CHECK(entry != nullptr);  // as in begin_http()
+  const double now_s = steady_now_s();
+  const std::string address = relayed_address(ip);
+  if (const auto no = parts_.door.enter(address, now_s)) {
+    const Refused refused = door_refusal(*no);
+    count_turned_away(address, refused);
+    return entry->session->turn_away(refused);
+  }
+  parts_.door.leave(entry->session->address(), now_s);
+  entry->session->come_from(address, peer);
+  entry->relayed = false;
+}
+
 void Arrivals::accepting_failed(const std::string& why) {
   parts_.log.say(spdlog::level::warn, "accept", "cannot accept connections: " + why);
   close_oldest_outsider("the server lacks descriptors: " + why);
 }
 
-void Arrivals::begin(std::shared_ptr<Transport> transport, const std::string& address) {
-  const uint64_t id = next_session_++;
+void Arrivals::begin(std::shared_ptr<Transport> transport, const Visitor& from, uint64_t id) {
   SniffingTransport::HttpHandoff http;
   if (parts_.web.speaks_http())
     http = [this, id](std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived) {
@@ -49,16 +80,16 @@ void Arrivals::begin(std::shared_ptr<Transport> transport, const std::string& ad
   const auto& tls = parts_.authorizer.access().tls();
   if (tls || http)
     transport = std::make_shared<SniffingTransport>(std::move(transport), tls, std::move(http));
-  begin_session(std::move(transport), address, id, false);
+  begin_session(std::move(transport), from, id);
 }
 
-void Arrivals::begin_session(std::shared_ptr<Transport> transport, const std::string& address, uint64_t id,
-                             bool relayed) {
+void Arrivals::begin_session(std::shared_ptr<Transport> transport, const Visitor& from, uint64_t id) {
   const SessionTimes times{parts_.config.hello_seconds, parts_.config.stall_seconds,
                            limits::linger_seconds_max};
-  const auto session =
-      std::make_shared<ClientSession>(std::move(transport), address, id, parts_.host, times, steady_now_s());
-  parts_.sessions.add(session, relayed);
+  const auto session = std::make_shared<ClientSession>(std::move(transport), from.address, id, parts_.host,
+                                                       times, steady_now_s());
+  if (from.turned_away) session->turn_away(*from.turned_away);
+  parts_.sessions.add(session, from.relayed).at_door = from.at_door;
   spdlog::debug("session {}: {} connected", id, session->peer());
   if (parts_.sessions.outsiders() + parts_.web.size() > parts_.room.outsiders_max())
     close_oldest_outsider("too many connections that have not said hello (limits.outsiders_max)");
@@ -70,9 +101,10 @@ void Arrivals::begin_http(uint64_t id, std::shared_ptr<Transport> stream, std::s
   const SessionEntry* const entry = parts_.sessions.find(id);
   CHECK(entry != nullptr);  // a stream that was closed tells of no bytes (Transport::close)
   const auto session = entry->session;
+  const Visitor from{session->address(), entry->relayed, entry->at_door, session->turned_away()};
   session->give_up_connection();
   parts_.sessions.erase(id);
-  parts_.web.begin(id, session->address(), std::move(stream), arrived);
+  parts_.web.begin(id, from, std::move(stream), arrived);
 }
 
 /// An idle HTTP connection goes first, then the connection that has been silent for longest, or was refused

@@ -1,6 +1,6 @@
 // Who comes in: connections that the entrance, or something else than a socket, lets in become sessions, and
-// those whose first bytes are HTTP become HTTP connections. Bounds both together (Room). On the network
-// thread.
+// those whose first bytes are HTTP become HTTP connections. Bounds both together (Room). A few of those that
+// the door turns away are held until they can be told so in their own language. On the network thread.
 #pragma once
 
 #include <asio/io_context.hpp>
@@ -18,6 +18,7 @@
 #include "server/net/net_server.h"
 #include "server/net/room.h"
 #include "server/net/session_table.h"
+#include "server/net/visitor.h"
 #include "server/net/web_connections.h"
 
 namespace scree {
@@ -41,7 +42,7 @@ class Arrivals final : public EntranceHost {
   Arrivals(asio::io_context& context, const Parts& parts, std::function<void()> changed)
       : parts_(parts),
         changed_(std::move(changed)),
-        entrance_(context, parts.door, *this),
+        entrance_(context, parts.door, parts.config.proxies, *this),
         next_session_(parts.config.first_session) {}
 
   Result<void> listen() { return entrance_.listen(parts_.config.bind, parts_.config.port); }
@@ -51,18 +52,19 @@ class Arrivals final : public EntranceHost {
 
   /// As of NetHost.
   bool enter(std::shared_ptr<Transport> transport);
-  /// Begins a session under this number, which no other has; for a connection that the door has let in. Bytes
-  /// that came already may be answered before it returns.
-  void begin_session(std::shared_ptr<Transport> transport, const std::string& address, uint64_t id,
-                     bool relayed);
+  /// Begins a session under this number, which no other has; for a connection that has a place at the door.
+  /// Bytes that came already may be answered before it returns.
+  void begin_session(std::shared_ptr<Transport> transport, const Visitor& from, uint64_t id);
 
  private:
-  void entered(asio::ip::tcp::socket socket, const std::string& address) override;
-  void turned_away(const std::string& peer, const Refused& refused) override;
+  void entered(asio::ip::tcp::socket socket, const std::string& address, bool by_proxy) override;
+  void turned_away(asio::ip::tcp::socket socket, const std::string& address, const Refused& refused) override;
   void accepting_failed(const std::string& why) override;
 
-  void begin(std::shared_ptr<Transport> transport, const std::string& address);
+  void begin(std::shared_ptr<Transport> transport, const Visitor& from, uint64_t id);
   void begin_http(uint64_t id, std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived);
+  void named(uint64_t id, const std::string& ip, const std::string& peer);
+  void count_turned_away(const std::string& peer, const Refused& refused);
   void close_oldest_outsider(const std::string& why);
 
   const Parts parts_;

@@ -59,6 +59,7 @@ void ClientSession::read_failed(const StreamEnd& end) {
 
 void ClientSession::read_done(size_t bytes) {
   now_s_ = times_.now_s();
+  if (phase_ == Phase::hello && turned_away_) refuse(*turned_away_);
   if (phase_ != Phase::refused && !bytes_.try_spend(now_s_, static_cast<double>(bytes)))
     refuse({Refusal::bytes_per_second,
             fmt::format("more than {} bytes a second (limits.client_bytes_per_second_max)",
@@ -89,23 +90,35 @@ bool ClientSession::receive_message(std::span<const uint8_t> body) {
                                   limits::messages_per_second_max)});
   const auto message = decode_client(body);
   if (!message) return fail_with({Refusal::message_malformed, message.error().message});
-  if (phase_ == Phase::hello) {
-    const auto* hello = std::get_if<HelloMessage>(&*message);
-    if (hello == nullptr) return fail_with({Refusal::hello_missing, "the first message must be a hello"});
-    const auto welcome = host_.admit(*this, *hello);
-    if (!welcome) return fail_with(welcome.error());
-    phase_ = Phase::joined;
-    phase_since_s_ = acted_s_ = now_s_;
-    reader_.set_message_bytes_max(limits::client_message_bytes_max);
-    send(ServerMessage(*welcome));
-    return true;
-  }
+  if (phase_ == Phase::hello) return receive_first(*message);
   const bool is_unknown = std::holds_alternative<UnknownMessage>(*message);
   inert_ = inert_ && is_unknown;
   if (!is_unknown && !std::holds_alternative<AckMessage>(*message)) acted_s_ = now_s_;
   const auto received = host_.receive(*this, *message);
   if (!received) return fail_with(received.error());
   return phase_ == Phase::joined;
+}
+
+/// False when the session was ended by it.
+bool ClientSession::receive_first(const ClientMessage& message) {
+  const auto fail_with = [&](const Refused& refused) {
+    refuse(refused);
+    return false;
+  };
+  if (std::holds_alternative<AskHealthMessage>(message)) {
+    only_asked_ = true;
+    end_with(ServerMessage(host_.health()));
+    return false;
+  }
+  const auto* hello = std::get_if<HelloMessage>(&message);
+  if (hello == nullptr) return fail_with({Refusal::hello_missing, "the first message must be a hello"});
+  const auto welcome = host_.admit(*this, *hello);
+  if (!welcome) return fail_with(welcome.error());
+  phase_ = Phase::joined;
+  phase_since_s_ = acted_s_ = now_s_;
+  reader_.set_message_bytes_max(limits::client_message_bytes_max);
+  send(ServerMessage(*welcome));
+  return true;
 }
 
 void ClientSession::send(const ServerMessage& message) {
@@ -204,12 +217,18 @@ void ClientSession::settle() {
 
 void ClientSession::refuse(const Refused& refused) {
   if (phase_ == Phase::refused || phase_ == Phase::closed) return;
-  send(ServerMessage(RefusalMessage{refused.message, std::string(name_of(refused.reason))}));
+  end_with(ServerMessage(RefusalMessage{refused.message, std::string(name_of(refused.reason))}));
+  if (phase_ == Phase::closed) return;
+  host_.refused(*this, refused);
+  if (!transport_->established()) close("refused before");  // nobody could read it
+}
+
+/// The last message; what comes after it is not looked at.
+void ClientSession::end_with(const ServerMessage& last) {
+  send(last);
   if (phase_ == Phase::closed) return;
   phase_ = Phase::refused;
   phase_since_s_ = times_.now_s();
-  host_.refused(*this, refused);
-  if (!transport_->established()) close("refused before");  // nobody could read it
 }
 
 bool ClientSession::backlog_adds_up() const {
@@ -247,6 +266,8 @@ void ClientSession::leave() {
 }
 
 void ClientSession::check_time(double now_s) {
+  if (phase_ == Phase::hello && turned_away_ && now_s - phase_since_s_ > limits::turned_away_seconds_max)
+    return refuse(*turned_away_);
   if (phase_ == Phase::hello && now_s - phase_since_s_ > times_.hello_s)
     return refuse({Refusal::hello_late, fmt::format("no hello within {} s of connecting", times_.hello_s)});
   if (phase_ == Phase::refused && now_s - phase_since_s_ > times_.linger_s) return close("refused before");

@@ -1,7 +1,8 @@
 // One client's connection. Used by NetHost only. All calls are on the network thread, but for backlog() and
 // send_now(), which another one may call while the network thread waits for it.
 //
-// Phases: hello (waits for it) → joined → refused (the reason is being sent, input is ignored) → closed.
+// Phases: hello (waits for it) → joined → refused (the reason is being sent, input is ignored) → closed. A
+// connection that asks for health alone is answered, and then treated as a refused one.
 // The bytes that wait for the client are bounded: the publisher sends less and stops long before
 // limits::outbox_hard_bytes, where the client is cut off.
 #pragma once
@@ -36,6 +37,8 @@ class SessionHost {
   virtual ~SessionHost() = default;
   /// Handles the first message. Returns the welcome to send, or the reason of a refusal.
   virtual tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) = 0;
+  /// The answer to a connection whose first message asks for nothing else.
+  virtual HealthMessage health() = 0;
   /// Handles any later message. An error is sent as a refusal, and ends the session.
   virtual tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) = 0;
   virtual void refused(ClientSession& session, const Refused& refused) = 0;
@@ -85,6 +88,17 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void check_time(double now_s);
 
   uint64_t id() const { return id_; }
+  /// The door does not let it in: whatever it sends first is answered by this reason, and a silence of
+  /// limits::turned_away_seconds_max is. Before the hello.
+  void turn_away(const Refused& refused) { turned_away_ = refused; }
+  const std::optional<Refused>& turned_away() const { return turned_away_; }
+  /// It asked for the server's health, and for nothing else.
+  bool only_asked() const { return only_asked_; }
+  /// Its proxy has said for whom it speaks; `address` as of Door.
+  void come_from(const std::string& address, const std::string& peer) {
+    address_ = address;
+    peer_ = peer;
+  }
   /// It goes on as another session, which has no connection any more.
   void continue_as(uint64_t id) { id_ = id; }
   Phase phase() const { return phase_; }
@@ -121,6 +135,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   void read_done(size_t bytes);
   void read_failed(const StreamEnd& end);
   bool receive_message(std::span<const uint8_t> body);
+  bool receive_first(const ClientMessage& message);
+  void end_with(const ServerMessage& last);
   void write();
   void write_done(size_t bytes);
   void count_sent(size_t bytes);
@@ -146,6 +162,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   std::string address_;
   Phase phase_ = Phase::hello;
   std::optional<Refusal> disconnect_reason_;
+  std::optional<Refused> turned_away_;
   double phase_since_s_;
   double progress_s_;  ///< the last time at which the client read something, or had nothing to read
   double now_s_;
@@ -164,6 +181,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   double offered_s_ = 0.0;
   bool writing_ = false;
   bool waits_for_flush_ = false;
+  bool only_asked_ = false;
   bool peer_ended_ = false;  ///< the client closed its sending side
   bool left_ = false;
   bool may_go_on_ = false;

@@ -71,11 +71,6 @@ void NetHost::run() {
   context_.run();
 }
 
-void NetHost::begin_websocket(std::shared_ptr<Transport> stream, const std::string& address, uint64_t id,
-                              bool relayed) {
-  arrivals_.begin_session(std::move(stream), address, id, relayed);
-}
-
 // ---- sessions
 
 tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
@@ -84,10 +79,13 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   const double now_s = steady_now_s();
   const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token, hello.name,
                                                now_s, unix_now_s()));
-  const auto radius_m = granted_radius(hello.eye_m, hello.interest_radius_m);
+  const auto radius_m = granted_radius(hello.eye_m, hello.administers ? 0.0F : hello.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
   const std::optional<Departed> before = returns_.resume(hello.ticket, grant, sessions_, now_s);
-  TRY(find_room(session, grant, before, now_s));
+  if (hello.administers || grant.role == Role::admin)
+    TRY(Room::find_room_beside(sessions_, grant));
+  else
+    TRY(find_room(session, grant, before, now_s));
   join(session, hello, *radius_m, grant, before);
   WelcomeMessage welcome = welcome_of(config_, world_);
   welcome.session = session.id();
@@ -114,6 +112,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   publisher_.join(session.id(), hello.eye_m, radius_m, hello.lacks_kernels ? 0 : hello.operations,
                   hello.world == world_);
   entry.grant = grant;
+  entry.administers = hello.administers;
   entry.party = returns_.join_party(session, grant, before ? before->party : 0, now_s);
   entry.name = grant.name;
   entry.program = hello.client;
@@ -122,7 +121,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   if (config_.control)
     if (const auto control = authorizer_.may_administer(grant.role, entry.caller(), true); !control)
       publisher_.set_control_refusal(session.id(), control.error().message);
-  if (hello.meets)
+  if (hello.meets && !hello.administers)
     talk_.join(session.id(), entry.party != 0 ? entry.party : session.id(), entry.name, grant.role);
   note({.kind = EventKind::join, .place_m = hello.eye_m, .session = session.id(), .text = entry.name});
   ++figures_.counts().sessions_joined;
@@ -142,9 +141,8 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const InterestMessage& interest) { return follow(session, interest); },
           [&]<typename Asks>(const RequestMessage<Asks>& asked) -> Done {
-            requests_.ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
-                                    sessions_.at(session.id()).party});
-            return {};
+            return ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
+                                 sessions_.at(session.id()).party});
           },
           [&](const RepairMessage& repair) -> Done {
             log_.say(spdlog::level::warn, "repair",
@@ -163,6 +161,9 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           // On TCP the bytes that wait for a client say how far behind it is.
           [](const AckMessage&) -> Done { return {}; },
+          [](const AskHealthMessage&) -> Done {
+            return refuse(Refusal::hello_repeated, "health is asked for by a connection of its own");
+          },
           [&](const AdminMessage& admin) { return administration_.administer(session, admin); },
           [&](const UnknownMessage& unknown) { return skip(session, unknown); },
           [&](const CursorMessage& cursor) -> Done {
@@ -196,6 +197,19 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
       message);
 }
 
+/// A session that takes no place changes no terrain.
+tl::expected<void, Refused> NetHost::ask(ClientSession& session, const Command& command) {
+  if (!sessions_.at(session.id()).administers) {
+    requests_.ask(session, command);
+    return {};
+  }
+  ++figures_.counts().requests;
+  requests_.refuse(
+      session, command.request,
+      {Refusal::role, "this session administers alone (Hello.administers): it changes no terrain"});
+  return {};
+}
+
 /// The client is of a later release, or made by somebody else.
 tl::expected<void, Refused> NetHost::skip(ClientSession& session, const UnknownMessage& unknown) {
   ++figures_.counts().messages_unknown;
@@ -212,7 +226,8 @@ tl::expected<void, Refused> NetHost::skip(ClientSession& session, const UnknownM
 }
 
 tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {
-  const auto radius_m = granted_radius(interest.eye_m, interest.interest_radius_m);
+  const bool sees_nothing = sessions_.at(session.id()).administers;
+  const auto radius_m = granted_radius(interest.eye_m, sees_nothing ? 0.0F : interest.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
   publisher_.set_interest(session.id(), interest.eye_m, *radius_m);
   return {};
@@ -220,11 +235,13 @@ tl::expected<void, Refused> NetHost::follow(ClientSession& session, const Intere
 
 void NetHost::refused(ClientSession& session, const Refused& refused) {
   CHECK(!workers_.at_work());
-  ++figures_.counts().sessions_refused;
-  figures_.counts().refusals.add(refused.reason);
-  log_.say(spdlog::level::warn, name_of(refused.reason),
-           fmt::format("session {}: {} refused ({}): {}", session.id(), session.peer(),
-                       name_of(refused.reason), refused.message));
+  if (!session.turned_away()) {  // which is counted already
+    ++figures_.counts().sessions_refused;
+    figures_.counts().refusals.add(refused.reason);
+    log_.say(spdlog::level::warn, name_of(refused.reason),
+             fmt::format("session {}: {} refused ({}): {}", session.id(), session.peer(),
+                         name_of(refused.reason), refused.message));
+  }
   forget(session.id());
   returns_.tickets().forget(session.id());
   sessions_.refuse(session.id());
@@ -238,13 +255,13 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
     figures_.counts().refusals.add(*disconnect_reason);
     log_.say(spdlog::level::warn, name_of(*disconnect_reason),
              fmt::format("session {}: {} cut off: {}", session.id(), session.peer(), reason));
-  } else {
+  } else if (!session.only_asked() && !session.turned_away()) {
     log_.say(spdlog::level::info, "closed",
              fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
   }
   const SessionEntry& entry = sessions_.at(session.id());
   if (entry.joined_s > 0.0) note({.kind = EventKind::leave, .session = session.id(), .text = entry.name});
-  door_.leave(session.address(), steady_now_s());
+  if (entry.at_door) door_.leave(session.address(), steady_now_s());
   forget(session.id());
   returns_.closed(entry, steady_now_s());
   sessions_.erase(session.id());
@@ -272,6 +289,7 @@ void NetHost::check_time() {
   const SessionTable::Sessions sessions = sessions_.all();
   for (const auto& session : sessions) session->check_time(now_s);
   web_.check_time(now_s);
+  if (config_.checked) config_.checked(now_s);
   end_lapsed_grants(sessions_, authorizer_.access());
   returns_.tickets().expire(now_s);
   if (!stopping_) send_persons(talk_, sessions_, now_s);
@@ -318,75 +336,24 @@ void NetHost::shut_down() {
   tick_timer();
 }
 
-// ---- a tick
-
-void NetHost::begin(const TickDelta& keyframe) {
-  CHECK(network_thread_.is_the_same());
-  if (keyframe.service && *keyframe.service != service_) grant(*keyframe.service);
-  publisher_.begin(keyframe);
-  update_stats();
-}
-
-void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
-  CHECK(network_thread_.is_the_same());
-  CHECK_EQ(publisher_.clients(), sessions_.joined());
-  if (delta.service && *delta.service != service_) grant(*delta.service);
-  RefusalCounts& refusals = figures_.counts().refusals;
-  for (const Reply& reply : delta.replies)
-    if (reply.reason) refusals.add(*reply.reason);
-  publisher_.set_refusals(refusals);
-  if (delta.tick % config_.tick_rate_hz == 0) publisher_.set_latency(requests_.times().drain_status());
-  if (config_.saving) publisher_.set_saving(config_.saving());
-  queue_frames(delta);
-  administration_.log_settings(delta);
-  answer(delta, span);
-  flush_queue_.send_turn(delta.tick, more);
-  update_stats();
-}
-
-void NetHost::queue_frames(const TickDelta& delta) {
-  const auto backlog = [this](uint64_t id) {
-    const SessionEntry* const entry = sessions_.find(id);
-    return entry == nullptr ? Backlog() : entry->session->backlog();
-  };
-  const auto& entries = sessions_.entries();
-  auto found = entries.begin();
-  for (Outgoing& outgoing : publisher_.publish(delta, backlog)) {
-    // Most come in the sessions' order.
-    if (found != entries.end() && found->first < outgoing.session) ++found;
-    if (found == entries.end() || found->first != outgoing.session) found = entries.find(outgoing.session);
-    if (found == entries.end()) continue;
-    flush_queue_.add(found->second.session, delta.tick);
-    found->second.session->queue(std::move(outgoing.bytes));
-  }
-}
-
-/// Who asked gets the tick first, and at once, however far this thread lags.
-void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
-  if (delta.replies.empty()) return;
-  const auto latency = [&](const Reply& reply) {
-    return requests_.times().answered(reply.session, reply.request, span, steady_now_s());
-  };
-  SessionTable::Sessions answered;
-  for (Outgoing& outgoing : publisher_.answer(delta, latency)) {
-    const SessionEntry* const entry = sessions_.find(outgoing.session);
-    if (entry == nullptr) continue;
-    entry->session->queue(std::move(outgoing.bytes));
-    answered.push_back(entry->session);
-  }
-  for (const auto& session : answered) session->settle();
-  figures_.show(requests_.times().counts());
-}
-
 // ---- what others are told
 
 void NetHost::note(Event event) const {
   if (config_.noted) config_.noted(std::move(event));
 }
 
+HealthMessage NetHost::health() {
+  ServerHealth health = config_.health ? config_.health() : ServerHealth();
+  if (stopping_) health.add(HealthKind::stopping, "the server stops");
+  if (!room_.has_place(sessions_, steady_now_s()))
+    health.add(HealthKind::full, fmt::format("all {} places are taken (sessions-max)", room_.sessions_max()));
+  return health.as_of(publisher_.state().tick());
+}
+
 NetFigures NetHost::status_figures() {
   update_stats();
-  return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s())};
+  return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s()),
+          health()};
 }
 
 void NetHost::update_stats() {

@@ -73,13 +73,16 @@ class NetHost final : public SessionHost, public WebHost {
   void refused(ClientSession& session, const Refused& refused) override;
   void closed(ClientSession& session, const std::string& reason) override;
   // ---- WebHost
-  void begin_websocket(std::shared_ptr<Transport> stream, const std::string& address, uint64_t id,
-                       bool relayed) override;
+  void begin_websocket(std::shared_ptr<Transport> stream, const Visitor& from, uint64_t id) override {
+    arrivals_.begin_session(std::move(stream), from, id);
+  }
   NetFigures status_figures() override;
+  HealthMessage health() override;  ///< of SessionHost, too
   void web_changed() override { update_stats(); }
 
   tl::expected<void, Refused> find_room(const ClientSession& newcomer, const Grant& grant,
                                         const std::optional<Departed>& before, double now_s);
+  tl::expected<void, Refused> ask(ClientSession& session, const Command& command);
   void join(ClientSession& session, const HelloMessage& hello, float radius_m, const Grant& grant,
             const std::optional<Departed>& before);
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);

@@ -22,9 +22,11 @@
 #include "server/doors/access.h"
 #include "server/doors/door.h"
 #include "server/doors/limits.h"
+#include "server/doors/proxies.h"
 #include "server/net/command_queue.h"
 #include "server/net/limits.h"
 #include "server/net/request_times.h"
+#include "server/net/server_health.h"
 #include "server/publish/limits.h"
 #include "server/publish/publisher.h"
 #include "server/web/web_config.h"
@@ -58,6 +60,7 @@ struct NetFigures {
   LatencyCounts latency;  ///< of requests that a tick answered, since the start
   StatusMessage status;   ///< what clients are told alike
   std::vector<SessionRow> sessions;
+  HealthMessage health;
 };
 
 struct NetConfig {
@@ -72,6 +75,7 @@ struct NetConfig {
   AccessConfig access;
   Door::Rules door{limits::connections_per_address_max, limits::connects_per_second_max,
                    limits::connects_burst_max};
+  Proxies proxies;  ///< those that are trusted to say for whom they speak
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;
   double heartbeat_s = limits::heartbeat_s;  ///< as of PublisherConfig
@@ -80,6 +84,10 @@ struct NetConfig {
   std::function<Saving()> saving;            ///< what is told of saves, once a tick; may be empty
   /// Takes the events of sessions, join and leave, without their tick; on the network thread. May be empty.
   std::function<void(Event)> noted;
+  /// What of the server's health the network side does not see itself; on the network thread. May be empty.
+  std::function<ServerHealth()> health;
+  /// Called a few times a second on the network thread, with the time of steady_now_s(). May be empty.
+  std::function<void(double now_s)> checked;
   /// Takes a person's line; false: the line is not passed on. On the network thread. May be empty.
   std::function<bool(const SaidMessage&)> said;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.

@@ -12,7 +12,8 @@ namespace scree {
 
 void Room::fit(uint32_t sessions_max) {
   sessions_max_ = sessions_max;
-  const size_t wanted = sessions_max + limits::outsiders_max + limits::descriptors_reserved;
+  const size_t wanted =
+      sessions_max + limits::outsiders_max + limits::administrators_max + limits::descriptors_reserved;
   const size_t granted = raise_descriptors(wanted);
   descriptors_ = std::max(granted, 2 * limits::descriptors_reserved) - limits::descriptors_reserved;
   outsiders_max_ = std::min(limits::outsiders_max, descriptors_ / 4);
@@ -21,18 +22,19 @@ void Room::fit(uint32_t sessions_max) {
       "this process may open {} files: room for {} sessions, not {} (sessions-max); ulimit -n, or "
       "LimitNOFILE of a "
       "service, says how many",
-      granted, descriptors_ - outsiders_max_, sessions_max);
+      granted, this->sessions_max(), sessions_max);
 }
 
 size_t Room::sessions_max() const {
-  return std::min<size_t>(sessions_max_, descriptors_ - outsiders_max_);
+  const size_t taken = outsiders_max_ + limits::administrators_max;
+  return std::min<size_t>(sessions_max_, std::max(descriptors_, taken + 1) - taken);
 }
 
 tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const ClientSession& newcomer,
                                              const Grant& grant, size_t reserved, double now_s) const {
   const size_t most = sessions_max();
   const auto kept_max = static_cast<size_t>(limits::places_kept_part * static_cast<double>(most));
-  if (sessions.joined() + std::min(reserved, kept_max) < most) return {};
+  if (sessions.placed() + std::min(reserved, kept_max) < most) return {};
   if (const auto leaver = who_gives_way(sessions, newcomer, grant, now_s)) {
     leaver->session->refuse(
         {Refusal::idle_made_room,
@@ -43,6 +45,34 @@ tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const
                 fmt::format("the server is full: {} sessions (sessions-max); try again later", most));
 }
 
+/// Nobody who plays goes for it, and no administrator; of the programs that came without a token, the first.
+tl::expected<void, Refused> Room::find_room_beside(const SessionTable& sessions, const Grant& grant) {
+  const SessionEntry* first = nullptr;
+  size_t beside = 0;
+  for (const auto& [id, entry] : sessions.entries()) {
+    if (entry.session->phase() != ClientSession::Phase::joined || entry.needs_place()) continue;
+    ++beside;
+    if (first == nullptr && !holds_token(entry.grant)) first = &entry;
+  }
+  if (beside < limits::administrators_max) return {};
+  if (first != nullptr) {
+    first->session->refuse(
+        {Refusal::idle_made_room, "another administrator came (limits.administrators_max)"});
+    return {};
+  }
+  return refuse(Refusal::sessions_max, "there are " + std::to_string(limits::administrators_max) +
+                                           " administrators already (limits.administrators_max)" +
+                                           (grant.role == Role::admin ? "" : "; try again later"));
+}
+
+bool Room::has_place(const SessionTable& sessions, double now_s) const {
+  if (sessions.placed() < sessions_max()) return true;
+  return std::ranges::any_of(sessions.entries(), [&](const auto& one) {
+    const SessionEntry& entry = one.second;
+    return entry.needs_place() && !holds_token(entry.grant) && entry.session->may_make_room(now_s);
+  });
+}
+
 bool holds_token(const Grant& grant) {
   return grant.token_id != 0 || grant.role == Role::admin;
 }
@@ -51,13 +81,13 @@ std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const Client
                                       const Grant& grant, double now_s) {
   std::map<std::string, size_t> held;
   for (const auto& [id, entry] : sessions.entries())
-    if (entry.session->phase() == ClientSession::Phase::joined) ++held[entry.session->address()];
-  const size_t few = held[newcomer.address()] + sessions.joined() / 4;
-  // Why a session gives way; null: it stays. Administrators give way to nobody, holders of tokens to such
-  // alone.
+    if (entry.session->phase() == ClientSession::Phase::joined && entry.needs_place())
+      ++held[entry.session->address()];
+  const size_t few = held[newcomer.address()] + sessions.placed() / 4;
+  // Why a session gives way; null: it stays. Who needs no place has none to give, and holders of tokens give
+  // way to such alone.
   const auto why = [&](const SessionEntry& entry) -> const char* {
-    if (entry.session->phase() != ClientSession::Phase::joined || entry.grant.role == Role::admin)
-      return nullptr;
+    if (entry.session->phase() != ClientSession::Phase::joined || !entry.needs_place()) return nullptr;
     const bool idle = entry.session->may_make_room(now_s);
     if (holds_token(entry.grant))
       return idle && holds_token(grant) ? "you were idle for a long time" : nullptr;

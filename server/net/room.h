@@ -1,5 +1,6 @@
 // How many sessions and other connections the process has room for, and which session gives its place to a
-// newcomer when the server is full. On the network thread.
+// newcomer when the server is full. Administrators need no place, and nobody goes for them. On the network
+// thread.
 #pragma once
 
 #include <memory>
@@ -27,6 +28,10 @@ class Room {
   /// connections, of which limits::places_kept_part at most count.
   tl::expected<void, Refused> find_place(const SessionTable& sessions, const ClientSession& newcomer,
                                          const Grant& grant, size_t reserved, double now_s) const;
+  /// Finds room for a newcomer that needs no place: an administrator, or a program that administers alone.
+  static tl::expected<void, Refused> find_room_beside(const SessionTable& sessions, const Grant& grant);
+  /// Whether a newcomer without a token would find a place.
+  bool has_place(const SessionTable& sessions, double now_s) const;
 
  private:
   uint32_t sessions_max_ = 0;

@@ -17,13 +17,14 @@ double request_burst(double per_second) {
 
 }  // namespace
 
-void SessionTable::add(std::shared_ptr<ClientSession> session, bool relayed) {
+SessionEntry& SessionTable::add(std::shared_ptr<ClientSession> session, bool relayed) {
   const uint64_t id = session->id();
   const RateLimit requests(requests_per_second_, request_burst(requests_per_second_));
   const auto [entry, is_new] = entries_.emplace(id, SessionEntry{std::move(session), requests});
   CHECK(is_new);
   entry->second.relayed = relayed;
   outsiders_.insert(id);
+  return entry->second;
 }
 
 SessionEntry& SessionTable::join(ClientSession& session, uint64_t id) {
@@ -66,6 +67,17 @@ void SessionTable::set_requests_per_second(double per_second) {
 size_t SessionTable::joined() const {
   CHECK(outsiders_.size() <= entries_.size());
   return entries_.size() - outsiders_.size();
+}
+
+size_t SessionTable::placed() const {
+  return static_cast<size_t>(std::ranges::count_if(entries_, [](const auto& one) {
+    return one.second.session->phase() == ClientSession::Phase::joined && one.second.needs_place();
+  }));
+}
+
+size_t SessionTable::turned_away() const {
+  return static_cast<size_t>(std::ranges::count_if(
+      outsiders_, [this](uint64_t id) { return entries_.at(id).session->turned_away().has_value(); }));
 }
 
 std::optional<uint64_t> SessionTable::oldest_outsider() const {

@@ -24,8 +24,13 @@ struct SessionEntry {
   Grant grant{};       ///< of a joined session
   std::string program{};
   double joined_s = 0.0;
-  uint64_t party = 0;    ///< as of Command; 0: an administrator, in none of Parties
-  bool relayed = false;  ///< as of Caller
+  uint64_t party = 0;        ///< as of Command; 0: an administrator, in none of Parties
+  bool relayed = false;      ///< as of Caller
+  bool administers = false;  ///< as of HelloMessage
+  bool at_door = true;       ///< it has a place there (Door::enter), which it gives back
+
+  /// Whether it counts among the sessions that the server has room for.
+  bool needs_place() const { return grant.role != Role::admin && !administers; }
 
   Caller caller() const { return {session->address(), session->ip(), session->encrypted(), relayed}; }
 };
@@ -37,7 +42,7 @@ class SessionTable {
   explicit SessionTable(double requests_per_second) : requests_per_second_(requests_per_second) {}
 
   /// Enters a session as an outsider; its number must be new.
-  void add(std::shared_ptr<ClientSession> session, bool relayed);
+  SessionEntry& add(std::shared_ptr<ClientSession> session, bool relayed);
   /// The session has joined, and goes on under the number `id`, which no other session has.
   SessionEntry& join(ClientSession& session, uint64_t id);
   /// A session that was refused is an outsider until it is closed.
@@ -61,6 +66,10 @@ class SessionTable {
   bool empty() const { return entries_.empty(); }
   size_t outsiders() const { return outsiders_.size(); }
   size_t joined() const;
+  /// Of those that joined, the ones that need a place.
+  size_t placed() const;
+  /// Outsiders that the door turned away.
+  size_t turned_away() const;
   /// The outsider that came first.
   std::optional<uint64_t> oldest_outsider() const;
 

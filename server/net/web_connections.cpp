@@ -5,10 +5,13 @@
 
 #include "auth/access_token.h"
 #include "proto/codec.h"
+#include "server/doors/entrance.h"
 #include "server/doors/unix_time.h"
 #include "server/net/limits.h"
+#include "server/net/server_health.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
+#include "transport/proxied_transport.h"
 #include "transport/websocket_transport.h"
 
 namespace scree {
@@ -42,30 +45,35 @@ void WebConnections::set_files(std::shared_ptr<const WebFiles> files) {
   if (site_) site_->set_files(std::move(files));
 }
 
-void WebConnections::begin(uint64_t id, const std::string& address, std::shared_ptr<Transport> stream,
+void WebConnections::begin(uint64_t id, const Visitor& from, std::shared_ptr<Transport> stream,
                            std::span<const uint8_t> arrived) {
   const HttpTimes times{config_.web.head_seconds, config_.web.idle_seconds, config_.stall_seconds,
                         limits::linger_seconds_max};
   const auto connection =
-      std::make_shared<HttpConnection>(std::move(stream), address, id, *this, times, steady_now_s());
-  connections_.emplace(id, connection);
+      std::make_shared<HttpConnection>(std::move(stream), id, *this, times, steady_now_s());
+  connections_.emplace(id, Entry{connection, from});
   host_.web_changed();
   connection->start(arrived);
 }
 
 void WebConnections::check_time(double now_s) {
   const Connections connections = connections_;  // a connection that is closed is erased
-  for (const auto& [id, connection] : connections) connection->check_time(now_s);
+  for (const auto& [id, entry] : connections) entry.connection->check_time(now_s);
 }
 
 void WebConnections::stop() {
   stopping_ = true;
   const Connections connections = connections_;  // likewise
-  for (const auto& [id, connection] : connections) connection->close();
+  for (const auto& [id, entry] : connections) entry.connection->close();
+}
+
+size_t WebConnections::turned_away() const {
+  return static_cast<size_t>(std::ranges::count_if(
+      connections_, [](const auto& one) { return one.second.from.turned_away.has_value(); }));
 }
 
 WebConnections::Connections::const_iterator WebConnections::idle() const {
-  return std::ranges::find_if(connections_, [](const auto& entry) { return entry.second->is_idle(); });
+  return std::ranges::find_if(connections_, [](const auto& one) { return one.second.connection->is_idle(); });
 }
 
 bool WebConnections::any_idle() const {
@@ -80,17 +88,38 @@ void WebConnections::close_one() {
   CHECK(!connections_.empty());
   const auto found = idle();
   const bool is_idle = found != connections_.end();
-  const auto connection = (is_idle ? found : connections_.cbegin())->second;
+  const auto connection = (is_idle ? found : connections_.cbegin())->second.connection;
   if (!is_idle) disconnect(*connection, Refusal::outsiders_max);
   connection->close();
 }
 
+WebConnections::Asker WebConnections::asker_of(const HttpConnection& from, const HttpRequest& request) const {
+  const Visitor& visitor = connections_.at(from.id()).from;
+  const bool seems_here = door_.is_free(visitor.address) && !request.relayed;
+  if (!config_.proxies.contains(from.ip())) return {from.ip(), visitor.address, seems_here, seems_here};
+  std::string ip = config_.proxies.client_of(request.forwarded_for, from.ip());
+  if (ip == from.ip()) return {from.ip(), visitor.address, false, seems_here};
+  std::string address = relayed_address(ip);
+  return {std::move(ip), std::move(address)};
+}
+
 HttpResponse WebConnections::answer(const HttpConnection& from, const HttpRequest& request) {
   ++counts_.web.requests;
-  if (!door_.may_request(from.address(), steady_now_s()))
+  Entry& entry = connections_.at(from.id());
+  if (const auto& refused = entry.from.turned_away) {
+    HttpResponse no = refusal(429, refused->reason, refused->message);
+    no.refused.reset();  // it is counted already
+    return no;
+  }
+  const Asker asker = asker_of(from, request);
+  const bool speaks_for_many = config_.proxies.contains(from.ip()) && asker.ip == from.ip();
+  if (!speaks_for_many && !door_.may_request(asker.address, steady_now_s()))
     return refusal(429, Refusal::http_requests_per_second,
                    "too many requests a second from your address (limits.http_requests_per_second_max)");
   if (stopping_) return refusal(503, Refusal::server_stops, "the server stops");
+  const bool asks_health =
+      request.path == "/healthz" || request.path == "/livez" || request.path == "/readyz";
+  if (asks_health && request.method != HttpMethod::other) return answer_health(request);
   if (config_.access.tls_required && !from.encrypted()) {
     HttpResponse elsewhere = refusal(307, Refusal::tls_required, "this server accepts only https");
     if (!request.host.empty())
@@ -98,8 +127,40 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
     return elsewhere;
   }
   if (request.path == "/status.json" && request.method != HttpMethod::other)
-    return status_json(from, request);
-  return site_->answer(request, door_.is_free(from.address()));
+    return status_json(asker, request);
+  return answer_site(entry, asker, request);
+}
+
+/// A WebSocket's place at the door is its person's, and not its proxy's.
+HttpResponse WebConnections::answer_site(Entry& entry, const Asker& asker, const HttpRequest& request) {
+  HttpResponse response = site_->answer(request, {asker.seems_here, asker.address});
+  if (!response.is_upgrade()) return response;
+  if (!config_.proxies.contains(entry.connection->ip())) {
+    entry.from.relayed = entry.from.relayed || request.relayed;
+    return response;
+  }
+  if (asker.ip == entry.connection->ip()) return response;
+  const double now_s = steady_now_s();
+  if (const auto no = door_.enter(asker.address, now_s)) {
+    const Refused refused = door_refusal(*no);
+    site_->note_refused(request, refused.message);
+    return refusal(429, refused.reason, refused.message);
+  }
+  door_.leave(entry.from.address, now_s);
+  entry.from = {asker.address, false};
+  entry.client_ip = asker.ip;
+  return response;
+}
+
+/// For everybody, plainly too: it says nothing that is not to be known.
+HttpResponse WebConnections::answer_health(const HttpRequest& request) {
+  const HealthMessage health = host_.health();
+  const bool good = request.path == "/healthz" ? health.well
+                    : request.path == "/livez" ? health.alive
+                                               : health.ready;
+  return {.status = good ? 200 : 503,
+          .fields = {{"Content-Type", "application/json"}, {"Cache-Control", "no-store"}},
+          .body = std::make_shared<const std::string>(health_answer(health))};
 }
 
 void WebConnections::answered(const HttpResponse& response, size_t bytes) {
@@ -109,8 +170,8 @@ void WebConnections::answered(const HttpResponse& response, size_t bytes) {
   host_.web_changed();
 }
 
-HttpResponse WebConnections::status_json(const HttpConnection& from, const HttpRequest& request) {
-  if (const auto may = may_see_status(from, request); !may) {
+HttpResponse WebConnections::status_json(const Asker& asker, const HttpRequest& request) {
+  if (const auto may = may_see_status(asker, request); !may) {
     HttpResponse no = words(status_of(may.error().reason), std::string(name_of(may.error().reason)));
     if (no.status == 401) no.fields.emplace_back("WWW-Authenticate", "Bearer");
     no.refused = may.error().reason;
@@ -125,17 +186,15 @@ HttpResponse WebConnections::status_json(const HttpConnection& from, const HttpR
 
 /// Where nobody could be an administrator, this machine's own programs may see it. A page that leads a
 /// browser here by a name of its own may not, nor may a proxy.
-tl::expected<void, Refused> WebConnections::may_see_status(const HttpConnection& from,
-                                                           const HttpRequest& request) {
-  const bool from_here = door_.is_free(from.address()) && !request.relayed;
+tl::expected<void, Refused> WebConnections::may_see_status(const Asker& asker, const HttpRequest& request) {
   const bool nobody_can = !authorizer_.knows_administrators();
-  if (nobody_can && from_here && is_own_host(request.host)) return {};
+  if (nobody_can && asker.is_local && is_own_host(request.host)) return {};
   if (nobody_can) return refuse(Refusal::no_admin_token, "");
   const auto token = bearer_token(request.authorization);
   if (!token) return refuse(Refusal::token_missing, "");
   if (!is_access_token(*token)) {
     if (!authorizer_.has_admin_token()) return refuse(Refusal::token_malformed, "");
-    return authorizer_.check_admin_token(from.address(), *token, steady_now_s());
+    return authorizer_.check_admin_token(asker.address, *token, steady_now_s());
   }
   const Grant grant = TRY(authorizer_.access().grant(*token, unix_now_s()));
   if (!may_act_as(grant.role, Role::admin)) return refuse(Refusal::role, "");
@@ -145,9 +204,12 @@ tl::expected<void, Refused> WebConnections::may_see_status(const HttpConnection&
 void WebConnections::opened_websocket(HttpConnection& from, std::shared_ptr<Transport> stream,
                                       std::span<const uint8_t> arrived) {
   ++counts_.web.websockets;
-  connections_.erase(from.id());
+  const auto node = connections_.extract(from.id());
+  const Entry& entry = node.mapped();
+  if (!entry.client_ip.empty())
+    stream = std::make_shared<ProxiedTransport>(std::move(stream), entry.client_ip);
   host_.begin_websocket(std::make_shared<WebSocketTransport>(std::move(stream), frame_bytes_max, arrived),
-                        from.address(), from.id(), from.relayed());
+                        entry.from, from.id());
   host_.web_changed();
 }
 
@@ -158,8 +220,9 @@ void WebConnections::disconnect(const HttpConnection& connection, Refusal reason
 }
 
 void WebConnections::ended(HttpConnection& connection) {
-  door_.leave(connection.address(), steady_now_s());
-  connections_.erase(connection.id());
+  const auto node = connections_.extract(connection.id());
+  const Visitor& from = node.mapped().from;
+  if (from.at_door) door_.leave(from.address, steady_now_s());
   host_.web_changed();
 }
 

@@ -2,7 +2,8 @@
 // network thread.
 //
 // Connections have numbers as sessions do. Each holds a place at the door, which it gives back when it ends;
-// a WebSocket takes number and place with it.
+// a WebSocket takes number and place with it. A trusted proxy's connection may carry the requests of many
+// persons: each request is of the address that it names, and a WebSocket's place at the door is that one's.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +17,7 @@
 #include "server/doors/door.h"
 #include "server/net/host_log.h"
 #include "server/net/net_server.h"
+#include "server/net/visitor.h"
 #include "server/web/http_connection.h"
 #include "server/web/site.h"
 
@@ -26,10 +28,10 @@ class WebHost {
  public:
   virtual ~WebHost() = default;
   /// A request has opened a WebSocket: the stream is the host's.
-  virtual void begin_websocket(std::shared_ptr<Transport> stream, const std::string& address, uint64_t id,
-                               bool relayed) = 0;
+  virtual void begin_websocket(std::shared_ptr<Transport> stream, const Visitor& from, uint64_t id) = 0;
   /// What status.json shows, as of now.
   virtual NetFigures status_figures() = 0;
+  virtual HealthMessage health() = 0;
   /// Connections or counts have changed.
   virtual void web_changed() = 0;
 };
@@ -47,7 +49,7 @@ class WebConnections final : public HttpHost {
   void set_files(std::shared_ptr<const WebFiles> files);
 
   /// A connection has spoken HTTP. `arrived`: what was read of it already.
-  void begin(uint64_t id, const std::string& address, std::shared_ptr<Transport> stream,
+  void begin(uint64_t id, const Visitor& from, std::shared_ptr<Transport> stream,
              std::span<const uint8_t> arrived);
   /// Ends what took too long. Call a few times a second.
   void check_time(double now_s);
@@ -55,6 +57,8 @@ class WebConnections final : public HttpHost {
   void stop();
 
   size_t size() const { return connections_.size(); }
+  /// Those that the door turned away.
+  size_t turned_away() const;
   /// Whether a browser's connection waits without a request; it opens another one when it needs to.
   bool any_idle() const;
   /// The number of the oldest connection.
@@ -63,7 +67,20 @@ class WebConnections final : public HttpHost {
   void close_one();
 
  private:
-  using Connections = std::map<uint64_t, std::shared_ptr<HttpConnection>>;
+  struct Entry {
+    std::shared_ptr<HttpConnection> connection;
+    Visitor from;
+    /// The client's IP address, of the request that opens a WebSocket; empty: the connection's own.
+    std::string client_ip{};
+  };
+  using Connections = std::map<uint64_t, Entry>;
+  /// Who asks, by a trusted proxy's word.
+  struct Asker {
+    std::string ip;
+    std::string address;      ///< as of Door
+    bool is_local = false;    ///< a program on this machine
+    bool seems_here = false;  ///< likewise, but it may be a page that a foreign name led here
+  };
 
   HttpResponse answer(const HttpConnection& from, const HttpRequest& request) override;
   void answered(const HttpResponse& response, size_t bytes) override;
@@ -71,8 +88,11 @@ class WebConnections final : public HttpHost {
                         std::span<const uint8_t> arrived) override;
   void disconnect(const HttpConnection& connection, Refusal reason) override;
   void ended(HttpConnection& connection) override;
-  HttpResponse status_json(const HttpConnection& from, const HttpRequest& request);
-  tl::expected<void, Refused> may_see_status(const HttpConnection& from, const HttpRequest& request);
+  Asker asker_of(const HttpConnection& from, const HttpRequest& request) const;
+  HttpResponse answer_site(Entry& entry, const Asker& asker, const HttpRequest& request);
+  HttpResponse answer_health(const HttpRequest& request);
+  HttpResponse status_json(const Asker& asker, const HttpRequest& request);
+  tl::expected<void, Refused> may_see_status(const Asker& asker, const HttpRequest& request);
   Connections::const_iterator idle() const;
 
   const NetConfig& config_;

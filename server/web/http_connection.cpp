@@ -13,15 +13,9 @@ constexpr std::string_view end_of_head = "\r\n\r\n";
 
 }  // namespace
 
-HttpConnection::HttpConnection(std::shared_ptr<Transport> stream, std::string address, uint64_t id,
-                               HttpHost& host, const HttpTimes& times, double now_s)
-    : stream_(std::move(stream)),
-      address_(std::move(address)),
-      id_(id),
-      host_(host),
-      times_(times),
-      now_s_(now_s),
-      since_s_(now_s) {}
+HttpConnection::HttpConnection(std::shared_ptr<Transport> stream, uint64_t id, HttpHost& host,
+                               const HttpTimes& times, double now_s)
+    : stream_(std::move(stream)), id_(id), host_(host), times_(times), now_s_(now_s), since_s_(now_s) {}
 
 void HttpConnection::start(std::span<const uint8_t> arrived) {
   buffer_.assign(arrived.begin(), arrived.end());
@@ -59,7 +53,6 @@ void HttpConnection::parse_head() {
                    false);
   const auto request = parse_http_head(std::string_view(buffer_).substr(0, head_bytes_));
   if (!request) return respond(refusal(400, Refusal::http_malformed, request.error().message), false, false);
-  relayed_ = request->relayed;
   respond(host_.answer(*this, *request), request->method == HttpMethod::head, request->keep_alive);
 }
 

@@ -44,9 +44,8 @@ struct HttpTimes {
 
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  /// `address`: as of Door.
-  HttpConnection(std::shared_ptr<Transport> stream, std::string address, uint64_t id, HttpHost& host,
-                 const HttpTimes& times, double now_s);
+  HttpConnection(std::shared_ptr<Transport> stream, uint64_t id, HttpHost& host, const HttpTimes& times,
+                 double now_s);
 
   /// `arrived`: what was read already.
   void start(std::span<const uint8_t> arrived);
@@ -56,11 +55,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void close();
 
   uint64_t id() const { return id_; }
-  /// As of Door.
-  const std::string& address() const { return address_; }
+  /// The IP address.
+  const std::string& ip() const { return stream_->address(); }
   bool encrypted() const { return stream_->encrypted(); }
-  /// Whether a proxy relayed the last request (HttpRequest).
-  bool relayed() const { return relayed_; }
   /// Between requests, or lingering: nobody waits for it.
   bool is_idle() const { return phase_ == Phase::lingering || (phase_ == Phase::head && !begun_); }
 
@@ -77,7 +74,6 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void open_websocket();
 
   std::shared_ptr<Transport> stream_;
-  std::string address_;
   uint64_t id_;
   HttpHost& host_;
   HttpTimes times_;
@@ -93,7 +89,6 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   std::string response_head_;
   bool head_only_ = false;
   bool keep_alive_ = false;
-  bool relayed_ = false;
   size_t sent_ = 0;
 };
 

@@ -44,6 +44,17 @@ bool is_relayed(const Head& head) {
   return head.version() == 10 || std::ranges::any_of(proxy_fields, is_there);
 }
 
+/// One list: each proxy on the way adds to the field, or adds another one.
+std::string list_of(const Head& head, const char* field) {
+  std::string list;
+  const auto [first, last] = head.equal_range(field);
+  for (auto at = first; at != last; ++at) {
+    if (!list.empty()) list += ",";
+    list.append(at->value().data(), at->value().size());
+  }
+  return list;
+}
+
 bool has_body(const Head& head) {
   const auto length = head[http::field::content_length];
   return head.count(http::field::transfer_encoding) > 0 || (!length.empty() && length != "0");
@@ -69,16 +80,20 @@ Result<HttpRequest> parse_http_head(std::string_view text) {
   HttpRequest request;
   request.method = method_of(head);
   request.path = target.substr(0, target.find('?'));
+  if (request.path.size() < target.size()) request.query = target.substr(request.path.size() + 1);
   request.host = text_of(head, http::field::host);
   if (head.count(http::field::origin) > 0) request.origin = text_of(head, http::field::origin);
   request.authorization = text_of(head, http::field::authorization);
   request.if_none_match = text_of(head, http::field::if_none_match);
   request.accepts_gzip = accepts_gzip(head);
   request.relayed = is_relayed(head);
+  request.forwarded_for = list_of(head, "X-Forwarded-For");
+  request.old_version = head.version() == 10;
+  request.names_upgrade = http::token_list(head[http::field::upgrade]).exists("websocket");
+  request.connection_upgrade = http::token_list(head[http::field::connection]).exists("upgrade");
   request.keep_alive = head.keep_alive();
   // HTTP/1.0 knows no upgrade (RFC 9110, 7.8).
-  request.wants_websocket = head.version() == 11 && parser.upgrade() &&
-                            http::token_list(head[http::field::upgrade]).exists("websocket");
+  request.wants_websocket = head.version() == 11 && parser.upgrade() && request.names_upgrade;
   request.websocket_key = text_of(head, http::field::sec_websocket_key);
   request.websocket_version = text_of(head, http::field::sec_websocket_version);
   return request;

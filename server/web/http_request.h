@@ -14,7 +14,8 @@ enum class HttpMethod { get, head, other };
 /// Fields that are not there are empty.
 struct HttpRequest {
   HttpMethod method = HttpMethod::get;
-  std::string path;  ///< of the target, as it came: what follows '?' is left out, nothing is decoded
+  std::string path;   ///< of the target, as it came, up to '?': nothing is decoded
+  std::string query;  ///< of the target, behind '?'
   std::string host;
   std::optional<std::string> origin;
   std::string authorization;
@@ -22,6 +23,10 @@ struct HttpRequest {
   bool accepts_gzip = false;
   /// A proxy passed it on, as far as that shows: fields that proxies add, or HTTP/1.0, which is left to them.
   bool relayed = false;
+  std::string forwarded_for;        ///< X-Forwarded-For, all of them in their order
+  bool old_version = false;         ///< HTTP/1.0
+  bool names_upgrade = false;       ///< Upgrade has "websocket"
+  bool connection_upgrade = false;  ///< Connection has "upgrade"
   bool keep_alive = true;           ///< the client wants to ask again on this connection
   bool wants_websocket = false;     ///< Connection and Upgrade say so
   std::string websocket_key;        ///< Sec-WebSocket-Key

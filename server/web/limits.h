@@ -14,6 +14,12 @@ inline constexpr double http_head_seconds_max = 5.0;
 /// Seconds that a connection may stay open between requests. Above: closed; browsers open another one.
 inline constexpr double http_idle_seconds_max = 15.0;
 
+/// Digits by which a page names its attempt to open a WebSocket, and those of a pass: 128 bits.
+inline constexpr size_t socket_digits = 32;
+
+/// Attempts that failed and are remembered, so that their pages can ask why. Above: the oldest is forgotten.
+inline constexpr size_t socket_attempts_max = 256;
+
 /// Files of the page, their bytes in memory with the compressed ones, and folders in folders. Above: the
 /// server does not start, and says which folder it is.
 inline constexpr size_t web_files_max = 512;

@@ -1,5 +1,5 @@
-// What the server answers to HTTP requests by itself: the page's files, its health, the handshake of a
-// WebSocket. No sockets. Not thread-safe.
+// What the server answers to HTTP requests by itself: the page's files, and the handshake of a WebSocket. No
+// sockets. Not thread-safe.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include "server/web/http_request.h"
 #include "server/web/http_response.h"
+#include "server/web/socket_door.h"
 #include "server/web/web_files.h"
 
 namespace scree {
@@ -17,27 +18,23 @@ class Site {
  public:
   /// `origins`: as in WebConfig. `files` is not null.
   Site(std::shared_ptr<const WebFiles> files, std::vector<std::string> origins)
-      : files_(std::move(files)), origins_(std::move(origins)) {}
+      : files_(std::move(files)), socket_door_(std::move(origins)) {}
 
   /// From now on.
   void set_files(std::shared_ptr<const WebFiles> files) { files_ = std::move(files); }
-  /// `from_here`: the request came from this machine.
-  HttpResponse answer(const HttpRequest& request, bool from_here) const;
+  /// The health is that of a server that does nothing but serve files.
+  HttpResponse answer(const HttpRequest& request, const WebPeer& peer);
+  /// A handshake that was to be answered by 101 is refused for this reason.
+  void note_refused(const HttpRequest& request, const std::string& words) {
+    socket_door_.note(request, words);
+  }
 
  private:
-  HttpResponse open_websocket(const HttpRequest& request, bool from_here) const;
   HttpResponse file(const HttpRequest& request) const;
-  bool may_join(const HttpRequest& request, bool from_here) const;
+  bool below_another_path(std::string_view path) const;
 
   std::shared_ptr<const WebFiles> files_;
-  std::vector<std::string> origins_;
+  SocketDoor socket_door_;
 };
-
-/// Whether a text is an origin as browsers write it: scheme, host, and a port other than the scheme's own.
-bool is_origin(std::string_view text);
-
-/// Whether a Host is this machine's for certain: a number, localhost, or the machine's own name. Any other
-/// name that leads from here to here may be one that a page made to do so (DNS rebinding), or a proxy's.
-bool is_own_host(std::string_view host);
 
 }  // namespace scree

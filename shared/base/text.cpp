@@ -103,7 +103,7 @@ std::string showable(std::string_view text, size_t bytes_max) {
 }
 
 std::string endpoint_text(std::string_view host, uint16_t port) {
-  const bool is_v6 = host.find(':') != std::string_view::npos && !host.starts_with('[');
+  const bool is_v6 = std::ranges::count(host, ':') > 1 && !host.starts_with('[');
   std::string text(is_v6 ? "[" : "");
   text.append(host).append(is_v6 ? "]:" : ":").append(std::to_string(port));
   return text;

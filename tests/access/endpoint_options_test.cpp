@@ -42,6 +42,12 @@ TEST(EndpointOptions, are_plain_on_this_machine_unless_said_otherwise) {
   EXPECT_EQ(parsed.endpoint.token, "");
 }
 
+TEST(EndpointOptions, a_port_in_the_host_is_named_as_the_mistake_that_it_is) {
+  EXPECT_EQ(parse({"--host", "127.0.0.1:5100"}).error,
+            "--host: '127.0.0.1:5100' has a port in it: --host 127.0.0.1 --port 5100");
+  EXPECT_EQ(parse({"--host", "::1"}).error, "");
+}
+
 TEST(EndpointOptions, what_to_trust_implies_tls) {
   EXPECT_TRUE(parse({"--tls"}).endpoint.tls);
   EXPECT_TRUE(parse({"--tls-ca", "f"}).endpoint.tls);

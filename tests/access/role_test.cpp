@@ -54,7 +54,7 @@ TEST_F(RoleTest, without_a_token_is_what_the_server_says) {
     start();
     if (anonymous) join("", *anonymous);
     if (!anonymous) {
-      EXPECT_TRUE(holds(refusal(hello("")), "requires a token (--token)"));
+      EXPECT_TRUE(holds(refusal(hello("")), "requires an access token: ask its operator"));
     }
   }
 }
@@ -84,23 +84,81 @@ TEST_F(RoleTest, a_full_server_has_room_for_tokens_and_keeps_those_who_hold_one)
   ASSERT_TRUE(displaced);
   EXPECT_TRUE(holds(displaced->reason, "another client has your place"));
   const auto administrator = join(the_admin_token, Role::admin);
-  EXPECT_TRUE(second->receive_as<RefusalMessage>());
+  acts(*second);
   std::this_thread::sleep_for(std::chrono::duration<double>(limits::inert_seconds_max));
   EXPECT_TRUE(holds(refusal(hello("")), "the server is full")) << "nobody without a token displaces them";
-  join(token(Role::carver), Role::carver);
+  acts(*second);
+  const auto carver = join(token(Role::carver, 31), Role::carver);
+  EXPECT_TRUE(second->receive_as<RefusalMessage>()) << "those who hold a token go first";
+  acts(*carver);
+  join(token(Role::carver, 32), Role::carver);
   EXPECT_TRUE(builder->receive_as<RefusalMessage>()) << "it has done nothing since it came";
+}
+
+TEST_F(RoleTest, administrators_take_no_place_and_nobody_goes_for_them) {
+  config.service.sessions_max = 1;
+  start();
+  const auto player = join("", Role::viewer);
+  const auto plays = [&] {
+    EXPECT_TRUE(player->send(AdminMessage{1, "", ListBansRequest{}}));
+    return player->receive_as<ReplyMessage>().has_value();
+  };
+  std::vector<std::unique_ptr<RawClient>> administrators;
+  for (size_t i = 0; i < limits::administrators_max; ++i)
+    administrators.push_back(join(i % 2 == 0 ? the_admin_token : token(Role::admin), Role::admin));
+  EXPECT_TRUE(plays());
+  EXPECT_TRUE(holds(refusal(hello(the_admin_token)), "administrators already"));
+  EXPECT_TRUE(holds(refusal(hello("")), "the server is full"));
+  EXPECT_TRUE(plays());
+}
+
+TEST_F(RoleTest, programs_that_administer_go_for_each_other_and_for_administrators) {
+  config.service.sessions_max = 1;
+  start();
+  const auto player = join("", Role::viewer);
+  std::vector<std::unique_ptr<RawClient>> visitors;
+  HelloMessage visit = hello("");
+  visit.administers = true;
+  for (size_t i = 0; i < limits::administrators_max + 5; ++i) {
+    visitors.push_back(std::make_unique<RawClient>(server->port()));
+    ASSERT_TRUE(visitors.back()->send(visit));
+    ASSERT_TRUE(visitors.back()->receive_as<WelcomeMessage>()) << i;
+  }
+  for (size_t i = 0; i < 5; ++i) EXPECT_TRUE(visitors[i]->receive_as<RefusalMessage>()) << i;
+  join(the_admin_token, Role::admin);
+  EXPECT_TRUE(visitors[5]->receive_as<RefusalMessage>()) << "it came first of those that are left";
+  EXPECT_TRUE(player->send(AdminMessage{1, "", ListBansRequest{}}));
+  EXPECT_TRUE(player->receive_as<ReplyMessage>());
+}
+
+TEST_F(RoleTest, who_administers_alone_sees_and_changes_no_terrain) {
+  start();
+  commands.drain();
+  RawClient client(server->port());
+  HelloMessage visit = hello(token(Role::builder));
+  visit.administers = true;
+  ASSERT_TRUE(client.send(visit));
+  const auto welcome = client.receive_as<WelcomeMessage>();
+  ASSERT_TRUE(welcome);
+  EXPECT_EQ(welcome->interest_radius_m, 0.0F);
+  ASSERT_TRUE(client.send(InterestMessage{{}, 64.0F}));
+  ASSERT_TRUE(client.send(FillMessage{{sphere({}, 1.0F)}, 9}));
+  const auto reply = client.receive_as<ReplyMessage>();
+  ASSERT_TRUE(reply);
+  EXPECT_TRUE(holds(reply->refusal, "administers alone")) << reply->refusal;
+  EXPECT_TRUE(commands.drain().empty());
 }
 
 TEST_F(RoleTest, guesses_at_the_admin_token_by_hellos_are_slowed_down_and_access_tokens_are_not) {
   start();
   const Within wait(limits::guess_wait_min_s);
-  EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "the admin token is wrong"));
+  EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "this server does not know the token"));
   const std::string said = refusal(hello(the_admin_token));
   if (wait.over()) GTEST_SKIP() << "the machine stood still: the next guess is looked at";
   EXPECT_TRUE(holds(said, "the server checks the next one in")) << said;
   EXPECT_TRUE(comes_to_refuse(Refusal::token_guesses));
   for (int i = 0; i < 20; ++i)
-    EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "wrong, as it was before")) << "which is no guess";
+    EXPECT_TRUE(holds(refusal(hello("no-admin-token")), "as before")) << "which is no guess";
   join(token(Role::builder), Role::builder);
 }
 
@@ -218,7 +276,7 @@ TEST_F(RoleTest, only_administrators_administer) {
   ASSERT_TRUE(client->send(AdminMessage{2, "another-admin-token", ListSessionsRequest{}}));
   const auto refused = client->receive_as<RefusalMessage>();
   ASSERT_TRUE(refused);
-  EXPECT_EQ(refused->reason, "the admin token is wrong");
+  EXPECT_EQ(refused->reason, "this server does not know the token");
 }
 
 TEST_F(RoleTest, who_is_kicked_is_told_why_and_may_come_again) {

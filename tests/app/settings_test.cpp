@@ -344,7 +344,7 @@ TEST_F(AdminSession, status_says_what_the_ticks_had_to_do) {
 TEST_F(AdminSession, whoever_does_not_is_refused) {
   start(good_token);
   EXPECT_TRUE(holds(refusal("another-token-of-length", {{"dents", "false"}}),
-                    "the server refused: the admin token is wrong"));
+                    "the server refused: this server does not know the token"));
   EXPECT_TRUE(holds(refusal(good_token, {{"dents", "false"}}), "the server checks the next one in"))
       << "who guesses waits, and so does who knows it, at that address";
   EXPECT_TRUE(holds(refusal("", {{"dents", "false"}}), "takes the role admin: this session is a builder"));

@@ -18,7 +18,7 @@ class SiteTest : public ::testing::Test {
     request.path = path;
     request.host = "game.example:4177";
     if (change) change(request);
-    return Site(*WebFiles::load(folder.path()), origins).answer(request, from_here);
+    return Site(*WebFiles::load(folder.path()), origins).answer(request, {from_here, "192.0.2.7"});
   }
   /// Status of the answer to a handshake.
   int open_websocket(const std::function<void(HttpRequest&)>& change = {}, bool from_here = false) {
@@ -109,13 +109,13 @@ TEST_F(SiteTest, follows_links_within_the_folder) {
 }
 
 TEST_F(SiteTest, says_what_to_do_without_a_page) {
-  const Site site(std::make_shared<const WebFiles>(), {});
+  Site site(std::make_shared<const WebFiles>(), {});
   HttpRequest request;
   request.path = "/";
-  EXPECT_EQ(site.answer(request, true).status, 404);
-  EXPECT_TRUE(holds(*site.answer(request, true).body, "./scree web"));
+  EXPECT_EQ(site.answer(request, {true}).status, 404);
+  EXPECT_TRUE(holds(*site.answer(request, {true}).body, "./scree web"));
   request.path = "/healthz";
-  EXPECT_EQ(site.answer(request, true).status, 200);
+  EXPECT_EQ(site.answer(request, {true}).status, 200);
 }
 
 TEST_F(SiteTest, bounds_what_a_folder_may_hold) {
@@ -183,6 +183,53 @@ TEST_F(SiteTest, distrusts_names_that_lead_from_this_machine_to_itself) {
   EXPECT_EQ(open_websocket({}, true), 101) << "a program that is no browser";
   origins = {"http://rebound.example:4177"};
   EXPECT_EQ(from("rebound.example:4177"), 101);
+}
+
+TEST_F(SiteTest, tells_a_page_what_was_missing_and_gives_it_a_pass_for_its_address) {
+  Site site(*WebFiles::load(folder.path()), {});
+  const auto ask_for = [&](const std::string& path, const std::string& query, const WebPeer& peer,
+                           const std::function<void(HttpRequest&)>& change = {}) {
+    HttpRequest request;
+    request.path = path;
+    request.query = query;
+    request.host = "127.0.0.1:4177";
+    request.origin = "http://192.0.2.5";
+    request.wants_websocket = request.names_upgrade = request.connection_upgrade = true;
+    request.websocket_version = "13";
+    request.websocket_key = "dGhlIHNhbXBsZSBub25jZQ==";
+    if (change) change(request);
+    return site.answer(request, peer);
+  };
+  const std::string first = "attempt=" + std::string(32, 'a'), second = "attempt=" + std::string(32, 'b');
+  const WebPeer ann{false, "198.51.100.1"}, ben{false, "198.51.100.2"};
+  EXPECT_TRUE(holds(*ask_for("/session.json", first, ann).body, "\"seen\":false"));
+  EXPECT_EQ(ask_for("/session", first, ann).status, 403);
+  const std::string told = *ask_for("/session.json", first, ann).body;
+  const size_t at = told.find("\"pass\":\"");
+  ASSERT_NE(at, told.npos) << told;
+  const std::string pass = "&pass=" + told.substr(at + 8, 32);
+  EXPECT_EQ(ask_for("/session", second + pass, ann).status, 101);
+  EXPECT_EQ(ask_for("/session", second + pass, ben).status, 403) << "it is not his";
+  EXPECT_EQ(ask_for("/session", pass.substr(1), {true, "198.51.100.1"}).status, 101) << "a number is no name";
+  EXPECT_EQ(ask_for("/session", pass.substr(1), {true, "198.51.100.1"},
+                    [](HttpRequest& r) { r.origin = "http://rebound.example"; })
+                .status,
+            403);
+  const auto without_upgrade = [](HttpRequest& r) { r.wants_websocket = r.names_upgrade = false; };
+  EXPECT_EQ(ask_for("/session", second, ann, without_upgrade).status, 426);
+  const std::string lines = *ask_for("/session.json", second, ann).body;
+  EXPECT_TRUE(holds(lines, "proxy_set_header Upgrade $http_upgrade;")) << lines;
+  EXPECT_FALSE(holds(lines, "proxy_http_version") || holds(lines, "pass\":")) << lines;
+  for (size_t i = 0; i < limits::socket_attempts_max; ++i)
+    ask_for("/session", "attempt=" + std::string(32, 'c'), ben, without_upgrade);
+  EXPECT_TRUE(holds(*ask_for("/session.json", second, ann).body, "\"seen\":false")) << "it is forgotten";
+}
+
+TEST_F(SiteTest, says_that_a_proxy_left_its_path_in) {
+  EXPECT_TRUE(holds(*ask("/scree/main.js").body, "has to take that path away"));
+  EXPECT_TRUE(holds(*ask("/scree/session").body, "has to take that path away"));
+  EXPECT_FALSE(holds(*ask("/scree/nothing.js").body, "path"));
+  EXPECT_EQ(ask("/scree/main.js").status, 404);
 }
 
 TEST(WebFileNames, hold_a_hash_between_two_dots) {

@@ -78,7 +78,7 @@ TEST_F(WebServerTest, serves_the_page_isolated_and_by_itself_alone) {
                     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'"));
   EXPECT_FALSE(page.field("Date").empty());
   EXPECT_EQ(page.field("Connection"), "keep-alive");
-  EXPECT_EQ(client.get("/healthz").body, "ok\n") << "on the same connection";
+  EXPECT_TRUE(holds(client.get("/healthz").body, "\"well\":true")) << "on the same connection";
   EXPECT_EQ(client.get("/client.0123abcd.wasm", "Accept-Encoding: gzip\r\n").body, "compressed wasm");
   EXPECT_EQ(client.get("/", "If-None-Match: " + page.field("ETag") + "\r\n").status, 304);
   const HttpAnswer head = client.get("/", "", "HEAD");
@@ -103,7 +103,8 @@ TEST_F(WebServerTest, answers_requests_that_come_at_once_in_their_order) {
     many += std::string("GET ") + (i % 2 == 0 ? "/healthz" : "/main.js") +
             " HTTP/1.1\r\nHost: localhost\r\n\r\n\r\n";
   ASSERT_TRUE(client.pipe().send(many));
-  for (int i = 0; i < 100; ++i) ASSERT_EQ(client.answer().body, i % 2 == 0 ? "ok\n" : "let a = 1;") << i;
+  for (int i = 0; i < 100; ++i)
+    ASSERT_TRUE(holds(client.answer().body, i % 2 == 0 ? "\"well\":true" : "let a = 1;")) << i;
 }
 
 TEST_F(WebServerTest, answers_a_request_that_comes_byte_by_byte) {
@@ -241,7 +242,29 @@ TEST_F(WebServerTest, counts_a_websocket_among_the_connections_of_its_address) {
   WebSocketClient first(server->port()), second(server->port());
   EXPECT_TRUE(first.open() && second.open());
   HttpClient third(server->port());
-  EXPECT_EQ(third.get("/").status, 0) << "the witness has the third place";
+  const HttpAnswer no = third.get("/");
+  EXPECT_EQ(no.status, 429) << "the witness has the third place, and who speaks HTTP is told so by it";
+  EXPECT_TRUE(holds(no.body, "connections-per-address"));
+  EXPECT_TRUE(third.pipe().ends());
+  WebSocketClient fourth(server->port());
+  EXPECT_EQ(fourth.handshake().status, 429);
+  EXPECT_EQ(server->stats().turned_away, 2U);
+  EXPECT_EQ(server->stats().refusals.of(Refusal::connections_per_address), 2U) << "each is counted once";
+  expect_witness_unmoved();
+}
+
+TEST_F(WebServerTest, tells_its_health_plainly_where_tls_is_required_and_where_it_is_full) {
+  const auto tls = open_with_tls(true);
+  HttpClient plain(server->port());
+  for (const char* path : {"/healthz", "/livez", "/readyz"}) {
+    const HttpAnswer answer = plain.get(path);
+    EXPECT_EQ(answer.status, 200) << path;
+    EXPECT_EQ(answer.field("Content-Type"), "application/json");
+    EXPECT_EQ(answer.field("Cache-Control"), "no-store");
+  }
+  RawClient bytes(server->port());
+  ASSERT_TRUE(bytes.send(AskHealthMessage{}));
+  EXPECT_TRUE(bytes.receive_as<HealthMessage>());
 }
 
 TEST_F(WebServerTest, speaks_no_http_where_it_is_off) {
@@ -306,6 +329,8 @@ TEST_F(WebStatusTest, tells_this_machine_of_an_open_server) {
   EXPECT_EQ(json["now"]["tick"], 2);
   EXPECT_EQ(json["now"]["stages_ms"].size(), tick_stages.size());
   EXPECT_EQ(json["now"]["latency_ms"].size(), latency_stages.size());
+  EXPECT_EQ(json["health"]["well"], true);
+  EXPECT_EQ(json["health"]["faults"].size(), 0U);
   EXPECT_EQ(json["sessions"].size(), 1U);
   EXPECT_EQ(json["sessions"][0]["program"], "test");
   EXPECT_EQ(json["sessions"][0]["role"], "builder");

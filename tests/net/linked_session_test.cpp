@@ -94,6 +94,7 @@ class LinkedWorld final : public SessionHost {
  private:
   static constexpr size_t kernel_bytes = 4096;
 
+  HealthMessage health() override { return {}; }
   tl::expected<WelcomeMessage, Refused> admit(ClientSession& session, const HelloMessage& hello) override {
     publisher.join(session.id(), hello.eye_m, hello.interest_radius_m, operation_kinds);
     WelcomeMessage welcome;

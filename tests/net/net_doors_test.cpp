@@ -58,11 +58,11 @@ TEST_F(NetServerTest, an_address_opens_and_holds_so_many_connections_and_no_more
   RawClient second(server->port());
   RawClient third(server->port());
   RawClient fourth(server->port());
-  expect_refused(fourth, "limits.connections_per_address_max");
+  expect_refused(fourth, "connections-per-address");
   RawClient fifth(server->port());
-  expect_refused(fifth, "limits.connections_per_address_max");
+  expect_refused(fifth, "connections-per-address");
   RawClient sixth(server->port());
-  expect_refused(sixth, "limits.connects_per_second_max");
+  expect_refused(sixth, "connects-per-second");
   const NetStats stats = server->stats();
   EXPECT_EQ(stats.turned_away, 3U);
   EXPECT_EQ(stats.refusals.of(Refusal::connections_per_address), 2U);

@@ -111,6 +111,23 @@ TEST(Room, places_that_are_kept_are_no_newcomers_but_at_most_a_quarter_is_kept) 
   EXPECT_FALSE(finds_place(0));
 }
 
+TEST(Room, counts_those_alone_that_need_a_place) {
+  MemorySessions sessions;
+  Room room;
+  room.fit(1);
+  sessions.join(1, "10.0.0.1", {.role = Role::admin});
+  sessions.table.at(sessions.join(2, "10.0.0.2", viewer)->id()).administers = true;
+  const auto newcomer = sessions.connect(9, "10.0.0.3");
+  EXPECT_TRUE(room.find_place(sessions.table, *newcomer, viewer, 0, sessions.now_s));
+  EXPECT_TRUE(room.has_place(sessions.table, sessions.now_s));
+  sessions.join(3, "10.0.0.3", viewer);
+  EXPECT_FALSE(room.find_place(sessions.table, *newcomer, viewer, 0, sessions.now_s));
+  EXPECT_FALSE(room.has_place(sessions.table, sessions.now_s));
+  sessions.now_s += limits::idle_seconds_max + 1.0;
+  EXPECT_TRUE(room.has_place(sessions.table, sessions.now_s)) << "who is idle would go";
+  EXPECT_TRUE(sessions.reasons.empty());
+}
+
 class ReturnsTest : public ::testing::Test {
  protected:
   ReturnsTest() {

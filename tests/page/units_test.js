@@ -11,7 +11,7 @@ import { buffer_size, layout_of } from './page/layout.js';
 import { events_near, part_of, rows_of, span_of, tick_at } from './page/marks.js';
 import { pad_state } from './page/pad.js';
 import { picture_name } from './page/picture.js';
-import { Socket, session_url, why_closed } from './page/socket.js';
+import { Socket, ask_why, session_url, told_url, why_closed } from './page/socket.js';
 import { points } from './page/spark.js';
 import { heads, lists, stage_bars } from './page/status_figures.js';
 import { bytes, span, time, whole } from './page/words.js';
@@ -198,7 +198,61 @@ test('a message that is too long, or is text, ends the connection', () => {
   }
 });
 
+const turn = () => new Promise((done) => { setImmediate(done); });
+
+test('a socket that cannot be opened says what the server saw of it', async () => {
+  const client = client_of(['open']);
+  const asked = [];
+  const why = async (session, name) => { asked.push(name); return { words: 'a line is missing' }; };
+  const socket = new Socket(client, 'ws://here/session', (url) => new FakeSocket(url), why);
+  socket.step();
+  const made = FakeSocket.all.at(-1);
+  made.onclose({ code: 1006, reason: '' });
+  await turn();
+  assert.match(made.url, /^ws:\/\/here\/session\?attempt=[0-9a-f]{32}$/);
+  assert.deepEqual(asked, [made.url.slice(-32)]);
+  assert.deepEqual(client.told, ['closed a line is missing']);
+});
+
+test('a page that is given a pass tries again with it, once', async () => {
+  const client = client_of(['open']);
+  const why = async () => ({ words: 'of another site', pass: 'f00d' });
+  const socket = new Socket(client, 'ws://here/session', (url) => new FakeSocket(url), why);
+  socket.step();
+  FakeSocket.all.at(-1).onclose({ code: 1006, reason: '' });
+  await turn();
+  assert.match(FakeSocket.all.at(-1).url, /&pass=f00d$/);
+  assert.deepEqual(client.told, []);
+  FakeSocket.all.at(-1).onclose({ code: 1006, reason: '' });
+  await turn();
+  assert.deepEqual(client.told, ['closed of another site']);
+});
+
+test('a socket that the client gave up meanwhile tells nothing', async () => {
+  const client = client_of(['open', 'close']);
+  const socket = new Socket(client, 'ws://here/session', (url) => new FakeSocket(url), async () => ({ words: 'late' }));
+  socket.step();
+  FakeSocket.all.at(-1).onclose({ code: 1006, reason: '' });
+  socket.step();
+  await turn();
+  assert.deepEqual(client.told, []);
+});
+
+test('the server is asked beside the session, and its answer put in words', async () => {
+  const answer = (ok, status, json, text = '') => async (url) => {
+    assert.equal(url, 'https://a.example/scree/session.json?attempt=01');
+    return { ok, status, json: async () => json, text: async () => text };
+  };
+  const ask = (reply) => ask_why('wss://a.example/scree/session', '01', reply);
+  assert.deepEqual(await ask(answer(true, 200, { seen: true, words: 'no line', pass: '7' })), { words: 'no line', pass: '7' });
+  assert.match((await ask(answer(true, 200, { seen: false }))).words, /passes the page on, and "session" beside it not/);
+  assert.match((await ask(answer(false, 429, null, 'too many'))).words, /429: too many/);
+  assert.deepEqual(await ask(async () => { throw new TypeError('no network'); }), {});
+});
+
 test('a page joins its own server', () => {
+  assert.equal(session_url({ protocol: 'https:', host: 'a.example', pathname: '/games/scree/' }), 'wss://a.example/games/scree/session');
+  assert.equal(told_url('ws://a.example:81/scree/session'), 'http://a.example:81/scree/session.json');
   assert.equal(session_url({ protocol: 'https:', host: 'a.example' }), 'wss://a.example/session');
   assert.equal(session_url({ protocol: 'http:', host: '127.0.0.1:4177' }), 'ws://127.0.0.1:4177/session');
   assert.equal(why_closed(1006, ''), '');

@@ -94,6 +94,7 @@ inline Lines describe(const HelloMessage& m) {
                           m.name, m.token),
               fmt::format("eye {}, radius {} m, kernels: {}{}", words(m.eye_m), m.interest_radius_m,
                           m.lacks_kernels ? "none" : "has them", m.meets ? ", meets others" : "")};
+  if (m.administers) lines.emplace_back("administers alone");
   if (m.world != 0 || !m.ticket.empty())
     lines.push_back(fmt::format("comes back: world 0x{:016x}, ticket {}", m.world, words_of_bytes(m.ticket)));
   return lines;
@@ -205,6 +206,15 @@ inline Lines describe(const RecordedCursorsMessage& m) {
   for (const PlayerCursor& cursor : m.cursors)
     lines.push_back(fmt::format("cursor: session {}, name '{}', eye {}, aim {}", cursor.session, cursor.name,
                                 words(cursor.eye_m), words(cursor.aim_m)));
+  return lines;
+}
+inline Lines describe(const AskHealthMessage&) {
+  return {"ask health"};
+}
+inline Lines describe(const HealthMessage& m) {
+  Lines lines{fmt::format("health: alive {}, well {}, ready {}, tick {}", m.alive, m.well, m.ready, m.tick)};
+  for (const HealthFault& fault : m.faults)
+    lines.push_back(fmt::format("fault: {}, '{}'", fault.name, fault.words));
   return lines;
 }
 inline Lines describe(const GoodbyeMessage&) {

@@ -44,6 +44,7 @@ class MemorySessions final : public SessionHost {
     table.join(session, session.id());
     return WelcomeMessage{};
   }
+  HealthMessage health() override { return {}; }
   tl::expected<void, Refused> receive(ClientSession&, const ClientMessage&) override { return {}; }
   void refused(ClientSession& session, const Refused& refused) override {
     reasons[session.id()] = refused.reason;

@@ -17,7 +17,8 @@ namespace scree {
 
 class RawClient {
  public:
-  explicit RawClient(uint16_t port, int receive_buffer_bytes = 0) : socket_(port, receive_buffer_bytes) {}
+  explicit RawClient(const Route& route, int receive_buffer_bytes = 0)
+      : socket_(route, receive_buffer_bytes) {}
 
   bool connected() const { return socket_.connected(); }
 

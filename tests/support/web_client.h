@@ -26,9 +26,9 @@ namespace scree {
 /// Bytes to and from a server.
 class WebPipe {
  public:
-  explicit WebPipe(uint16_t port, const std::shared_ptr<const TlsClientContext>& tls = nullptr,
+  explicit WebPipe(const Route& route, const std::shared_ptr<const TlsClientContext>& tls = nullptr,
                    int receive_buffer_bytes = 0)
-      : socket_(port, receive_buffer_bytes), connected_(socket_.connected()) {
+      : socket_(route, receive_buffer_bytes), connected_(socket_.connected()) {
     if (tls) tls_.emplace(tls, "localhost");
     while (tls_ && connected_ && !tls_->established()) connected_ = shake();
   }
@@ -115,9 +115,10 @@ struct HttpAnswer {
 
 class HttpClient {
  public:
-  explicit HttpClient(uint16_t port, const std::shared_ptr<const TlsClientContext>& tls = nullptr,
+  explicit HttpClient(const Route& route, const std::shared_ptr<const TlsClientContext>& tls = nullptr,
                       int receive_buffer_bytes = 0)
-      : pipe_(port, tls, receive_buffer_bytes), host_("localhost:" + std::to_string(port)) {}
+      : pipe_(route, tls, receive_buffer_bytes),
+        host_((route.from.empty() ? "localhost" : route.to) + ":" + std::to_string(route.port)) {}
 
   WebPipe& pipe() { return pipe_; }
   const std::string& host() const { return host_; }
@@ -169,10 +170,10 @@ inline const std::string websocket_fields =
 /// The protocol by a WebSocket.
 class WebSocketClient {
  public:
-  explicit WebSocketClient(uint16_t port, const std::string& fields = "",
+  explicit WebSocketClient(const Route& route, const std::string& fields = "",
                            const std::shared_ptr<const TlsClientContext>& tls = nullptr,
-                           int receive_buffer_bytes = 0)
-      : http_(port, tls, receive_buffer_bytes), handshake_(http_.get("/session", websocket_fields + fields)) {
+                           int receive_buffer_bytes = 0, const std::string& target = "/session")
+      : http_(route, tls, receive_buffer_bytes), handshake_(http_.get(target, websocket_fields + fields)) {
     arrived(http_.rest());
   }
 

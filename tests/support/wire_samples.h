@@ -152,6 +152,7 @@ inline std::vector<ServerMessage> server_messages() {
       CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
       PersonsMessage{{{4, "Ann", Role::builder}, {9, "", Role::viewer}}, 2, true},
       SaidMessage{4, "Ann", "mind the edge"},
+      HealthMessage{true, false, true, 77, {{"saving", "the world cannot be saved"}, {"full", ""}}},
       PlaybackMessage{77, 0, 1ULL << 40U, -0.5F, true, 3, true, "ask for a token"},
       MarksMessage{9,
                    1ULL << 33U,
@@ -215,6 +216,7 @@ inline std::vector<ClientMessage> client_messages() {
           AskTilesMessage{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},
           OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}},
           GoodbyeMessage{},
+          AskHealthMessage{},
           UnknownMessage{}};
 }
 

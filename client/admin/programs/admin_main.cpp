@@ -26,6 +26,7 @@ struct Options {
   uint32_t minutes = 0;
   std::string reason;
   bool json = false;
+  bool alive = false, ready = false;
   bool play = false, pause = false;
   double speed = 0.0;
   std::optional<uint64_t> to_tick;
@@ -54,6 +55,14 @@ int print(const scree::Result<scree::StatusMessage>& status, bool as_json) {
   if (!status) return complain(status.error(), exit_failed);
   std::fputs((as_json ? scree::status_json(*status) : scree::status_lines(*status)).c_str(), stdout);
   return 0;
+}
+
+int health(const Options& options) {
+  const auto health = scree::read_health(options.server);
+  if (!health) return complain(health.error(), exit_failed);
+  std::fputs((options.json ? scree::health_json(*health) : scree::health_lines(*health)).c_str(), stdout);
+  const bool good = options.alive ? health->alive : options.ready ? health->ready : health->well;
+  return good ? 0 : exit_failed;
 }
 
 scree::Result<scree::SettingValues> parse(const std::vector<std::string>& changes) {
@@ -178,6 +187,11 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   CLI::App* show = add("show", "prints every setting");
   CLI::App* status =
       add("status", "prints the times and the work of the last second's ticks, and the ledger");
+  CLI::App* healthy = add("health", "asks whether the server is healthy; exits with 1 when it is not");
+  CLI::Option* alive =
+      healthy->add_flag("--alive", options.alive, "asks only whether the server ticks and answers");
+  healthy->add_flag("--ready", options.ready, "asks whether the server has a place for a player")
+      ->excludes(alive);
   CLI::App* set = add("set", "changes all of these settings or none, and prints every setting");
   set->add_option("NAME=VALUE", options.changes, "a setting; scree-server --help lists them")->required();
   CLI::App* sessions = add("sessions", "lists the sessions, with role and address");
@@ -201,6 +215,7 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   unban->add_option("ADDRESS", options.whom, "the address, as `bans` lists it")->required();
   return {{show, [](const Options& o) { return print(scree::read_settings(o.server), o.json); }},
           {status, [](const Options& o) { return print(scree::read_status(o.server), o.json); }},
+          {healthy, health},
           {set, change},
           {sessions, print_sessions},
           {kicked, kick},
@@ -230,7 +245,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
-  if (const auto completed = endpoint.complete(); !completed) return complain(completed.error(), exit_usage);
+  // Who asks for health over and over asks also while the server is about to make its token's file.
+  const bool asks_health = app.got_subcommand("health");
+  if (const auto completed = endpoint.complete(); !completed)
+    return complain(completed.error(), asks_health ? exit_failed : exit_usage);
   options.server.within = std::chrono::milliseconds(static_cast<int64_t>(options.timeout_s * 1000.0));
   for (const auto& [command, run] : commands)
     if (command->parsed()) return run(options);

@@ -1,6 +1,8 @@
 // What a browser keeps of a person's choices for the next time. A browser may refuse to keep anything.
 
 const KEY = 'scree';
+/** A proxy may serve several servers, each under its path: a token is for one of them. */
+const TOKEN_KEY = KEY + (globalThis.location?.pathname ?? '/').replace(/[^/]*$/, '').replace(/\/$/, '');
 
 function attempt(act, otherwise) {
   try {
@@ -21,8 +23,8 @@ export function keep(choices) {
 
 /** The token, as long as this tab is open. */
 export const token = {
-  load: () => attempt(() => sessionStorage.getItem(KEY), null) ?? '',
-  keep: (text) => attempt(() => sessionStorage.setItem(KEY, text)),
+  load: () => attempt(() => sessionStorage.getItem(TOKEN_KEY), null) ?? '',
+  keep: (text) => attempt(() => sessionStorage.setItem(TOKEN_KEY, text)),
 };
 
 /** Tells the client what was kept; what it does not know any more it leaves out. */

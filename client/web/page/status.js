@@ -1,4 +1,4 @@
-// The status page: asks for /status.json once a second, and shows it.
+// The status page: asks for status.json beside it once a second, and shows it.
 import { Backoff } from './backoff.js';
 import { $, make, write } from './dom.js';
 import { Spark } from './spark.js';
@@ -94,7 +94,7 @@ function go_on_after(wait_ms) {
 
 async function ask() {
   const bearer = token.load();
-  const answer = await fetch('/status.json', {
+  const answer = await fetch('status.json', {
     headers: bearer ? { authorization: `Bearer ${bearer}` } : {}, cache: 'no-store', signal: AbortSignal.timeout(ANSWER_MS),
   });
   const why = await why_no_figures(answer);

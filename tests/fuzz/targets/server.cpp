@@ -113,7 +113,7 @@ AdminMessage any_admin(FuzzInput& input) {
 }
 
 ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
-  switch (input.below(13)) {
+  switch (input.below(14)) {
     case 0:
       return any_hello(input, server);
     case 1:
@@ -143,6 +143,8 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       request.held = request.wanted;
       return request;
     }
+    case 12:
+      return AskHealthMessage{};
     case 11:
       return SayMessage{input.text(limits::line_bytes_max)};
     default: {

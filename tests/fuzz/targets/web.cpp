@@ -60,7 +60,7 @@ class Echo {
 class Server final : public HttpHost {
  public:
   explicit Server(const std::shared_ptr<MemoryTransport>& link)
-      : connection_(std::make_shared<HttpConnection>(link, "address", 1, *this, times, 0.0)) {
+      : connection_(std::make_shared<HttpConnection>(link, 1, *this, times, 0.0)) {
     connection_->start({});
   }
   ~Server() override {
@@ -77,7 +77,7 @@ class Server final : public HttpHost {
   HttpResponse answer(const HttpConnection& /*from*/, const HttpRequest& request) override {
     CHECK(request.path.starts_with('/') && request.path.size() < limits::http_head_bytes_max);
     CHECK(request.path.find_first_of(std::string_view("\0\r\n ?", 5)) == std::string::npos);
-    return site_.answer(request, false);
+    return site_.answer(request, {});
   }
   void answered(const HttpResponse& response, size_t bytes) override {
     CHECK(bytes > 0 && response.status >= 101 && response.status < 600);
@@ -93,7 +93,7 @@ class Server final : public HttpHost {
   void ended(HttpConnection& /*connection*/) override { connection_ = nullptr; }
 
  private:
-  const Site site_{std::make_shared<const WebFiles>(), {"https://friend.example"}};
+  Site site_{std::make_shared<const WebFiles>(), {"https://friend.example"}};
   std::shared_ptr<HttpConnection> connection_;
   std::unique_ptr<Echo> echo_;
 };

@@ -1,0 +1,114 @@
+#include "client/connection/health_probe.h"
+
+#include <array>
+#include <asio/connect.hpp>
+#include <asio/io_context.hpp>
+#include <asio/ip/tcp.hpp>
+#include <fmt/format.h>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "proto/codec.h"
+#include "proto/frame_reader.h"
+#include "shared/base/text.h"
+#include "transport/tcp_transport.h"
+#include "transport/tls_transport.h"
+
+namespace scree {
+
+namespace {
+
+using asio::ip::tcp;
+
+class Probe {
+ public:
+  Result<HealthMessage> ask(const ServerEndpoint& server, std::chrono::milliseconds within) {
+    if (server.tls) tls_ = TRY(TlsClientContext::make(server.trust));
+    host_ = server.host;
+    resolver_.async_resolve(server.host, std::to_string(server.port),
+                            [this](const asio::error_code& error, const auto& found) {
+                              if (error) return end("cannot find the host: " + error.message());
+                              connect(found);
+                            });
+    context_.run_for(within);
+    if (!answer_ && why_.empty()) end(fmt::format("no answer within {} ms", within.count()));
+    if (!answer_) return fail(why_);
+    return *answer_;
+  }
+
+ private:
+  void connect(const tcp::resolver::results_type& found) {
+    asio::async_connect(socket_, found, [this](const asio::error_code& error, const tcp::endpoint&) {
+      if (error) return end(fmt::format("cannot connect: {}; is a server running there?", error.message()));
+      stream_ = std::make_shared<TcpTransport>(std::move(socket_));
+      if (tls_) stream_ = std::make_shared<TlsTransport>(std::move(stream_), TlsEngine(tls_, host_));
+      asked_ = encode(ClientMessage(AskHealthMessage{}));
+      write(asked_);
+      read();
+    });
+  }
+  void write(std::span<const uint8_t> rest) {
+    stream_->write_some({&rest, 1}, [this, rest](const Moved& moved) {
+      if (moved && *moved < rest.size()) write(rest.subspan(*moved));
+    });
+  }
+  void read() {
+    stream_->read_some(buffer_, [this](const Moved& moved) {
+      if (!moved) return end("the connection ended without an answer: " + moved.error().why);
+      reader_.push(std::span(buffer_).first(*moved));
+      receive();
+    });
+  }
+  void receive() {
+    for (;;) {
+      const auto body = reader_.next();
+      if (!body) return end(body.error().message);
+      if (!body->has_value()) return read();
+      const auto message = decode_server(**body);
+      if (!message) return end(message.error().message);
+      if (const auto* refusal = std::get_if<RefusalMessage>(&*message))
+        return end("the server refused: " + refusal->reason);
+      if (const auto* health = std::get_if<HealthMessage>(&*message)) {
+        answer_ = *health;
+        return end({});
+      }
+    }
+  }
+  void end(const std::string& why) {
+    if (why_.empty()) why_ = why;
+    if (stream_) stream_->close();
+    context_.stop();
+  }
+
+  asio::io_context context_;
+  tcp::resolver resolver_{context_};
+  tcp::socket socket_{context_};
+  std::shared_ptr<const TlsClientContext> tls_;
+  std::string host_;
+  std::shared_ptr<Transport> stream_;
+  std::vector<uint8_t> asked_;
+  std::array<uint8_t, 4096> buffer_{};
+  FrameReader reader_;
+  std::optional<HealthMessage> answer_;
+  std::string why_;
+};
+
+}  // namespace
+
+Result<HealthMessage> ask_health(const ServerEndpoint& server, std::chrono::milliseconds within) {
+  const auto failed = [&server](const std::string& why) {
+    return fail(fmt::format("{}: {}", endpoint_text(server.host, server.port), why));
+  };
+  if (server.host.empty()) return failed("no server is named (--host)");
+  try {
+    Probe probe;
+    auto health = probe.ask(server, within);
+    if (!health) return failed(health.error().message);
+    return health;
+  } catch (const std::exception& error) {
+    return failed(error.what());
+  }
+}
+
+}  // namespace scree

@@ -1,0 +1,41 @@
+// The options of scree-server by which its operator says who may come in, and how many: administrators,
+// tokens, TLS, bans, proxies, limits of addresses.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "server/net/net_server.h"
+
+namespace CLI {
+class App;
+}
+
+namespace scree {
+
+class DoorOptions {
+ public:
+  /// Outlives the parsing, as `net` does.
+  void declare(CLI::App& app, NetConfig& net);
+  /// After the parsing: reads the admin token's file, or makes it. Throws CLI::ValidationError.
+  void complete(NetConfig& net);
+
+  const std::string& token_path() const { return token_path_; }
+  bool makes_token() const { return makes_token_; }
+  /// The file of an admin token that complete() has made; empty: none.
+  const std::string& token_made() const { return token_made_; }
+
+ private:
+  void declare_admin(CLI::App& app, NetConfig& net);
+  void declare_limits(CLI::App& app, NetConfig& net);
+  void complete_token(NetConfig& net);
+  void complete_limits(NetConfig& net) const;
+
+  std::string token_path_;
+  bool makes_token_ = false;
+  std::string token_made_;
+  std::string anonymous_;  ///< empty: by what else is given
+  std::vector<std::string> proxies_;
+};
+
+}  // namespace scree

@@ -1,0 +1,67 @@
+// LiveServer's health: whether it ticks, and does what it promised.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include "server/app/limits.h"
+#include "server/app/live_server_state.h"
+
+namespace scree {
+
+namespace {
+
+/// How the world is not saved as promised; empty: it is.
+std::string saving_fault(const SaverStatus& status, double waited_s) {
+  if (status.given_up)
+    return fmt::format("the world is not saved any more: the last tick on the disk is {}", status.saved_tick);
+  if (status.error)
+    return fmt::format("the world cannot be saved, and is tried again: the last tick on the disk is {}",
+                       status.saved_tick);
+  if (waited_s > limits::save_delay_seconds_max)
+    return fmt::format("the disk has not taken the world for {:.0f} s: the last tick on it is {}", waited_s,
+                       status.saved_tick);
+  return {};
+}
+
+}  // namespace
+
+/// On the network thread.
+ServerHealth LiveServer::State::health() const {
+  ServerHealth found;
+  if (!is_open) {
+    found.add(HealthKind::starting, "the server is starting");
+    return found;
+  }
+  const double now_s = steady_now_s();
+  double waited_s = 0.0;
+  bool ticks = true;
+  {
+    const std::scoped_lock lock(mutex);
+    waited_s = save_delay.waited_s(now_s);
+    ticks = running;
+  }
+  if (!ticks) found.add(HealthKind::stopping, "the server has ended");
+  if (ticks && config.pacing == Pacing::real_time && heartbeat.stands_still(now_s))
+    found.add(HealthKind::simulation,
+              fmt::format("the simulation stands still: no tick has ended for {:.1f} s",
+                          heartbeat.silent_s(now_s)));
+  if (saved_world && !saved_world->is_temporary())
+    if (const std::string fault = saving_fault(saved_world->status(), waited_s); !fault.empty())
+      found.add(HealthKind::saving, fault);
+  if (recorder && recorder->error()) found.add(HealthKind::recording, "the recording is not written");
+  if (events && events->status().error) found.add(HealthKind::events, "the log of events is not written");
+  return found;
+}
+
+/// On the network thread, for the simulation's cannot say it of itself.
+void LiveServer::State::check_heartbeat(double now_s) {
+  if (!is_open || config.pacing != Pacing::real_time) return;
+  {
+    const std::scoped_lock lock(mutex);
+    if (!running) return;
+  }
+  const auto line = heartbeat.check(now_s);
+  if (!line) return;
+  spdlog::log(heartbeat.stands_still(now_s) ? spdlog::level::err : spdlog::level::warn, "{}", *line);
+}
+
+}  // namespace scree

@@ -1,0 +1,68 @@
+// NetHost's ticks: what each client is sent of them, and when.
+#include <utility>
+
+#include "server/net/net_host.h"
+#include "shared/base/check.h"
+#include "shared/base/timing.h"
+
+namespace scree {
+
+void NetHost::begin(const TickDelta& keyframe) {
+  CHECK(network_thread_.is_the_same());
+  if (keyframe.service && *keyframe.service != service_) grant(*keyframe.service);
+  publisher_.begin(keyframe);
+  update_stats();
+}
+
+void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
+  CHECK(network_thread_.is_the_same());
+  CHECK_EQ(publisher_.clients(), sessions_.joined());
+  if (delta.service && *delta.service != service_) grant(*delta.service);
+  RefusalCounts& refusals = figures_.counts().refusals;
+  for (const Reply& reply : delta.replies)
+    if (reply.reason) refusals.add(*reply.reason);
+  publisher_.set_refusals(refusals);
+  if (delta.tick % config_.tick_rate_hz == 0) publisher_.set_latency(requests_.times().drain_status());
+  if (config_.saving) publisher_.set_saving(config_.saving());
+  queue_frames(delta);
+  administration_.log_settings(delta);
+  answer(delta, span);
+  flush_queue_.send_turn(delta.tick, more);
+  update_stats();
+}
+
+void NetHost::queue_frames(const TickDelta& delta) {
+  const auto backlog = [this](uint64_t id) {
+    const SessionEntry* const entry = sessions_.find(id);
+    return entry == nullptr ? Backlog() : entry->session->backlog();
+  };
+  const auto& entries = sessions_.entries();
+  auto found = entries.begin();
+  for (Outgoing& outgoing : publisher_.publish(delta, backlog)) {
+    // Most come in the sessions' order.
+    if (found != entries.end() && found->first < outgoing.session) ++found;
+    if (found == entries.end() || found->first != outgoing.session) found = entries.find(outgoing.session);
+    if (found == entries.end()) continue;
+    flush_queue_.add(found->second.session, delta.tick);
+    found->second.session->queue(std::move(outgoing.bytes));
+  }
+}
+
+/// Who asked gets the tick first, and at once, however far this thread lags.
+void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
+  if (delta.replies.empty()) return;
+  const auto latency = [&](const Reply& reply) {
+    return requests_.times().answered(reply.session, reply.request, span, steady_now_s());
+  };
+  SessionTable::Sessions answered;
+  for (Outgoing& outgoing : publisher_.answer(delta, latency)) {
+    const SessionEntry* const entry = sessions_.find(outgoing.session);
+    if (entry == nullptr) continue;
+    entry->session->queue(std::move(outgoing.bytes));
+    answered.push_back(entry->session);
+  }
+  for (const auto& session : answered) session->settle();
+  figures_.show(requests_.times().counts());
+}
+
+}  // namespace scree
