@@ -93,7 +93,7 @@ TEST(HeightsImport, cells_without_data_are_filled_and_counted) {
   ASSERT_TRUE(imported);
   EXPECT_EQ(imported->nodata, 15U);
   EXPECT_EQ(imported->header.ground.layout.lowest, 0) << "the lowest height is y = 0";
-  const auto filled = import_and_open(holes, folder / "b.ground", {.zero_m = 0.0, .nodata_m = 50.0});
+  const auto filled = import_and_open(holes, folder / "b.ground", {.zero_m = 0.0, .fill_m = 50.0});
   EXPECT_EQ(filled->layout().lowest, 50 * height_steps_per_m);
 }
 
