@@ -4,6 +4,7 @@
 #include <cpl_error.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
+#include <string_view>
 
 #include "tools/import/gdal/gdal_library.h"
 #include "tools/import/gdal/height_band.h"
@@ -16,6 +17,19 @@
 namespace scree {
 
 namespace {
+
+/// netCDF says the unit of its axes, also where it names no map.
+bool has_axes_of_degrees(GDALDataset& dataset) {
+  bool east = false, north = false;
+  for (char** line = dataset.GetMetadata(); line != nullptr && *line != nullptr; ++line) {
+    const std::string_view text(*line);
+    const size_t at = text.find("#units=degree");
+    if (at == std::string_view::npos) continue;
+    east = east || text.ends_with("_east") || text.ends_with("_E") || text.ends_with("E");
+    north = north || text.ends_with("_north") || text.ends_with("_N") || text.ends_with("N");
+  }
+  return east && north;
+}
 
 class GdalRaster final : public Raster {
  public:
@@ -77,7 +91,14 @@ class GdalRaster final : public Raster {
     const OGRSpatialReference* own = source_->GetSpatialRef();
     if (own == nullptr || own->IsEmpty()) own = source_->GetGCPSpatialRef();
     if (choice_.crs.empty()) {
-      if (own != nullptr && !own->IsEmpty()) crs_ = std::make_unique<OGRSpatialReference>(*own);
+      if (own != nullptr && !own->IsEmpty()) {
+        crs_ = std::make_unique<OGRSpatialReference>(*own);
+      } else if (has_axes_of_degrees(*source_)) {
+        crs_ = std::make_unique<OGRSpatialReference>();
+        crs_->SetWellKnownGeogCS("WGS84");
+        crs_->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        said_.emplace_back("its axes are in degrees, and it names no map: WGS 84 is assumed");
+      }
       return {};
     }
     crs_ = std::make_unique<OGRSpatialReference>();

@@ -16,6 +16,8 @@ namespace {
 constexpr double scale_error_max = 0.005;
 /// A map whose north is farther from the true one is said to be so, degrees.
 constexpr double convergence_said_min = 1.0;
+/// A raster whose corners have another scale than its middle, by more than that part, is said to have it.
+constexpr double corner_error_said_min = 0.01;
 /// Cells below this size, without a map, lie in degrees: no survey has cells of a few centimetres.
 constexpr double degrees_cell_max = 0.05;
 
@@ -124,6 +126,24 @@ std::string direction_words(bool rows, bool columns) {
   return columns ? "turned over: its columns begin in the east" : "north is up";
 }
 
+/// How much longer or shorter the map's cells are on the ground at a corner than in the middle, at most, as a
+/// part; 0 where a corner is on no map.
+double error_at_corners(const OGRSpatialReference& crs, const MapTransform& transform, int columns, int rows,
+                        const GroundMetric& middle) {
+  double most = 0.0;
+  for (const auto& [column, row] : {std::pair{0, 0}, {columns, 0}, {0, rows}, {columns, rows}}) {
+    const auto [x, y] = transform.at(column, row);
+    const auto corner = ground_metric(crs, x, y);
+    if (!corner) {
+      if (crs.IsGeographic() != 0) return 1.0;  // beyond a pole
+      continue;
+    }
+    most = std::max({most, std::abs(corner->scale_x() / middle.scale_x() - 1.0),
+                     std::abs(corner->scale_y() / middle.scale_y() - 1.0)});
+  }
+  return most;
+}
+
 /// Reads rows and columns backwards where they run against north and east.
 void straighten(const MapTransform& transform, const MapScale& scale, NorthUp& placed) {
   placed.flips_rows = (transform.t[5] > 0.0) != scale.turned_over;
@@ -169,11 +189,11 @@ Result<void> turn(GDALDataset& heights, const MapTransform& transform, const Map
 
 /// Into a map of its own, with the true north up: GDAL finds the place of each cell.
 Result<NorthUp> on_local_map(GDALDataset& heights, const OGRSpatialReference& crs, const GroundMetric& metric,
-                             std::vector<std::string> words) {
+                             const char* method, std::vector<std::string> words) {
   NorthUp placed;
   const double longitude = metric.longitude_deg.value_or(0.0), latitude = metric.latitude_deg.value_or(0.0);
   const OGRSpatialReference map = local_map(crs, longitude, latitude);
-  placed.warped = TRY(warp_to_map(heights, &map));
+  placed.warped = TRY(warp_to_map(heights, &map, method));
   const auto transform = map_transform_of(*placed.warped);
   placed.shape = {placed.warped->GetRasterXSize(), placed.warped->GetRasterYSize(), {}, {}};
   if (transform) {
@@ -189,15 +209,16 @@ Result<NorthUp> on_local_map(GDALDataset& heights, const OGRSpatialReference& cr
 }
 
 /// By ground control points, rational polynomials or geolocation arrays.
-Result<NorthUp> by_points(GDALDataset& heights, const OGRSpatialReference* crs, std::string words) {
+Result<NorthUp> by_points(GDALDataset& heights, const OGRSpatialReference* crs, const char* method,
+                          std::string words) {
   OGRSpatialReference degrees;
   degrees.SetWellKnownGeogCS("WGS84");
   degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
   const bool by_gcps = heights.GetGCPCount() > 0;
-  const auto [x, y] = TRY(middle_by_any(heights));
+  const auto [x, y] = TRY(middle_on_map(heights, method));
   if (by_gcps && crs == nullptr) {
     NorthUp placed;
-    placed.warped = TRY(warp_to_map(heights, nullptr));
+    placed.warped = TRY(warp_to_map(heights, nullptr, method));
     const auto transform = map_transform_of(*placed.warped);
     placed.shape = {placed.warped->GetRasterXSize(), placed.warped->GetRasterYSize(), {}, {}};
     if (transform) placed.shape.cell_x_m = placed.shape.cell_z_m = std::abs(transform->t[1]);
@@ -207,7 +228,7 @@ Result<NorthUp> by_points(GDALDataset& heights, const OGRSpatialReference* crs, 
   const OGRSpatialReference& map = crs != nullptr ? *crs : degrees;
   const auto scale = TRY(scale_at(map, x, y));
   if (!scale.metric.latitude_deg) return fail("its ground control points lie on no map of the Earth");
-  return on_local_map(heights, map, scale.metric, {std::move(words), "map " + name_of(map)});
+  return on_local_map(heights, map, scale.metric, method, {std::move(words), "map " + name_of(map)});
 }
 
 Result<NorthUp> by_transform(GDALDataset& heights, const OGRSpatialReference* crs,
@@ -223,9 +244,14 @@ Result<NorthUp> by_transform(GDALDataset& heights, const OGRSpatialReference* cr
                     std::hypot(transform.t[1], transform.t[4]), x, y));
   MapScale scale;
   scale.words = {"no map is named, metres are assumed"};
-  if (crs != nullptr) scale = TRY(scale_at(*crs, x, y));
+  if (crs != nullptr) {
+    scale = TRY(scale_at(*crs, x, y));
+    const double error = error_at_corners(*crs, transform, columns, rows, scale.metric);
+    if (error > corner_error_said_min)
+      scale.words.push_back(fmt::format("lengths at its corners are up to {:.0f} % off", 100.0 * error));
+  }
   if (!scale.metric.is_right_angled())
-    return on_local_map(heights, *crs, scale.metric, std::move(scale.words));
+    return on_local_map(heights, *crs, scale.metric, "GEOTRANSFORM", std::move(scale.words));
   NorthUp placed;
   placed.words = scale.words;
   placed.place = {crs == nullptr ? std::string() : code_of(*crs), x, y};
@@ -238,16 +264,32 @@ Result<NorthUp> by_transform(GDALDataset& heights, const OGRSpatialReference* cr
   return placed;
 }
 
+bool has_points(GDALDataset& heights) {
+  return heights.GetGCPCount() > 0 || heights.GetMetadata("RPC") != nullptr ||
+         heights.GetMetadata("GEOLOCATION") != nullptr;
+}
+
+/// Whether the transform only counts cells of the picture, whose place on a map something else says, or
+/// nothing.
+bool is_of_the_picture(GDALDataset& heights, const OGRSpatialReference* crs, const MapTransform& transform) {
+  const bool counts_cells = transform.t == MapTransform{}.t;
+  if (has_points(heights)) return counts_cells || crs == nullptr;
+  return counts_cells && crs != nullptr && crs->IsGeographic() != 0;
+}
+
 }  // namespace
 
 Result<NorthUp> place_north_up(GDALDataset& heights) {
   const OGRSpatialReference* const crs = heights.GetSpatialRef();
-  if (const auto transform = map_transform_of(heights)) return by_transform(heights, crs, *transform);
-  if (heights.GetGCPCount() > 0) return by_points(heights, crs, "placed by ground control points");
+  const auto transform = map_transform_of(heights);
+  if (transform && !is_of_the_picture(heights, crs, *transform))
+    return by_transform(heights, crs, *transform);
+  if (heights.GetGCPCount() > 0)
+    return by_points(heights, crs, "GCP_POLYNOMIAL", "placed by ground control points");
   if (heights.GetMetadata("RPC") != nullptr)
-    return by_points(heights, crs, "placed by rational polynomials at height 0");
+    return by_points(heights, crs, "RPC", "placed by rational polynomials at height 0");
   if (heights.GetMetadata("GEOLOCATION") != nullptr)
-    return by_points(heights, crs, "placed by geolocation arrays");
+    return by_points(heights, crs, "GEOLOC_ARRAY", "placed by geolocation arrays");
   NorthUp placed;
   placed.shape = {heights.GetRasterXSize(), heights.GetRasterYSize(), {}, {}};
   placed.words = {

@@ -64,7 +64,10 @@ const Part* find_part(const std::vector<Part>& parts, const std::string& layer) 
 Result<Part> choose_part(const std::vector<Part>& parts, const std::string& layer, std::string_view kind,
                          std::vector<std::string>& said) {
   if (!layer.empty()) {
-    if (const Part* const part = find_part(parts, layer)) return *part;
+    if (const Part* const part = find_part(parts, layer)) {
+      said.push_back(fmt::format("its {} '{}' was read, as --layer says", kind, shown(part->name.c_str())));
+      return *part;
+    }
     return fail(fmt::format("it has no {} '{}' (--layer); it has {}", kind, layer, listed_parts(parts)));
   }
   if (parts.size() == 1) {

@@ -63,21 +63,24 @@ bool is_of_nines(double stored) {
 
 /// Whether people mark cells without data by such a number: no height of the Earth, the ends of 16 bits, or
 /// nines.
-bool looks_like_fill(const HeightValues& values, double stored) {
+bool looks_like_fill(const HeightValues& values, double stored, std::optional<double> next) {
   constexpr double end_of_16_bits = 32767.0;
   const auto is_misdeclared = [&](double nodata) {
     const double wrapped = std::fmod(nodata, 65536.0);
     return stored == wrapped || stored == wrapped + 65536.0 || stored == wrapped - 65536.0;
   };
+  const auto is_too_high = [&](double value) {
+    return std::abs(values.height_m(value)) > limits::raster_height_max_m;
+  };
   return is_of_nines(stored) || std::abs(stored) >= end_of_16_bits ||
-         std::abs(values.height_m(stored)) > limits::raster_height_max_m ||
+         (is_too_high(stored) && next && !is_too_high(*next)) ||
          std::ranges::any_of(values.misdeclared(), is_misdeclared);
 }
 
 Result<void> judge(const HeightValues& values, const Extreme& extreme, const Extreme& other,
                    std::vector<std::string>& said) {
   const double stored = extreme.stored();
-  const bool fill = looks_like_fill(values, stored);
+  const bool fill = looks_like_fill(values, stored, extreme.next());
   const std::string text = values.text_of(stored);
   const std::string ways =
       fmt::format("--nodata {} says that they have no height, --nodata none that they do", text);

@@ -26,8 +26,9 @@ struct DestroyOptions {
   void operator()(GDALWarpOptions* options) const { GDALDestroyWarpOptions(options); }
 };
 
-Result<Transformer> transformer_of(GDALDataset& source, const OGRSpatialReference* map) {
+Result<Transformer> transformer_of(GDALDataset& source, const OGRSpatialReference* map, const char* method) {
   CPLStringList options;
+  options.SetNameValue("METHOD", method);
   if (map != nullptr) {
     char* text = nullptr;
     const char* const form[] = {"FORMAT=WKT2_2018", nullptr};
@@ -70,14 +71,14 @@ Result<Dataset> warped(GDALDataset& source, Transformer transformer, GDALTransfo
 }  // namespace
 
 Result<Dataset> warp_to_grid(GDALDataset& source, const WarpGrid& grid, bool exact) {
-  Transformer transformer = TRY(transformer_of(source, nullptr));
+  Transformer transformer = TRY(transformer_of(source, nullptr, "GEOTRANSFORM"));
   GDALSetGenImgProjTransformerDstGeoTransform(transformer.get(), grid.transform.t.data());
   return warped(source, std::move(transformer), GDALGenImgProjTransform, grid,
-                exact ? GRA_NearestNeighbour : GRA_Cubic);
+                exact ? GRA_NearestNeighbour : GRA_Bilinear);
 }
 
-Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* map) {
-  Transformer inner = TRY(transformer_of(source, map));
+Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* map, const char* method) {
+  Transformer inner = TRY(transformer_of(source, map, method));
   WarpGrid grid;
   std::array<double, 4> extent{};
   if (GDALSuggestedWarpOutput2(GDALDataset::ToHandle(&source), GDALGenImgProjTransform, inner.get(),
@@ -89,11 +90,11 @@ Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* map)
   if (!outer) return fail("it cannot be put with north up: " + gdal_words("GDAL says no reason"));
   GDALApproxTransformerOwnsSubtransformer(outer.get(), TRUE);
   static_cast<void>(inner.release());
-  return warped(source, std::move(outer), GDALApproxTransform, grid, GRA_Cubic);
+  return warped(source, std::move(outer), GDALApproxTransform, grid, GRA_Bilinear);
 }
 
-Result<std::array<double, 2>> middle_by_any(GDALDataset& source) {
-  const Transformer transformer = TRY(transformer_of(source, nullptr));
+Result<std::array<double, 2>> middle_on_map(GDALDataset& source, const char* method) {
+  const Transformer transformer = TRY(transformer_of(source, nullptr, method));
   double x = 0.5 * source.GetRasterXSize(), y = 0.5 * source.GetRasterYSize(), z = 0.0;
   int done = 0;
   if (GDALGenImgProjTransform(transformer.get(), FALSE, 1, &x, &y, &z, &done) == 0 || done == 0)

@@ -14,14 +14,15 @@ struct WarpGrid {
   int rows = 0;
 };
 
-/// Into a grid of the same map. `exact`: each of its cells is one of the source's.
+/// Into a grid of the same map. `exact`: each of its cells is one of the source's; otherwise heights are
+/// between those of the cells around.
 Result<Dataset> warp_to_grid(GDALDataset& source, const WarpGrid& grid, bool exact);
 
-/// Into another map, by whatever places the source: a geotransform, ground control points, rational
-/// polynomials, geolocation arrays. GDAL chooses the grid, with north up.
-Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* map);
+/// Into another map; GDAL chooses the grid, with north up. `method` places the source, as GDAL names it:
+/// GEOTRANSFORM, GCP_POLYNOMIAL, RPC or GEOLOC_ARRAY.
+Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* map, const char* method);
 
-/// Where the middle of the source lies on its map, by any of those.
-Result<std::array<double, 2>> middle_by_any(GDALDataset& source);
+/// Where the middle of the source lies on its map.
+Result<std::array<double, 2>> middle_on_map(GDALDataset& source, const char* method);
 
 }  // namespace scree
