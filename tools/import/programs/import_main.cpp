@@ -45,7 +45,7 @@ void declare_raster(CLI::App& app, Options& options) {
       "name or number of a raster in a file that has several (netCDF, HDF), or of a file in an archive");
   app.add_option("--crs", choice.crs, "the map, such as EPSG:32633; default: as the file says");
   app.add_option("--vertical-unit", choice.vertical_unit,
-                 "of the file's heights: m, ft, us-ft, cm and others; default: as the file says");
+                 "unit of the heights: m, ft, us-ft, cm and others; default: as the file says");
   app.add_option("--nodata", options.nodata,
                  "values that stand for no height, besides the file's own; none: all values are heights")
       ->delimiter(',')
