@@ -22,7 +22,7 @@ WholeRaster read_band(const std::string& band, const std::string& type = "Float3
   return read_whole(write_vrt(folder, {12, 10, stored, head, band, type, more}), choice);
 }
 
-/// Of the cell with the number 150.
+/// The height of the cell with the number 150.
 double height_by(const std::string& band, const RasterChoice& choice = {},
                  const std::string& head = place_10_m) {
   const WholeRaster whole = read_band(band, "Float32", choice, {}, head);

@@ -128,6 +128,22 @@ Cells cells_of(const Raster::Shape& shape, const HeightsImport& how) {
   return {known ? *how.cell_m * x_m / z_m : *how.cell_m, *how.cell_m};
 }
 
+/// Distance of the ground's samples: that of the closest cells, or a part of it where its multiples would
+/// miss the width or the depth of a small raster.
+double sample_of(const Raster::Shape& shape, const Cells& cells) {
+  const double closest_m = std::min(cells.x_m, cells.z_m);
+  const auto misses = [](double length_m, double sample_m) {
+    return std::abs(std::round(length_m / sample_m) * sample_m / length_m - 1.0) > limits::extent_error_max;
+  };
+  for (int parts = 1; parts <= limits::sample_parts_max; ++parts) {
+    const double sample_m = closest_m / parts;
+    if (sample_m < static_cast<double>(limits::height_cell_min_m)) break;
+    if (!misses(cells.x_m * (shape.columns - 1), sample_m) && !misses(cells.z_m * (shape.rows - 1), sample_m))
+      return sample_m;
+  }
+  return closest_m;
+}
+
 Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& how) {
   if (shape.columns < 2 || shape.rows < 2)
     return fail(
@@ -135,10 +151,11 @@ Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& 
   if (shape.columns > limits::raster_side_max || shape.rows > limits::raster_side_max)
     return fail(fmt::format("{} × {} cells: at most {} a side can be imported (limits.raster_side_max)",
                             shape.columns, shape.rows, limits::raster_side_max));
-  const auto [cell_x_m, cell_z_m] = cells_of(shape, how);
+  const Cells cells = cells_of(shape, how);
+  const auto [cell_x_m, cell_z_m] = cells;
   if (!std::isfinite(cell_x_m) || !std::isfinite(cell_z_m))
     return fail("the file does not say how wide its cells are: use --cell METRES");
-  const double sample_m = how.sample_m.value_or(std::min(cell_x_m, cell_z_m));
+  const double sample_m = how.sample_m.value_or(sample_of(shape, cells));
   const double width = std::round(cell_x_m * (shape.columns - 1) / sample_m);
   const double depth = std::round(cell_z_m * (shape.rows - 1) / sample_m);
   if (width * sample_m > 2.0 * static_cast<double>(limits::world_half_width_m) ||

@@ -27,6 +27,11 @@ inline constexpr size_t raster_names_max = 12;
 /// Files of an archive that are examined. Above: refused.
 inline constexpr size_t archive_files_max = 4096;
 
+/// The ground of a raster is as wide and as deep as the raster within this part: closer samples make it so,
+/// up to so many in the place of one. Beyond: the ground is stretched.
+inline constexpr double extent_error_max = 0.005;
+inline constexpr int sample_parts_max = 8;
+
 /// Stored numbers beyond this size, of either sign, are no heights in any unit: they fill cells without data.
 inline constexpr double raster_fill_min = 1.0e15;
 

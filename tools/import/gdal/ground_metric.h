@@ -7,7 +7,7 @@
 
 namespace scree {
 
-/// Of a step of one unit along x, and along y.
+/// Steps of one unit along x, and along y.
 struct GroundMetric {
   std::array<double, 2> x_m{1.0, 0.0};  ///< east, north
   std::array<double, 2> y_m{0.0, 1.0};

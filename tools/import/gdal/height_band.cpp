@@ -26,7 +26,7 @@ std::vector<int> bands_without_alpha(GDALDataset& dataset) {
 /// "band 2, 'depth'"
 std::string name_of(GDALDataset& dataset, int i) {
   const std::string description = shown(dataset.GetRasterBand(i)->GetDescription());
-  return fmt::format("band {}{}", i, description.empty() ? "" : ", '" + description + "'");
+  return fmt::format("band {}{}", i, description.empty() ? "" : fmt::format(", '{}'", description));
 }
 
 /// Why the band is no heights, as the end of "its first band holds"; empty when it can be.
@@ -50,7 +50,7 @@ std::string other_than_heights(GDALDataset& dataset, const std::vector<int>& ban
 std::string others(GDALDataset& dataset, const std::vector<int>& bands) {
   std::string names;
   for (size_t i = 1; i < std::min(bands.size(), limits::raster_names_max); ++i)
-    names += (i > 1 ? "; " : "") + name_of(dataset, bands[i]);
+    names += fmt::format("{}{}", i > 1 ? "; " : "", name_of(dataset, bands[i]));
   if (bands.size() > limits::raster_names_max)
     names += fmt::format(" and {} more", bands.size() - limits::raster_names_max);
   return names;

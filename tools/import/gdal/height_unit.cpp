@@ -70,7 +70,7 @@ const Length* find_length(std::string_view unit) {
 
 std::string known_lengths() {
   std::string names;
-  for (const Length& length : lengths) names += (names.empty() ? "" : ", ") + std::string(length.name);
+  for (const Length& length : lengths) names += fmt::format("{}{}", names.empty() ? "" : ", ", length.name);
   return names;
 }
 

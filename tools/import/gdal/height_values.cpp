@@ -146,8 +146,10 @@ std::vector<std::string> HeightValues::words() const {
   if (is_integer(type_) && GDALGetDataTypeSizeBits(type_) == 8) heights += ", of 8 bits";
   parts.push_back(std::move(heights));
   std::string none;
-  for (const double value : nodata_) none += (none.empty() ? "nodata " : " and ") + text_of(value);
-  if (masked_) none += std::string(none.empty() ? "nodata" : " and") + (alpha_ ? " by alpha" : " by a mask");
+  for (const double value : nodata_)
+    none += fmt::format("{}{}", none.empty() ? "nodata " : " and ", text_of(value));
+  if (masked_)
+    none += fmt::format("{}{}", none.empty() ? "nodata" : " and", alpha_ ? " by alpha" : " by a mask");
   parts.push_back(none.empty() ? "no nodata is declared" : none);
   for (const double value : misdeclared_)
     parts.push_back(fmt::format("no cell can hold the declared nodata {}", value));

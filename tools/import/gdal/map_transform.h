@@ -27,7 +27,7 @@ struct MapTransform {
   bool is_quarter_turned(int columns, int rows) const;
 };
 
-/// Of the file, or of ground control points that lie exactly so; nothing where it has neither.
+/// The transform of the file, or of ground control points that lie exactly so; nothing where it has neither.
 std::optional<MapTransform> map_transform_of(GDALDataset& dataset);
 
 }  // namespace scree

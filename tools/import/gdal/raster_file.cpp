@@ -42,7 +42,7 @@ std::string listed_parts(const std::vector<Part>& parts) {
   std::string names;
   for (size_t i = 0; i < std::min(parts.size(), limits::raster_names_max); ++i)
     names += fmt::format("{}{} '{}'{}", i > 0 ? "; " : "", i + 1, shown(parts[i].name.c_str()),
-                         parts[i].words.empty() ? "" : " " + shown(parts[i].words.c_str()));
+                         parts[i].words.empty() ? "" : fmt::format(" {}", shown(parts[i].words.c_str())));
   if (parts.size() > limits::raster_names_max)
     names += fmt::format("; and {} more", parts.size() - limits::raster_names_max);
   return names;

@@ -120,7 +120,7 @@ void bound_memory(const Options& options) {
   setrlimit(RLIMIT_AS, &bound);
 }
 
-/// Of the processes that read the files.
+/// The limits of the processes that read the files.
 ReaderLimits reader_limits(const Options& options) {
   return {uint64_t{options.memory_max_mib} << 20U,
           std::chrono::milliseconds(static_cast<int64_t>(options.time_max_s * 1000.0))};
