@@ -105,6 +105,12 @@ TEST(HeightsImport, cells_that_are_no_squares_keep_the_size_of_a_small_raster) {
   const HeightLayout& layout = ground->layout();
   EXPECT_NEAR(static_cast<double>(layout.cell_m) * (layout.columns - 1), 12 * 50.6, 0.005 * 12 * 50.6);
   EXPECT_NEAR(static_cast<double>(layout.cell_m) * (layout.rows - 1), 11 * 49.4, 0.005 * 11 * 49.4);
+  FunctionRaster level(13, 12, 50.6, [](int, int) { return 7.0; });
+  level.deepen(49.4);
+  const auto slab = import_heights(level, folder / "c.ground", {.zero_m = 0.0}, no_progress);
+  ASSERT_TRUE(slab);
+  EXPECT_NEAR(slab->volume_m3 / (7.0 * 13 * 50.6 * 12 * 49.4), 1.0, 0.006)
+      << "the halves of the outer cells too";
   const auto scaled = import_heights(narrow, folder / "b.ground", {.cell_m = 4.94}, no_progress);
   ASSERT_TRUE(scaled);
   const HeightLayout& small = scaled->header.ground.layout;

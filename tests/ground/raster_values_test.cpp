@@ -38,6 +38,7 @@ int holes(const WholeRaster& whole) {
 TEST(RasterValues, units_are_those_of_the_band_or_of_the_map) {
   EXPECT_NEAR(height_by(""), 150.0, 1.0e-9);
   EXPECT_NEAR(height_by("<UnitType>m</UnitType>"), 150.0, 1.0e-9);
+  EXPECT_NEAR(height_by("<UnitType>unknown</UnitType>"), 150.0, 1.0e-9);
   EXPECT_NEAR(height_by("<UnitType>Feet</UnitType>"), 45.72, 1.0e-9);
   EXPECT_NEAR(height_by("<UnitType>US survey foot</UnitType>"), 150.0 * 1200.0 / 3937.0, 1.0e-9);
   EXPECT_NEAR(height_by("<UnitType>[gpm]</UnitType>"), 150.0, 1.0e-9);

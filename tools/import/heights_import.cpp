@@ -196,11 +196,16 @@ int32_t quantised(double height_m) {
   return static_cast<int32_t>(std::lround(std::clamp(height_m, -max_m, max_m) * height_steps_per_m));
 }
 
-void note(HeightsImported& imported, const HeightLayout& layout, int z, std::span<const int32_t> heights) {
-  const double cell_m = static_cast<double>(layout.cell_m);
+void note(HeightsImported& imported, const HeightLayout& layout, const Cells& cells, int z,
+          std::span<const int32_t> heights) {
+  const double sample_m = static_cast<double>(layout.cell_m);
+  // The outermost samples lie half a cell from the raster's edge.
+  const double edge_x_m = 0.5 * (sample_m + cells.x_m), edge_z_m = 0.5 * (sample_m + cells.z_m);
   double sum = 0.0;
   for (const int32_t height : heights) sum += static_cast<double>(height);
-  imported.volume_m3 += sum / height_steps_per_m * cell_m * cell_m;
+  const double ends = static_cast<double>(heights.front()) + static_cast<double>(heights.back());
+  const double depth_m = z == 0 || z == layout.rows - 1 ? edge_z_m : sample_m;
+  imported.volume_m3 += ((sum - ends) * sample_m + ends * edge_x_m) / height_steps_per_m * depth_m;
   const int side = std::max(layout.columns, layout.rows);
   const int step = (side + limits::preview_side_max - 1) / limits::preview_side_max;
   if (z % step != 0) return;
@@ -246,6 +251,7 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
   HeightsImported imported;
   const double fill_m = how.fill_m.value_or(found.lowest_m);
   Resampled resampled(raster, layout, how.vertical_scale, fill_m);
+  const Cells cells = cells_of(raster.shape(), how);
   std::vector<double> row(static_cast<size_t>(layout.columns));
   std::vector<int32_t> heights(row.size());
   for (int z = 0; z < layout.rows; ++z) {
@@ -253,7 +259,7 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
     std::ranges::transform(row, heights.begin(),
                            [&](double height_m) { return quantised(height_m - *zero_m); });
     writer->add_row(heights);
-    note(imported, layout, z, heights);
+    note(imported, layout, cells, z, heights);
     progress(0.4 + 0.6 * (z + 1) / layout.rows);
   }
   const auto header = TRY(writer->finish());

@@ -30,7 +30,7 @@ struct HeightsImported {
   std::vector<std::string> said;
   double lowest_m = 0.0;  ///< of the raster, after the scale
   double highest_m = 0.0;
-  double volume_m3 = 0.0;  ///< of the samples above y = 0, each taken for its cell
+  double volume_m3 = 0.0;  ///< above y = 0, of the whole raster
   /// Heights in the world, of every so-manieth sample.
   int preview_columns = 0;
   std::vector<float> preview_m;

@@ -68,6 +68,12 @@ const Length* find_length(std::string_view unit) {
   return about_zero ? named(name.substr(0, end)) : nullptr;
 }
 
+/// Words in the place of a unit.
+bool says_nothing(std::string_view unit) {
+  const std::string name = normalised(unit);
+  return name == "-" || name == "unknown" || name == "undefined" || name == "none" || name == "n/a";
+}
+
 std::string known_lengths() {
   std::string names;
   for (const Length& length : lengths) names += fmt::format("{}{}", names.empty() ? "" : ", ", length.name);
@@ -114,7 +120,8 @@ std::string assumed(const OGRSpatialReference* crs) {
 
 Result<HeightUnit> height_unit_of(GDALRasterBand& band, const OGRSpatialReference* crs,
                                   const std::string& chosen) {
-  const std::string own = chosen.empty() ? shown(band.GetUnitType()) : chosen;
+  std::string own = chosen.empty() ? shown(band.GetUnitType()) : chosen;
+  if (chosen.empty() && says_nothing(own)) own.clear();
   const std::optional<VerticalAxis> axis = vertical_axis(crs);
   const bool down = counts_down(band) || (axis && axis->down);
   HeightUnit unit;
