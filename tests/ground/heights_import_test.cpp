@@ -93,8 +93,31 @@ TEST(HeightsImport, cells_without_data_are_filled_and_counted) {
   ASSERT_TRUE(imported);
   EXPECT_EQ(imported->nodata, 15U);
   EXPECT_EQ(imported->header.ground.layout.lowest, 0) << "the lowest height is y = 0";
-  const auto filled = import_and_open(holes, folder / "b.ground", {.zero_m = 0.0, .nodata_m = 50.0});
+  const auto filled = import_and_open(holes, folder / "b.ground", {.zero_m = 0.0, .fill_m = 50.0});
   EXPECT_EQ(filled->layout().lowest, 50 * height_steps_per_m);
+}
+
+TEST(HeightsImport, cells_that_are_no_squares_keep_the_size_of_a_small_raster) {
+  const TestFolder folder;
+  FunctionRaster narrow(13, 12, 50.6, [](int x, int) { return 1.0 * x; });
+  narrow.deepen(49.4);
+  const auto ground = import_and_open(narrow, folder / "a.ground");
+  const HeightLayout& layout = ground->layout();
+  EXPECT_NEAR(static_cast<double>(layout.cell_m) * (layout.columns - 1), 12 * 50.6, 0.005 * 12 * 50.6);
+  EXPECT_NEAR(static_cast<double>(layout.cell_m) * (layout.rows - 1), 11 * 49.4, 0.005 * 11 * 49.4);
+  FunctionRaster level(13, 12, 50.6, [](int, int) { return 7.0; });
+  level.deepen(49.4);
+  const auto slab = import_heights(level, folder / "c.ground", {.zero_m = 0.0}, no_progress);
+  ASSERT_TRUE(slab);
+  EXPECT_NEAR(slab->volume_m3 / (7.0 * 13 * 50.6 * 12 * 49.4), 1.0, 0.006)
+      << "the halves of the outer cells too";
+  const auto scaled = import_heights(narrow, folder / "b.ground", {.cell_m = 4.94}, no_progress);
+  ASSERT_TRUE(scaled);
+  const HeightLayout& small = scaled->header.ground.layout;
+  EXPECT_NEAR(static_cast<double>(small.cell_m) * (small.columns - 1), 12 * 5.06, 0.005 * 12 * 5.06)
+      << "--cell is the distance of rows, and columns keep their proportion";
+  EXPECT_NE(scaled->said.front().find("0.1 times as large, with cells of 5.06 × 4.94 m"), std::string::npos)
+      << scaled->said.front();
 }
 
 TEST(HeightsImport, models_that_cannot_be_a_ground_are_refused_with_the_way_out) {
@@ -106,7 +129,7 @@ TEST(HeightsImport, models_that_cannot_be_a_ground_are_refused_with_the_way_out)
   EXPECT_TRUE(has(refusal_of_import(FunctionRaster(8, 8, 1.0, level), {.sample_m = 1.0e-4}),
                   "limits.height_samples_max"));
   EXPECT_TRUE(
-      has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int, int) { return NAN; })), "without data"));
+      has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int, int) { return NAN; })), "no cell has data"));
   EXPECT_TRUE(
       has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int, int) { return 1.0e9; })), "--vertical-scale"));
   EXPECT_TRUE(has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int x, int) { return x * 400.0; })),

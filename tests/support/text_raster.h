@@ -24,6 +24,9 @@ class FunctionRaster final : public Raster {
     return {};
   }
 
+  /// Rows lie at another distance than columns.
+  void deepen(double cell_z_m) { shape_.cell_z_m = cell_z_m; }
+
   int fails_at = -1;  ///< row that cannot be read
 
  private:

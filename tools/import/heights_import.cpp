@@ -37,7 +37,7 @@ Result<Survey> survey(Raster& raster, const HeightsImport& how, const std::funct
       found.lowest_m = std::min(found.lowest_m, height * how.vertical_scale);
       found.highest_m = std::max(found.highest_m, height * how.vertical_scale);
     }
-    progress(0.3 * (z + 1) / shape.rows);
+    progress(0.2 + 0.2 * (z + 1) / shape.rows);
   }
   if (found.lowest_m > found.highest_m) return fail("the raster has no heights: no cell has data");
   if (std::max(-found.lowest_m, found.highest_m) > limits::raster_height_max_m)
@@ -53,8 +53,8 @@ Result<Survey> survey(Raster& raster, const HeightsImport& how, const std::funct
 /// for from the north.
 class Resampled {
  public:
-  Resampled(Raster& raster, const HeightLayout& layout, double scale, double nodata_m)
-      : raster_(raster), shape_(raster.shape()), layout_(layout), scale_(scale), nodata_m_(nodata_m) {}
+  Resampled(Raster& raster, const HeightLayout& layout, double scale, double fill_m)
+      : raster_(raster), shape_(raster.shape()), layout_(layout), scale_(scale), fill_m_(fill_m) {}
 
   Result<void> row(int z, std::span<double> heights_m) {
     const auto [first, weight] = place(z, layout_.rows, shape_.rows);
@@ -95,7 +95,7 @@ class Resampled {
     if (found != rows_.end()) return &found->second;
     std::vector<double> cells(static_cast<size_t>(shape_.columns));
     TRY(raster_.read_row(z, cells));
-    for (double& height : cells) height = std::isfinite(height) ? height * scale_ : nodata_m_;
+    for (double& height : cells) height = std::isfinite(height) ? height * scale_ : fill_m_;
     std::vector<double> row(static_cast<size_t>(layout_.columns));
     for (int x = 0; x < layout_.columns; ++x) {
       const auto [first, weight] = place(x, layout_.columns, shape_.columns);
@@ -112,9 +112,37 @@ class Resampled {
   const Raster::Shape shape_;
   const HeightLayout& layout_;
   double scale_;
-  double nodata_m_;
+  double fill_m_;
   std::map<int, std::vector<double>> rows_;
 };
+
+struct Cells {
+  double x_m;
+  double z_m;
+};
+
+Cells cells_of(const Raster::Shape& shape, const HeightsImport& how) {
+  const double x_m = shape.cell_x_m.value_or(none), z_m = shape.cell_z_m.value_or(none);
+  if (!how.cell_m) return {x_m, z_m};
+  const bool known = std::isfinite(x_m) && std::isfinite(z_m);
+  return {known ? *how.cell_m * x_m / z_m : *how.cell_m, *how.cell_m};
+}
+
+/// Distance of the ground's samples: that of the closest cells, or a part of it where its multiples would
+/// miss the width or the depth of a small raster.
+double sample_of(const Raster::Shape& shape, const Cells& cells) {
+  const double closest_m = std::min(cells.x_m, cells.z_m);
+  const auto misses = [](double length_m, double sample_m) {
+    return std::abs(std::round(length_m / sample_m) * sample_m / length_m - 1.0) > limits::extent_error_max;
+  };
+  for (int parts = 1; parts <= limits::sample_parts_max; ++parts) {
+    const double sample_m = closest_m / parts;
+    if (sample_m < static_cast<double>(limits::height_cell_min_m)) break;
+    if (!misses(cells.x_m * (shape.columns - 1), sample_m) && !misses(cells.z_m * (shape.rows - 1), sample_m))
+      return sample_m;
+  }
+  return closest_m;
+}
 
 Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& how) {
   if (shape.columns < 2 || shape.rows < 2)
@@ -123,11 +151,11 @@ Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& 
   if (shape.columns > limits::raster_side_max || shape.rows > limits::raster_side_max)
     return fail(fmt::format("{} × {} cells: at most {} a side can be imported (limits.raster_side_max)",
                             shape.columns, shape.rows, limits::raster_side_max));
-  const double cell_x_m = how.cell_m.value_or(shape.cell_x_m.value_or(none));
-  const double cell_z_m = how.cell_m.value_or(shape.cell_z_m.value_or(none));
+  const Cells cells = cells_of(shape, how);
+  const auto [cell_x_m, cell_z_m] = cells;
   if (!std::isfinite(cell_x_m) || !std::isfinite(cell_z_m))
     return fail("the file does not say how wide its cells are: use --cell METRES");
-  const double sample_m = how.sample_m.value_or(std::min(cell_x_m, cell_z_m));
+  const double sample_m = how.sample_m.value_or(sample_of(shape, cells));
   const double width = std::round(cell_x_m * (shape.columns - 1) / sample_m);
   const double depth = std::round(cell_z_m * (shape.rows - 1) / sample_m);
   if (width * sample_m > 2.0 * static_cast<double>(limits::world_half_width_m) ||
@@ -150,8 +178,8 @@ Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& 
 Result<double> zero_of(const Survey& found, const HeightsImport& how) {
   const double relief_m = found.highest_m - found.lowest_m;
   const bool low = relief_m <= limits::relief_at_zero_max_m;
-  const double zero_m =
-      how.zero_m.value_or(std::floor(low ? found.lowest_m : 0.5 * (found.lowest_m + found.highest_m)));
+  const double ground_m = low ? found.lowest_m : 0.5 * (found.lowest_m + found.highest_m);
+  const double zero_m = how.zero_m.value_or(std::floor(ground_m + 0.5 / height_steps_per_m));
   const auto max_m = static_cast<double>(limits::height_max_m);
   if (found.lowest_m - zero_m < -max_m || found.highest_m - zero_m > max_m)
     return fail(
@@ -168,11 +196,16 @@ int32_t quantised(double height_m) {
   return static_cast<int32_t>(std::lround(std::clamp(height_m, -max_m, max_m) * height_steps_per_m));
 }
 
-void note(HeightsImported& imported, const HeightLayout& layout, int z, std::span<const int32_t> heights) {
-  const double cell_m = static_cast<double>(layout.cell_m);
+void note(HeightsImported& imported, const HeightLayout& layout, const Cells& cells, int z,
+          std::span<const int32_t> heights) {
+  const double sample_m = static_cast<double>(layout.cell_m);
+  // The outermost samples lie half a cell from the raster's edge.
+  const double edge_x_m = 0.5 * (sample_m + cells.x_m), edge_z_m = 0.5 * (sample_m + cells.z_m);
   double sum = 0.0;
   for (const int32_t height : heights) sum += static_cast<double>(height);
-  imported.volume_m3 += sum / height_steps_per_m * cell_m * cell_m;
+  const double ends = static_cast<double>(heights.front()) + static_cast<double>(heights.back());
+  const double depth_m = z == 0 || z == layout.rows - 1 ? edge_z_m : sample_m;
+  imported.volume_m3 += ((sum - ends) * sample_m + ends * edge_x_m) / height_steps_per_m * depth_m;
   const int side = std::max(layout.columns, layout.rows);
   const int step = (side + limits::preview_side_max - 1) / limits::preview_side_max;
   if (z % step != 0) return;
@@ -182,11 +215,32 @@ void note(HeightsImported& imported, const HeightLayout& layout, int z, std::spa
     imported.preview_m.push_back(static_cast<float>(heights[static_cast<size_t>(x)]) / height_steps_per_m);
 }
 
+void say_cells(const Raster::Shape& shape, const HeightsImport& how, HeightsImported& imported) {
+  if (!how.cell_m || !shape.cell_z_m) return;
+  const Cells cells = cells_of(shape, how);
+  const double factor = *how.cell_m / *shape.cell_z_m;
+  std::string words =
+      fmt::format("--cell makes the map {:.4g} times as large, with cells of {:.6g} × {:.6g} m", factor,
+                  cells.x_m, cells.z_m);
+  if (how.vertical_scale == 1.0) words += "; --vertical-scale does so to heights, which stay as they are";
+  imported.said.push_back(std::move(words));
+}
+
+void say_fill(const Raster::Shape& shape, const HeightsImport& how, double fill_m,
+              HeightsImported& imported) {
+  if (imported.nodata == 0) return;
+  const uint64_t all = static_cast<uint64_t>(shape.columns) * static_cast<uint64_t>(shape.rows);
+  imported.said.push_back(fmt::format("{} of {} cells have no height; they became {:.6g} m high, {}",
+                                      imported.nodata, all, fill_m,
+                                      how.fill_m ? "as --fill says" : "as the lowest (--fill METRES)"));
+}
+
 }  // namespace
 
 Result<HeightsImported> import_heights(Raster& raster, const std::string& path, const HeightsImport& how,
                                        const std::function<void(double)>& progress) {
   auto layout = TRY(layout_of(raster.shape(), how));
+  TRY(raster.check_values([&](double part) { progress(0.2 * part); }));
   const auto found = TRY(survey(raster, how, progress));
   const auto zero_m = zero_of(found, how);
   TRY(zero_m);
@@ -195,7 +249,9 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
   TRY(validate(layout));
   auto writer = TRY(GroundWriter::create(path, layout, static_cast<float>(*zero_m)));
   HeightsImported imported;
-  Resampled resampled(raster, layout, how.vertical_scale, how.nodata_m.value_or(found.lowest_m));
+  const double fill_m = how.fill_m.value_or(found.lowest_m);
+  Resampled resampled(raster, layout, how.vertical_scale, fill_m);
+  const Cells cells = cells_of(raster.shape(), how);
   std::vector<double> row(static_cast<size_t>(layout.columns));
   std::vector<int32_t> heights(row.size());
   for (int z = 0; z < layout.rows; ++z) {
@@ -203,8 +259,8 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
     std::ranges::transform(row, heights.begin(),
                            [&](double height_m) { return quantised(height_m - *zero_m); });
     writer->add_row(heights);
-    note(imported, layout, z, heights);
-    progress(0.3 + 0.7 * (z + 1) / layout.rows);
+    note(imported, layout, cells, z, heights);
+    progress(0.4 + 0.6 * (z + 1) / layout.rows);
   }
   const auto header = TRY(writer->finish());
   imported.header = header;
@@ -212,6 +268,8 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
   imported.nodata = found.nodata;
   imported.lowest_m = found.lowest_m;
   imported.highest_m = found.highest_m;
+  say_cells(raster.shape(), how, imported);
+  say_fill(raster.shape(), how, fill_m, imported);
   return imported;
 }
 

@@ -1,8 +1,10 @@
-// Makes a ground file of a raster of heights. Reads it twice, a few rows at a time: memory is bounded by its
-// width, whatever its height.
+// Makes a ground file of a raster of heights. Reads it a few rows at a time: memory is bounded by its width,
+// whatever its height.
 #pragma once
 
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "ground/ground_header.h"
 #include "tools/import/raster.h"
@@ -10,22 +12,25 @@
 namespace scree {
 
 struct HeightsImport {
-  std::optional<double> cell_m{};    ///< of the raster's cells; default: as the file says
+  /// Distance of the raster's rows; columns keep their proportion. Default: as the file says.
+  std::optional<double> cell_m{};
   std::optional<double> sample_m{};  ///< distance of the ground's samples; default: the cells'
   double vertical_scale = 1.0;
   std::optional<double> zero_m{};        ///< height that becomes y = 0, after the scale
-  std::optional<double> nodata_m{};      ///< height where the file has none; default: the lowest
+  std::optional<double> fill_m{};        ///< height where the file has none; default: the lowest
   std::optional<double> soil_below_m{};  ///< heights in the world; default: all of the ground
   std::optional<double> ice_above_m{};   ///< default: none
 };
 
 struct HeightsImported {
   GroundHeader header;
-  uint64_t bytes = 0;     ///< of the file
-  uint64_t nodata = 0;    ///< cells of the raster without a height
+  uint64_t bytes = 0;   ///< of the file
+  uint64_t nodata = 0;  ///< cells of the raster without a height
+  /// Sentences on what was done to the raster.
+  std::vector<std::string> said;
   double lowest_m = 0.0;  ///< of the raster, after the scale
   double highest_m = 0.0;
-  double volume_m3 = 0.0;  ///< of the samples above y = 0, each taken for its cell
+  double volume_m3 = 0.0;  ///< above y = 0, of the whole raster
   /// Heights in the world, of every so-manieth sample.
   int preview_columns = 0;
   std::vector<float> preview_m;

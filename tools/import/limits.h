@@ -12,6 +12,33 @@ inline constexpr int raster_side_max = 1 << 17;
 /// Above: refused.
 inline constexpr double raster_height_max_m = 25'000.0;
 
+/// Warnings of GDAL on one raster that are shown; more are left out.
+inline constexpr size_t raster_warnings_max = 5;
+
+/// Text of a raster's file in a message, bytes: a line on a terminal or two. More is cut off.
+inline constexpr size_t raster_text_bytes_max = 240;
+
+/// Sentences on one raster. Above: its reader counts as broken.
+inline constexpr unsigned raster_said_max = 64;
+
+/// Rasters of a file, or files of an archive, that a message names; more are counted.
+inline constexpr size_t raster_names_max = 12;
+
+/// Files of an archive that are examined. Above: refused.
+inline constexpr size_t archive_files_max = 4096;
+
+/// The ground of a raster is as wide and as deep as the raster within this part: closer samples make it so,
+/// up to so many in the place of one. Beyond: the ground is stretched.
+inline constexpr double extent_error_max = 0.005;
+inline constexpr int sample_parts_max = 8;
+
+/// Stored numbers beyond this size, of either sign, are no heights in any unit: they fill cells without data.
+inline constexpr double raster_fill_min = 1.0e15;
+
+/// An extreme value that is this far from the next one, metres, and looks like a number that fills cells
+/// without data, is refused unless the command line says whether it is a height. Cliffs are lower.
+inline constexpr double undeclared_gap_m = 500.0;
+
 /// Height between the lowest and the highest sample up to which the lowest lies at y = 0, metres; a higher
 /// model's middle does.
 inline constexpr double relief_at_zero_max_m = 448.0;

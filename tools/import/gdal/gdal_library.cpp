@@ -1,7 +1,11 @@
 #include "tools/import/gdal/gdal_library.h"
 
+#include <algorithm>
 #include <cpl_error.h>
 #include <gdal_priv.h>
+
+#include "shared/base/text.h"
+#include "tools/import/limits.h"
 
 namespace scree {
 
@@ -9,6 +13,13 @@ namespace {
 
 /// Blocks of rasters that GDAL keeps; by itself it would keep a twentieth of the machine's memory.
 constexpr int64_t cache_bytes_max = int64_t{64} << 20;
+
+void collect_warning(CPLErr kind, CPLErrorNum, const char* words) {
+  auto& warnings = *static_cast<std::vector<std::string>*>(CPLGetErrorHandlerUserData());
+  if (kind != CE_Warning || warnings.size() >= limits::raster_warnings_max) return;
+  std::string text = shown(words);
+  if (std::ranges::find(warnings, text) == warnings.end()) warnings.push_back(std::move(text));
+}
 
 }  // namespace
 
@@ -23,8 +34,20 @@ void prepare_gdal() {
 }
 
 std::string gdal_words(const std::string& otherwise) {
-  const std::string words = CPLGetLastErrorMsg();
+  const std::string words = shown(CPLGetLastErrorMsg());
   return words.empty() ? otherwise : words;
+}
+
+std::string shown(const char* text) {
+  return text == nullptr ? std::string() : showable(text, limits::raster_text_bytes_max);
+}
+
+GdalWarnings::GdalWarnings(std::vector<std::string>& warnings) {
+  CPLPushErrorHandlerEx(collect_warning, &warnings);
+}
+
+GdalWarnings::~GdalWarnings() {
+  CPLPopErrorHandler();
 }
 
 }  // namespace scree

@@ -1,92 +1,139 @@
 #include "tools/import/gdal/gdal_raster.h"
 
-#include <cmath>
+#include <algorithm>
 #include <cpl_error.h>
-#include <gdal_priv.h>
-#include <limits>
+#include <fmt/format.h>
 #include <ogr_spatialref.h>
+#include <string_view>
 
 #include "tools/import/gdal/gdal_library.h"
+#include "tools/import/gdal/height_band.h"
+#include "tools/import/gdal/height_dataset.h"
+#include "tools/import/gdal/north_up.h"
+#include "tools/import/gdal/raster_file.h"
+#include "tools/import/gdal/undeclared_nodata.h"
+#include "tools/import/limits.h"
 
 namespace scree {
 
 namespace {
 
-struct Close {
-  void operator()(GDALDataset* dataset) const { GDALClose(dataset); }
-};
-using Dataset = std::unique_ptr<GDALDataset, Close>;
-
-/// Metres a degree of latitude.
-constexpr double degree_m = 111'195.0;
+/// netCDF says the unit of its axes, also where it names no map.
+bool has_axes_of_degrees(GDALDataset& dataset) {
+  bool east = false, north = false;
+  for (char** line = dataset.GetMetadata(); line != nullptr && *line != nullptr; ++line) {
+    const std::string_view text(*line);
+    const size_t at = text.find("#units=degree");
+    if (at == std::string_view::npos) continue;
+    east = east || text.ends_with("_east") || text.ends_with("_E") || text.ends_with("E");
+    north = north || text.ends_with("_north") || text.ends_with("_N") || text.ends_with("N");
+  }
+  return east && north;
+}
 
 class GdalRaster final : public Raster {
  public:
-  explicit GdalRaster(Dataset dataset) : dataset_(std::move(dataset)) {
-    band_ = dataset_->GetRasterBand(1);
-    int known = 0;
-    const double none = band_->GetNoDataValue(&known);
-    if (known != 0) none_ = none;
-    scale_ = band_->GetScale();
-    offset_ = band_->GetOffset();
-  }
+  GdalRaster(std::string path, RasterChoice choice) : path_(std::move(path)), choice_(std::move(choice)) {}
 
-  Shape shape() const override {
-    Shape shape{dataset_->GetRasterXSize(), dataset_->GetRasterYSize(), {}, {}};
-    double at[6];
-    if (dataset_->GetGeoTransform(at) != CE_None) return shape;
-    double x = std::hypot(at[1], at[4]), z = std::hypot(at[2], at[5]);
-    const OGRSpatialReference* reference = dataset_->GetSpatialRef();
-    if (reference != nullptr && reference->IsGeographic() != 0) {
-      const double middle = at[3] + at[5] * static_cast<double>(shape.rows) * 0.5;
-      x *= degree_m * std::cos(middle * M_PI / 180.0);
-      z *= degree_m;
-    } else if (reference != nullptr && reference->IsProjected() != 0) {
-      x *= reference->GetLinearUnits();
-      z *= reference->GetLinearUnits();
-    }
-    if (x > 0.0 && z > 0.0 && std::isfinite(x) && std::isfinite(z)) {
-      shape.cell_x_m = x;
-      shape.cell_z_m = z;
-    }
-    return shape;
-  }
-
-  Result<void> read_row(int row, std::span<double> heights_m) override {
-    CPLErrorReset();
-    const int columns = dataset_->GetRasterXSize();
-    if (band_->RasterIO(GF_Read, 0, row, columns, 1, heights_m.data(), columns, 1, GDT_Float64, 0, 0,
-                        nullptr) != CE_None ||
-        CPLGetLastErrorType() == CE_Failure)
-      return fail("row " + std::to_string(row) + " cannot be read: " + gdal_words("no reason is given"));
-    for (double& height : heights_m)
-      height = (none_ && height == *none_) || !std::isfinite(height)
-                   ? std::numeric_limits<double>::quiet_NaN()
-                   : height * scale_ + offset_;
+  Result<void> open() {
+    const GdalWarnings listening(warnings_);
+    source_ = TRY(open_raster_file(path_, choice_.layer, said_));
+    TRY(find_crs());
+    const auto chosen = TRY(choose_height_band(*source_, choice_.band));
+    auto unit = TRY(height_unit_of(*chosen.band, crs_.get(), choice_.vertical_unit));
+    auto values = TRY(HeightValues::of(*chosen.band, choice_, std::move(unit)));
+    values_ = std::make_unique<HeightValues>(std::move(values));
+    TRY(check_side());
+    heights_ = std::make_unique<HeightDataset>(*source_, *values_, crs_.get());
+    placed_ = TRY(place_north_up(*heights_));
+    std::string line = "heights from " + chosen.words;
+    for (const std::string& part : placed_.words) line += "; " + part;
+    for (const std::string& part : values_->words()) line += "; " + part;
+    said_.insert(said_.begin(), std::move(line));
     return {};
   }
 
+  Shape shape() const override { return placed_.shape; }
+  std::optional<Place> place() const override { return placed_.place; }
+
+  Result<void> check_values(const std::function<void(double)>& progress) override {
+    if (choice_.no_nodata) return {};
+    const GdalWarnings listening(warnings_);
+    return check_undeclared_nodata(*values_, said_, progress);
+  }
+
+  Result<void> read_row(int row, std::span<double> heights_m) override {
+    const GdalWarnings listening(warnings_);
+    const int row_there = placed_.flips_rows ? placed_.shape.rows - 1 - row : row;
+    const int columns = placed_.shape.columns;
+    if (!placed_.warped) {
+      TRY(values_->read(0, row_there, columns, 1, heights_m));
+    } else {
+      CPLErrorReset();
+      if (placed_.warped->GetRasterBand(1)->RasterIO(GF_Read, 0, row_there, columns, 1, heights_m.data(),
+                                                     columns, 1, GDT_Float64, 0, 0, nullptr) != CE_None ||
+          CPLGetLastErrorType() == CE_Failure)
+        return fail(gdal_words("row " + std::to_string(row) + " cannot be read"));
+    }
+    if (placed_.flips_columns) std::ranges::reverse(heights_m);
+    return {};
+  }
+
+  std::vector<std::string> said() override {
+    std::vector<std::string> lines = said_;
+    for (const std::string& warning : warnings_) lines.push_back("GDAL warns: " + warning);
+    return lines;
+  }
+
  private:
-  Dataset dataset_;
-  GDALRasterBand* band_ = nullptr;
-  std::optional<double> none_;
-  double scale_ = 1.0;
-  double offset_ = 0.0;
+  /// The command line's map overrides the file's.
+  Result<void> find_crs() {
+    const OGRSpatialReference* own = source_->GetSpatialRef();
+    if (own == nullptr || own->IsEmpty()) own = source_->GetGCPSpatialRef();
+    if (choice_.crs.empty()) {
+      if (own != nullptr && !own->IsEmpty()) {
+        crs_ = std::make_unique<OGRSpatialReference>(*own);
+      } else if (has_axes_of_degrees(*source_)) {
+        crs_ = std::make_unique<OGRSpatialReference>();
+        crs_->SetWellKnownGeogCS("WGS84");
+        crs_->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+        said_.emplace_back("its axes are in degrees, and it names no map: WGS 84 is assumed");
+      }
+      return {};
+    }
+    crs_ = std::make_unique<OGRSpatialReference>();
+    if (crs_->SetFromUserInput(choice_.crs.c_str()) != OGRERR_NONE)
+      return fail("--crs: '" + choice_.crs +
+                  "' is no coordinate system: " + gdal_words("GDAL says no reason"));
+    crs_->SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return {};
+  }
+
+  Result<void> check_side() const {
+    const int columns = source_->GetRasterXSize(), rows = source_->GetRasterYSize();
+    if (columns <= limits::raster_side_max && rows <= limits::raster_side_max) return {};
+    return fail(fmt::format("{} × {} cells: at most {} a side can be imported (limits.raster_side_max)",
+                            columns, rows, limits::raster_side_max));
+  }
+
+  std::string path_;
+  RasterChoice choice_;
+  std::vector<std::string> said_;
+  std::vector<std::string> warnings_;
+  Dataset source_;
+  std::unique_ptr<OGRSpatialReference> crs_;
+  std::unique_ptr<HeightValues> values_;
+  std::unique_ptr<HeightDataset> heights_;
+  NorthUp placed_;  ///< its warper reads the above
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Raster>> open_raster(const std::string& path) {
+Result<std::unique_ptr<Raster>> open_raster(const std::string& path, const RasterChoice& choice) {
   prepare_gdal();
-  CPLErrorReset();
-  Dataset dataset(GDALDataset::FromHandle(GDALOpenEx(
-      path.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr, nullptr)));
-  if (!dataset)
-    return fail(path + ": not an elevation model: " + gdal_words("GDAL does not know its format"));
-  if (dataset->GetRasterCount() < 1) return fail(path + ": it has no band of heights");
-  if (GDALDataTypeIsComplex(dataset->GetRasterBand(1)->GetRasterDataType()) != 0)
-    return fail(path + ": its numbers are complex, not heights");
-  return std::make_unique<GdalRaster>(std::move(dataset));
+  auto raster = std::make_unique<GdalRaster>(path, choice);
+  if (const auto opened = raster->open(); !opened) return fail(path + ": " + opened.error().message);
+  return raster;
 }
 
 Result<void> write_grey_png(const std::string& path, int columns, int rows, std::span<const uint8_t> pixels) {

@@ -1,4 +1,6 @@
 // scree-import: makes a ground file of an elevation model, or of solids on a ground.
+#include <array>
+#include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -9,7 +11,9 @@
 #include "shared/base/program_output.h"
 #include "tools/import/files/solid_files.h"
 #include "tools/import/gdal/gdal_raster.h"
+#include "tools/import/gdal/raster_reader.h"
 #include "tools/import/heights_import.h"
+#include "tools/import/process/reader_process.h"
 #include "tools/import/programs/program.h"
 
 namespace scree {
@@ -24,13 +28,33 @@ struct Options {
   std::optional<double> level_m;
   std::optional<float> voxel_size_m;
   uint32_t memory_max_mib = 2048;
+  double time_max_s = 600.0;
   HeightsImport how;
+  RasterChoice raster;
+  std::vector<std::string> nodata;
   SolidsImport solids;
 };
 
+/// Where the file of an elevation model says it wrong or not at all.
+void declare_raster(CLI::App& app, Options& options) {
+  RasterChoice& choice = options.raster;
+  app.add_option("--band", choice.band, "the band of heights, from 1; default: the first that holds heights")
+      ->check(CLI::Range(1, 65536));
+  app.add_option(
+      "--layer", choice.layer,
+      "name or number of a raster in a file that has several (netCDF, HDF), or of a file in an archive");
+  app.add_option("--crs", choice.crs, "the map, such as EPSG:32633; default: as the file says");
+  app.add_option("--vertical-unit", choice.vertical_unit,
+                 "unit of the heights: m, ft, us-ft, cm and others; default: as the file says");
+  app.add_option("--nodata", options.nodata,
+                 "values that stand for no height, besides the file's own; none: all values are heights")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
 void declare_heights(CLI::App& app, Options& options) {
   HeightsImport& how = options.how;
-  app.add_option("--cell", how.cell_m, "metres between the file's samples; default: as the file says")
+  app.add_option("--cell", how.cell_m, "metres between the file's rows; default: as the file says")
       ->check(CLI::PositiveNumber);
   app.add_option("--sample", how.sample_m, "metres between the ground's samples; default: as in the file")
       ->check(CLI::PositiveNumber);
@@ -39,7 +63,7 @@ void declare_heights(CLI::App& app, Options& options) {
       ->capture_default_str();
   app.add_option("--zero", how.zero_m,
                  "height (after the scale) that becomes y = 0, metres; default: the lowest");
-  app.add_option("--nodata", how.nodata_m,
+  app.add_option("--fill", how.fill_m,
                  "height (after the scale) where the file has none, metres; default: the lowest");
   app.add_option("--preview", options.preview, "draws a shaded relief to this PNG file");
 }
@@ -81,7 +105,11 @@ void declare(CLI::App& app, Options& options) {
                  "limit of the import's memory, megabytes; a file that needs more is refused")
       ->check(CLI::Range(256, 1 << 20))
       ->capture_default_str();
+  app.add_option("--time-max", options.time_max_s, "seconds that a file may be read for; then it is refused")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
   declare_heights(app, options);
+  declare_raster(app, options);
   declare_solids(app, options);
 }
 
@@ -92,26 +120,61 @@ void bound_memory(const Options& options) {
   setrlimit(RLIMIT_AS, &bound);
 }
 
+/// The limits of the processes that read the files.
+ReaderLimits reader_limits(const Options& options) {
+  return {uint64_t{options.memory_max_mib} << 20U,
+          std::chrono::milliseconds(static_cast<int64_t>(options.time_max_s * 1000.0))};
+}
+
 double seconds_since(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
-void print(const Options& options, const HeightsImported& imported, double seconds) {
+void print(const Options& options, const HeightsImported& imported, const std::optional<Raster::Place>& place,
+           double seconds) {
   const HeightLayout& layout = imported.header.ground.layout;
-  const nlohmann::ordered_json line{{"ground", options.out},
-                                    {"hash", hex_of(name_of(imported.header))},
-                                    {"bytes", imported.bytes},
-                                    {"columns", layout.columns},
-                                    {"rows", layout.rows},
-                                    {"sample_m", layout.cell_m},
-                                    {"tiles", layout.tiles()},
-                                    {"lowest_m", imported.lowest_m},
-                                    {"highest_m", imported.highest_m},
-                                    {"zero_m", imported.header.zero_m},
-                                    {"cells_without_data", imported.nodata},
-                                    {"volume_m3", imported.volume_m3},
-                                    {"seconds", seconds}};
+  nlohmann::ordered_json line{{"ground", options.out},
+                              {"hash", hex_of(name_of(imported.header))},
+                              {"bytes", imported.bytes},
+                              {"columns", layout.columns},
+                              {"rows", layout.rows},
+                              {"sample_m", layout.cell_m},
+                              {"tiles", layout.tiles()},
+                              {"lowest_m", imported.lowest_m},
+                              {"highest_m", imported.highest_m},
+                              {"zero_m", imported.header.zero_m},
+                              {"cells_without_data", imported.nodata},
+                              {"volume_m3", imported.volume_m3}};
+  if (place) {
+    line["crs"] = place->crs;
+    line["middle"] = std::array{place->x, place->y};
+  }
+  line["seconds"] = seconds;
   std::printf("%s\n", line.dump().c_str());
+}
+
+/// With the values of --nodata.
+Result<RasterChoice> raster_choice_of(const Options& options) {
+  RasterChoice choice = options.raster;
+  for (const std::string& text : options.nodata) {
+    if (text == "none") {
+      choice.no_nodata = true;
+      continue;
+    }
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size())
+      return fail("--nodata: '" + text + "' is no number, and not none");
+    choice.nodata.push_back(value);
+  }
+  if (choice.no_nodata && !choice.nodata.empty())
+    return fail("--nodata none says that all values are heights: it stands alone");
+  return choice;
+}
+
+void say(const std::string& file, const std::vector<std::string>& sentences) {
+  for (const std::string& said : sentences)
+    std::fprintf(stderr, "scree-import: %s: %s\n", file.c_str(), said.c_str());
 }
 
 Result<void> run_heights(const Options& options) {
@@ -119,9 +182,11 @@ Result<void> run_heights(const Options& options) {
   const std::string& file = options.files.front();
   if (options.files.size() > 1) return fail("only one elevation model can be imported at a time");
   if (!options.on.empty()) return fail(file + ": an elevation model cannot stand on another ground (--on)");
-  auto raster = TRY(open_raster(file));
+  const auto choice = TRY(raster_choice_of(options));
+  auto raster = TRY(open_raster_apart(file, choice, reader_limits(options)));
   const auto imported = with_bar(
       [&](const auto& progress) { return import_heights(*raster, options.out, options.how, progress); });
+  say(file, raster->said());
   if (!imported) return fail(file + ": " + imported.error().message);
   if (!options.preview.empty()) {
     const std::vector<uint8_t> pixels = shaded_relief(*imported);
@@ -130,7 +195,8 @@ Result<void> run_heights(const Options& options) {
         write_grey_png(options.preview, columns, static_cast<int>(pixels.size()) / columns, pixels);
     TRY(written);
   }
-  print(options, *imported, seconds_since(began));
+  say(file, imported->said);
+  print(options, *imported, raster->place(), seconds_since(began));
   return {};
 }
 
@@ -180,6 +246,7 @@ Result<void> run_solids(const Options& options) {
     if (options.level_m) return fail("--level cannot be used with --on: solids then stand on that ground");
   }
   SolidsImport solids = options.solids;
+  solids.reader = reader_limits(options);
   if (options.voxel_size_m)
     solids.voxel_size_m = *options.voxel_size_m;
   else if (on != nullptr && on->bricks())
