@@ -5,6 +5,7 @@
 
 #include "tools/import/bricks_import.h"
 #include "tools/import/placement.h"
+#include "tools/import/process/reader_process.h"
 
 namespace scree {
 
@@ -16,6 +17,7 @@ struct SolidsImport {
   std::string grid{};  ///< of an OpenVDB file
   double density = 0.5;
   float voxel_size_m = 0.25F;
+  ReaderLimits reader{};  ///< of the process that reads each file
 };
 
 struct SolidsRead {

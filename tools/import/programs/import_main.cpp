@@ -10,6 +10,7 @@
 #include "tools/import/files/solid_files.h"
 #include "tools/import/gdal/gdal_raster.h"
 #include "tools/import/heights_import.h"
+#include "tools/import/process/reader_process.h"
 #include "tools/import/programs/program.h"
 
 namespace scree {
@@ -24,6 +25,7 @@ struct Options {
   std::optional<double> level_m;
   std::optional<float> voxel_size_m;
   uint32_t memory_max_mib = 2048;
+  double time_max_s = 600.0;
   HeightsImport how;
   SolidsImport solids;
 };
@@ -77,6 +79,9 @@ void declare(CLI::App& app, Options& options) {
   app.add_option("--memory-max", options.memory_max_mib, "megabytes; a file that needs more is refused")
       ->check(CLI::Range(256, 1 << 20))
       ->capture_default_str();
+  app.add_option("--time-max", options.time_max_s, "seconds that a file may be read for; then it is refused")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
   declare_heights(app, options);
   declare_solids(app, options);
 }
@@ -86,6 +91,12 @@ void bound_memory(const Options& options) {
   const rlim_t bytes = rlim_t{options.memory_max_mib} << 20U;
   const rlimit bound{bytes, bytes};
   setrlimit(RLIMIT_AS, &bound);
+}
+
+/// Of the processes that read the files.
+ReaderLimits reader_limits(const Options& options) {
+  return {uint64_t{options.memory_max_mib} << 20U,
+          std::chrono::milliseconds(static_cast<int64_t>(options.time_max_s * 1000.0))};
 }
 
 double seconds_since(std::chrono::steady_clock::time_point began) {
@@ -176,6 +187,7 @@ Result<void> run_solids(const Options& options) {
     if (options.level_m) return fail("--level is of solids that stand on no ground (--on)");
   }
   SolidsImport solids = options.solids;
+  solids.reader = reader_limits(options);
   if (options.voxel_size_m)
     solids.voxel_size_m = *options.voxel_size_m;
   else if (on != nullptr && on->bricks())

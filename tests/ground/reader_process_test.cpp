@@ -1,0 +1,114 @@
+// The child process that reads foreign files: values and requests pass, and each way to end becomes words.
+#include "tools/import/process/reader_process.h"
+
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <numeric>
+#include <unistd.h>
+
+namespace scree {
+namespace {
+
+/// The error that the import sees when the child does that.
+std::string end_of(const ReaderProcess::Work& work, const ReaderLimits& bounds = {}) {
+  auto reader = ReaderProcess::start("libthing", bounds, work);
+  if (!reader) return "not started: " + reader.error().message;
+  const auto number = (*reader)->get<int>();
+  return number ? "an answer" : number.error().message;
+}
+
+TEST(ReaderProcess, answers_requests_with_values) {
+  std::vector<double> many(300'000);
+  std::iota(many.begin(), many.end(), 0.5);
+  auto reader = ReaderProcess::start("libthing", {}, [&](ReaderChannel& channel) -> Result<void> {
+    TRY(channel.put_text("words"));
+    TRY(channel.put_list(many));
+    TRY(channel.flush());
+    while (true) {
+      const int row = TRY(channel.get<int>());
+      if (row < 0) return {};
+      TRY(channel.put(row * 2));
+      TRY(channel.flush());
+    }
+  });
+  ASSERT_TRUE(reader);
+  EXPECT_EQ((*reader)->get_text().value(), "words");
+  EXPECT_EQ((*reader)->get_list<double>(many.size()).value(), many);
+  for (const int row : {7, 8, 9}) {
+    ASSERT_TRUE((*reader)->put(row) && (*reader)->flush());
+    EXPECT_EQ((*reader)->get<int>().value(), 2 * row);
+  }
+}
+
+TEST(ReaderProcess, ends_of_every_kind_become_words) {
+  const auto has = [](const std::string& words, const char* part) {
+    return words.find(part) == std::string::npos ? words : std::string();
+  };
+  EXPECT_EQ(end_of([](ReaderChannel&) -> Result<void> { return fail("row 3 is cut off"); }),
+            "row 3 is cut off");
+  EXPECT_EQ(end_of([](ReaderChannel&) -> Result<void> { throw std::runtime_error("thrown"); }), "thrown");
+  EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> { throw std::bad_alloc(); }), "--memory-max"), "");
+  EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> { _exit(5); }), "status 5"), "");
+  EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> { return {}; }), "without an answer"), "");
+  // Sanitizers make an exit of some signals.
+  EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> { std::abort(); }), "libthing ended "), "");
+  EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> {
+                  std::raise(SIGSEGV);
+                  return {};
+                }),
+                "libthing ended "),
+            "");
+  EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> {
+                  std::raise(SIGKILL);
+                  return {};
+                }),
+                "killed"),
+            "");
+}
+
+TEST(ReaderProcess, limits_of_time_and_memory_end_it) {
+  const auto late = [](ReaderChannel&) -> Result<void> {
+    while (true) ::pause();
+  };
+  EXPECT_NE(end_of(late, {.time = std::chrono::milliseconds(50)}).find("within 0.05 s"), std::string::npos);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+  const auto greedy = [](ReaderChannel& channel) -> Result<void> {
+    std::vector<std::vector<char>> all;
+    while (all.size() < 4096) all.emplace_back(size_t{1} << 20U);
+    return channel.put(1);
+  };
+  EXPECT_NE(end_of(greedy, {.memory_bytes = uint64_t{64} << 20U}).find("--memory-max"), std::string::npos);
+#endif
+}
+
+TEST(ReaderProcess, more_values_than_agreed_are_refused) {
+  const auto sends = [](uint64_t count) {
+    return [count](ReaderChannel& channel) -> Result<void> {
+      TRY(channel.put(count));
+      return channel.put(1);
+    };
+  };
+  auto many = ReaderProcess::start("libthing", {}, sends(uint64_t{1} << 60U));
+  EXPECT_FALSE((*many)->get_list<double>(1000));
+  auto promised = ReaderProcess::start("libthing", {}, sends(uint64_t{1} << 40U));
+  EXPECT_FALSE((*promised)->get_list<double>(uint64_t{1} << 50U)) << "its values do not come";
+}
+
+TEST(ReaderProcess, dies_with_its_owner) {
+  pid_t child = 0;
+  {
+    auto reader = ReaderProcess::start("libthing", {}, [](ReaderChannel& channel) -> Result<void> {
+      TRY(channel.put(::getpid()));
+      TRY(channel.flush());
+      while (true) ::pause();
+    });
+    child = (*reader)->get<pid_t>().value();
+    EXPECT_TRUE(std::filesystem::exists("/proc/" + std::to_string(child)));
+  }
+  EXPECT_FALSE(std::filesystem::exists("/proc/" + std::to_string(child)));
+}
+
+}  // namespace
+}  // namespace scree
