@@ -20,6 +20,7 @@
 #include "shared/base/role.h"
 #include "shared/base/setting_value.h"
 #include "shared/field/brick_patch.h"
+#include "proto/spawn.h"
 #include "shared/operation/operation.h"
 #include "shared/operation/request.h"
 
@@ -44,6 +45,7 @@ struct HelloMessage {
   bool meets = false;            ///< it is a person's: PersonsMessage and SaidMessage are wanted
   uint32_t oldest_protocol = 0;  ///< the oldest that it speaks; 0: none but `protocol`
   uint32_t operations = operation_kinds;  ///< it carries out so many kinds, in the order of their numbers
+  bool at_spawn = false;  ///< the server puts the eye at WelcomeMessage::spawn, where there is one
 };
 
 /// A message of a kind that this version does not know, or a request with an unknown value. It is skipped
@@ -185,6 +187,8 @@ struct WelcomeMessage {
   /// If the ground is by heights: then terrain.kind and random_seed mean nothing. Who receives it makes
   /// terrain.heights of it.
   std::optional<HeightGround> heights{};
+  /// Where who has no place of its own begins. Servers of older releases say none.
+  std::optional<Spawn> spawn{};
 };
 
 /// The reason for which the server closes the connection.

@@ -44,7 +44,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       requests_(commands, sessions_, figures_.counts(), config_.replay),
       returns_([this](uint64_t session) { requests_.gone(session); }, door_),
       administration_(sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
-                      config_.control),
+                      config_.control, [this]() -> const auto& { return publisher_.cursors(); }),
       web_(config_, authorizer_, door_, figures_.counts(), log_, *this),
       arrivals_(context_,
                 {config_, door_, authorizer_, sessions_, room_, web_, *this, figures_.counts(), log_},
@@ -78,8 +78,9 @@ void NetHost::begin_websocket(std::shared_ptr<Transport> stream, const std::stri
 
 // ---- sessions
 
-tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& hello) {
-  TRY(find_protocol(hello));
+tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& said) {
+  TRY(find_protocol(said));
+  const HelloMessage hello = placed(said, publisher_.state().spawn());
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
   const double now_s = steady_now_s();
   const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token, hello.name,
@@ -96,6 +97,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   welcome.role = grant.role;
   welcome.ticket = returns_.tickets().issue(session.id());
   welcome.resumed = before.has_value();
+  welcome.spawn = publisher_.state().spawn();
   return welcome;
 }
 

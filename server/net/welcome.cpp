@@ -20,6 +20,11 @@ tl::expected<void, Refused> find_protocol(const HelloMessage& hello) {
                             protocol_version, spoken));
 }
 
+HelloMessage placed(HelloMessage hello, const std::optional<Spawn>& spawn) {
+  if (hello.at_spawn && spawn) hello.eye_m = spawn->eye_m;
+  return hello;
+}
+
 Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
   if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
     return fail("the eye's position is not a number");

@@ -15,6 +15,7 @@
 #include "server/world/stages.h"
 #include "shared/base/ids.h"
 #include "shared/base/setting_value.h"
+#include "proto/spawn.h"
 #include "shared/operation/ledger.h"
 #include "shared/operation/operation.h"
 
@@ -61,6 +62,7 @@ struct TickDelta {
   std::vector<PieceState> pieces;     ///< every piece alive after the tick, ordered by id
   std::vector<Reply> replies;
   SettingValues settings;  ///< how every setting stands, when one changed (at first: all did); else empty
+  std::optional<Spawn> spawn;  ///< where visitors begin, when that is another place than before (SpawnPlace)
   std::optional<ServiceLimits> service;       ///< those of them that are the network's; never in a recording
   std::optional<PlaybackMessage> playback;    ///< where a replay stands; of a replay alone, as the next two
   std::shared_ptr<const MarksMessage> marks;  ///< the recording's events; null: none are known

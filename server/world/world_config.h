@@ -3,11 +3,13 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 
 #include "server/world/methods.h"
 #include "server/world/service_limits.h"
 #include "shared/base/digest.h"
 #include "shared/base/result.h"
+#include "proto/spawn.h"
 #include "shared/field/terrain.h"
 
 namespace scree {
@@ -26,6 +28,7 @@ struct WorldConfig {
   uint32_t work_percent = 65;
   Methods methods;
   ServiceLimits service;  ///< for the network; the simulation does not read it
+  std::optional<Spawn> spawn{};  ///< where visitors begin; nothing: where the ground suggests (SpawnPlace)
   Digest ground{};        ///< names the file that terrain.heights is from; zeros: of no file
 
   bool operator==(const WorldConfig&) const = default;
