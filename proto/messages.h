@@ -13,6 +13,7 @@
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
 #include "proto/protocol_version.h"
+#include "proto/spawn.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
 #include "shared/base/ids.h"
@@ -20,7 +21,6 @@
 #include "shared/base/role.h"
 #include "shared/base/setting_value.h"
 #include "shared/field/brick_patch.h"
-#include "proto/spawn.h"
 #include "shared/operation/operation.h"
 #include "shared/operation/request.h"
 

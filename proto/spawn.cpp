@@ -29,8 +29,7 @@ Spawn spawn_looking_at(glm::vec3 eye_m, glm::vec3 at_m) {
                z = static_cast<double>(at_m.z - eye_m.z);
   Spawn spawn{eye_m, static_cast<float>(std::atan2(-x, -z) * degrees_per_radian),
               static_cast<float>(std::atan2(y, std::hypot(x, z)) * degrees_per_radian)};
-  spawn.pitch_degrees =
-      std::clamp(spawn.pitch_degrees, -spawn_pitch_max_degrees, spawn_pitch_max_degrees);
+  spawn.pitch_degrees = std::clamp(spawn.pitch_degrees, -spawn_pitch_max_degrees, spawn_pitch_max_degrees);
   return rounded(spawn);
 }
 

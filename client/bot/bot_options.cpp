@@ -119,8 +119,8 @@ void complete(BotOptions& options, const Words& words) {
   carver.shape = *kind_named<ShapeKind>(words.shape);       // one of bot_shapes
   carver.pattern = kind_named<SeedPattern>(words.pattern);  // none: both
   options.bot.paint = kind_named<Material>(words.paint);
-  config.at_spawn = words.centre_m.empty();
-  if (!config.at_spawn) carver.centre_m = {words.centre_m[0], 0.0F, words.centre_m[1]};
+  options.bot.at_spawn = words.centre_m.empty();
+  if (!options.bot.at_spawn) carver.centre_m = {words.centre_m[0], 0.0F, words.centre_m[1]};
 }
 
 }  // namespace

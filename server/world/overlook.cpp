@@ -142,7 +142,8 @@ Picture picture_of(const std::array<Sight, directions>& sights, int middle) {
     hidden += std::max(0.0F, sight.skyline - skyline_high) + sight.near;
     picture.skyline += std::max(0.0F, sight.skyline) / in_picture;
   }
-  picture.worth = 2.0F * relief / in_picture + 2.0F * std::min(edges, edges_enough) - 3.0F * hidden / in_picture;
+  picture.worth =
+      2.0F * relief / in_picture + 2.0F * std::min(edges, edges_enough) - 3.0F * hidden / in_picture;
   return picture;
 }
 
@@ -175,7 +176,8 @@ float pitch_for(float skyline) {
 
 Spawn overlook_of(const TerrainSource& source) {
   const HeightGrid grid(source);
-  Spawn best{.eye_m = {0.0F, grid.at(0, 0) + above_ground_m, 0.0F}, .yaw_degrees = 0.0F, .pitch_degrees = -10.0F};
+  Spawn best{
+      .eye_m = {0.0F, grid.at(0, 0) + above_ground_m, 0.0F}, .yaw_degrees = 0.0F, .pitch_degrees = -10.0F};
   float most = -1.0e9F;
   for (int z = -eye_steps; z <= eye_steps; z += steps_between_eyes)
     for (int x = -eye_steps; x <= eye_steps; x += steps_between_eyes) {

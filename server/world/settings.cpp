@@ -138,8 +138,8 @@ constexpr std::array table{
       static_cast<int>(group_merges), static_cast<int>(cutter),  static_cast<int>(simplifier)};
   const std::array granted{static_cast<double>(sessions_max), requests_per_second};
   const std::array texts{&spawn};
-  return std::integral_constant<size_t, config.size() - fixed + choices.size() + granted.size() +
-                                            texts.size()>{};
+  return std::integral_constant<size_t,
+                                config.size() - fixed + choices.size() + granted.size() + texts.size()>{};
 }
 static_assert(decltype(members(std::declval<const WorldConfig&>()))::value == table.size());
 

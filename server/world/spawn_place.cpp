@@ -19,8 +19,8 @@ constexpr float lift_step_m = 0.5F;
 bool is_rock(const Field& field, glm::vec3 place_m) {
   const glm::vec3 p = place_m / field.source().voxel_size_m + 0.5F;
   const VoxelCoord voxel{floor_to_int(p.x), floor_to_int(p.y), floor_to_int(p.z)};
-  return field.brick(brick_of(voxel)).codes[static_cast<size_t>(
-             Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7))] < 0;
+  return field.brick(brick_of(voxel))
+             .codes[static_cast<size_t>(Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7))] < 0;
 }
 
 bool is_free(const Field& field, glm::vec3 eye_m) {

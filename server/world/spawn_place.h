@@ -4,9 +4,9 @@
 
 #include <optional>
 
+#include "proto/spawn.h"
 #include "server/world/tick_delta.h"
 #include "shared/field/field.h"
-#include "proto/spawn.h"
 
 namespace scree {
 

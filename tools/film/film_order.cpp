@@ -69,7 +69,8 @@ class EventSearch {
   std::optional<Event> found_;
 };
 
-Result<std::optional<Event>> find_event(const WhichEvent& which, RecordingReader& recording, const GroundGiver& ground) {
+Result<std::optional<Event>> find_event(const WhichEvent& which, RecordingReader& recording,
+                                        const GroundGiver& ground) {
   EventSearch search(which);
   const auto read =
       each_event(recording, ground, [&](const Event& event, std::optional<float>) { search.add(event); });

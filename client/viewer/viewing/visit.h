@@ -77,7 +77,8 @@ class Visit {
   AutoQuality auto_quality_;
   std::optional<float> chosen_radius_m_;
   std::optional<float> render_scale_;
-  bool stands_ = false;  ///< the camera is where somebody wanted it, or where the first world's visitors begin
+  bool stands_ =
+      false;  ///< the camera is where somebody wanted it, or where the first world's visitors begin
 };
 
 }  // namespace scree
