@@ -91,14 +91,13 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   const std::optional<Departed> before = returns_.resume(hello.ticket, grant, sessions_, now_s);
   TRY(find_room(session, grant, before, now_s));
   join(session, hello, *radius_m, grant, before);
-  WelcomeMessage welcome = welcome_of(config_, world_);
+  WelcomeMessage welcome = welcome_of(config_, world_, publisher_.state().spawn());
   welcome.session = session.id();
   welcome.tick = publisher_.state().tick();
   welcome.interest_radius_m = *radius_m;
   welcome.role = grant.role;
   welcome.ticket = returns_.tickets().issue(session.id());
   welcome.resumed = before.has_value();
-  welcome.spawn = publisher_.state().spawn();
   return welcome;
 }
 

@@ -24,6 +24,6 @@ Result<float> granted_radius(glm::vec3 eye_m, float radius_m);
 
 /// A welcome without the session's own part: number, tick, interest, role, ticket. `world`: as of
 /// WelcomeMessage.
-WelcomeMessage welcome_of(const NetConfig& config, uint64_t world);
+WelcomeMessage welcome_of(const NetConfig& config, uint64_t world, const std::optional<Spawn>& spawn);
 
 }  // namespace scree
