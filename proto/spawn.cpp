@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <fmt/format.h>
 
 #include "shared/base/limits.h"
 
@@ -18,8 +19,8 @@ constexpr size_t numbers_of_place = 3;
 constexpr double degrees_per_radian = 57.29577951308232;
 
 tl::unexpected<Error> no_place(std::string_view text) {
-  return fail("'" + std::string(text) +
-              "' is no place to begin: write X,Y,Z or X,Y,Z,YAW,PITCH, in metres and degrees");
+  return fail(
+      fmt::format("'{}' is no place to begin: write X,Y,Z or X,Y,Z,YAW,PITCH, in metres and degrees", text));
 }
 
 }  // namespace
@@ -63,10 +64,10 @@ Result<Spawn> parse_spawn(std::string_view text) {
   const bool inside = std::max(std::abs(x), std::abs(z)) <= limits::world_half_width_m &&
                       std::abs(y) <= limits::world_half_height_m;
   if (!inside)
-    return fail("'" + std::string(text) +
-                "' is outside the world (limits.world_half_width_m, world_half_height_m)");
+    return fail(
+        fmt::format("'{}' is outside the world (limits.world_half_width_m, world_half_height_m)", text));
   if (std::abs(pitch) > spawn_pitch_max_degrees)
-    return fail("'" + std::string(text) + "' looks too steeply: its pitch is within ±89 degrees");
+    return fail(fmt::format("'{}' looks too steeply: its pitch is within ±89 degrees", text));
   return Spawn{{x, y, z}, std::remainder(yaw, 360.0F), pitch};
 }
 

@@ -140,7 +140,7 @@ Picture picture_of(const std::array<Sight, directions>& sights, int middle) {
     relief += std::min(sight.relief, relief_enough);
     edges += edge_between(sight, sight_at(i + 1));
     hidden += std::max(0.0F, sight.skyline - skyline_high) + sight.near;
-    picture.skyline += std::max(0.0F, sight.skyline) / in_picture;
+    picture.skyline += sight.skyline / in_picture;
   }
   picture.worth =
       2.0F * relief / in_picture + 2.0F * std::min(edges, edges_enough) - 3.0F * hidden / in_picture;
@@ -167,9 +167,9 @@ float worth_of_place(const HeightGrid& grid, glm::vec3 eye_m, glm::vec2 directio
   return 0.12F * std::max(0.0F, ahead) * apt - 0.01F * away_steps;
 }
 
-/// The horizon is above the middle of the picture, and below its upper edge.
+/// Degrees. The skyline is above the middle of the picture, and below its upper edge.
 float pitch_for(float skyline) {
-  return std::clamp(-10.0F + 30.0F * skyline, -10.0F, 2.0F);
+  return std::clamp(-9.0F + 30.0F * skyline, -25.0F, 2.0F);
 }
 
 }  // namespace
