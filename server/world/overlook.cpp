@@ -41,11 +41,13 @@ struct Sight {
   float skyline = -1.0F;  ///< the horizon's, over the level
   float away_m = 0.0F;    ///< of the ground that makes the skyline
 };
+/// Distances, in metres where the grid's step is endless_step_m: what a larger ground has to show is larger,
+/// and less steep.
 constexpr float close_m = 16.0F;
 constexpr float relief_from_m = 14.0F;
 constexpr float relief_best_m = 26.0F;
 constexpr float relief_to_m = 50.0F;
-constexpr float steep = 0.6F;
+constexpr float steep = 0.6F;  ///< rise in a metre
 constexpr float relief_enough = 0.3F;
 constexpr float edges_enough = 0.5F;
 constexpr float skyline_high = 0.25F;
@@ -65,6 +67,7 @@ class HeightGrid {
   }
 
   float step_m() const { return step_m_; }
+  float scale() const { return step_m_ / endless_step_m; }
   /// Of a point of the grid, or of the nearest.
   float at(int x, int z) const {
     return heights_m_[static_cast<size_t>(index_of(z) * side_steps + index_of(x))];
@@ -99,7 +102,7 @@ float weight_at(float away_m) {
 /// Outwards from the eye, as far as the grid goes.
 Sight sight_along(const HeightGrid& grid, glm::vec3 eye_m, glm::vec2 direction) {
   Sight sight;
-  const float step_m = 0.5F * grid.step_m();
+  const float step_m = 0.5F * grid.step_m(), scale = grid.scale();
   float before_m = eye_m.y - above_ground_m;
   for (float away_m = step_m;; away_m += step_m) {
     const auto ground_m = grid.at_m(glm::vec2(eye_m.x, eye_m.z) + away_m * direction);
@@ -108,9 +111,9 @@ Sight sight_along(const HeightGrid& grid, glm::vec3 eye_m, glm::vec2 direction) 
     if (gain > 0.0F) {
       sight.skyline = rise;
       sight.away_m = away_m;
-      if (away_m < close_m) sight.near = std::max(0.0F, rise);
-      const bool faces = *ground_m - before_m > steep * step_m;
-      if (faces && away_m <= relief_to_m) sight.relief += gain * weight_at(away_m);
+      if (away_m < close_m * scale) sight.near = std::max(0.0F, rise);
+      const bool faces = *ground_m - before_m > steep * step_m / std::max(1.0F, scale);
+      if (faces && away_m <= relief_to_m * scale) sight.relief += gain * weight_at(away_m / scale);
     }
     before_m = *ground_m;
   }
@@ -122,14 +125,14 @@ struct Picture {
 };
 
 /// Of a skyline: how much nearer or farther it is than the one beside it.
-float edge_between(const Sight& a, const Sight& b) {
+float edge_between(const Sight& a, const Sight& b, float scale) {
   const float near_m = std::min(a.away_m, b.away_m), far_m = std::max(a.away_m, b.away_m);
-  return std::abs(a.skyline - b.skyline) * (1.0F - near_m / far_m) * weight_at(near_m);
+  return std::abs(a.skyline - b.skyline) * (1.0F - near_m / far_m) * weight_at(near_m / scale);
 }
 
 /// Relief is worth most, then things that stand out before what is behind them; ground that is in the way, or
 /// that leaves no sky, is worth less than nothing.
-Picture picture_of(const std::array<Sight, directions>& sights, int middle) {
+Picture picture_of(const std::array<Sight, directions>& sights, int middle, float scale) {
   const auto sight_at = [&](int i) -> const Sight& {
     return sights[static_cast<size_t>((i + directions) % directions)];
   };
@@ -138,7 +141,7 @@ Picture picture_of(const std::array<Sight, directions>& sights, int middle) {
   for (int i = middle - half_picture; i <= middle + half_picture; ++i) {
     const Sight& sight = sight_at(i);
     relief += std::min(sight.relief, relief_enough);
-    edges += edge_between(sight, sight_at(i + 1));
+    edges += edge_between(sight, sight_at(i + 1), scale);
     hidden += std::max(0.0F, sight.skyline - skyline_high) + sight.near;
     picture.skyline += sight.skyline / in_picture;
   }
@@ -187,7 +190,7 @@ Spawn overlook_of(const TerrainSource& source) {
       for (int i = 0; i < directions; ++i)
         sights[static_cast<size_t>(i)] = sight_along(grid, *eye_m, direction_of(i));
       for (int i = 0; i < directions; ++i) {
-        const Picture picture = picture_of(sights, i);
+        const Picture picture = picture_of(sights, i, grid.scale());
         const float worth = picture.worth + worth_of_place(grid, *eye_m, direction_of(i));
         if (worth <= most) continue;
         most = worth;
