@@ -18,13 +18,14 @@ constexpr int half_steps = 16;
 constexpr int side_steps = 2 * half_steps + 1;
 constexpr int eye_steps = 10;
 constexpr int steps_between_eyes = 2;
-/// Of a ground without an end, metres; a ground with one has about so many steps from its middle to its end.
+/// The step on a ground without an end, metres. On another ground, `end_steps` lead from its middle to its
+/// end.
 constexpr float endless_step_m = 3.0F;
 constexpr float end_steps = 12.0F;
 constexpr float step_min_m = 1.5F;
 constexpr float step_max_m = 6.0F;
 
-/// Of the eye above what is under it and beside it, metres.
+/// Height of the eye above the ground, and above higher ground beside it, metres.
 constexpr float above_ground_m = 4.5F;
 constexpr float above_near_m = 2.5F;
 
@@ -34,14 +35,14 @@ constexpr int half_picture = 3;
 constexpr float in_picture = 2.0F * half_picture + 1.0F;
 constexpr float degrees_per_direction = 360.0F / directions;
 
-/// Rises of the ground over the ground before it, as seen: of a slope that faces the eye.
+/// The ground in one direction, as the eye sees it. Each number is a tangent.
 struct Sight {
-  float near = 0.0F;      ///< of ground closer than close_m, which is in the way
+  float near = 0.0F;      ///< of ground closer than close_m, which hides the view
   float relief = 0.0F;    ///< of steep ground in the middle distance
   float skyline = -1.0F;  ///< the horizon's, over the level
   float away_m = 0.0F;    ///< of the ground that makes the skyline
 };
-/// Distances, in metres where the grid's step is endless_step_m: what a larger ground has to show is larger,
+/// Distances in metres where the grid's step is endless_step_m. The features of a larger ground are larger,
 /// and less steep.
 constexpr float close_m = 16.0F;
 constexpr float relief_from_m = 14.0F;
@@ -130,8 +131,8 @@ float edge_between(const Sight& a, const Sight& b, float scale) {
   return std::abs(a.skyline - b.skyline) * (1.0F - near_m / far_m) * weight_at(near_m / scale);
 }
 
-/// Relief is worth most, then things that stand out before what is behind them; ground that is in the way, or
-/// that leaves no sky, is worth less than nothing.
+/// Relief is worth most, then things that stand out before their background. Close ground that hides the
+/// view, and ground that hides the sky, are worth less than nothing.
 Picture picture_of(const std::array<Sight, directions>& sights, int middle, float scale) {
   const auto sight_at = [&](int i) -> const Sight& {
     return sights[static_cast<size_t>((i + directions) % directions)];
@@ -150,7 +151,8 @@ Picture picture_of(const std::array<Sight, directions>& sights, int middle, floa
   return picture;
 }
 
-/// So far above the ground that nothing near hides the view; nothing where it would be high over the ground.
+/// An eye so far above the ground that nothing near hides the view. Nothing where that is high over the
+/// ground.
 std::optional<glm::vec3> eye_at(const HeightGrid& grid, int x, int z) {
   const float ground_m = grid.at(x, z);
   float eye_m = ground_m + above_ground_m;
@@ -160,7 +162,7 @@ std::optional<glm::vec3> eye_at(const HeightGrid& grid, int x, int z) {
   return glm::vec3(static_cast<float>(x) * grid.step_m(), eye_m, static_cast<float>(z) * grid.step_m());
 }
 
-/// A little for a picture that has the ground's middle before it, and is not far from it.
+/// Adds a little for a picture near the ground's middle that shows it.
 float worth_of_place(const HeightGrid& grid, glm::vec3 eye_m, glm::vec2 direction) {
   const glm::vec2 to_middle = -glm::vec2(eye_m.x, eye_m.z);
   const float away_steps = glm::length(to_middle) / grid.step_m();

@@ -38,7 +38,7 @@ Spawn lifted(const Field& field, const Spawn& wanted) {
     for (Spawn spawn = wanted; spawn.eye_m.y <= limits::world_half_height_m; spawn.eye_m.y += lift_step_m)
       if (is_free(field, spawn.eye_m)) return spawn;
   } catch (const ChunkUnreadable&) {
-    return wanted;  // whoever needs that chunk hears of it
+    return wanted;  // the next reader of that chunk reports it
   }
   return wanted;
 }
