@@ -52,6 +52,7 @@ void write(wire::Hello& to, const HelloMessage& from) {
   to.set_administers(from.administers);
   to.set_ticket(from.ticket);
   to.set_world(from.world);
+  to.set_at_spawn(from.at_spawn);
 }
 
 HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
@@ -68,6 +69,7 @@ HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
   hello.operations = from.operations() == 0 ? operation_kinds_first : from.operations();
   hello.meets = from.meets();
   hello.administers = from.administers();
+  hello.at_spawn = from.at_spawn();
   hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
   hello.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   hello.world = from.world();
@@ -90,6 +92,10 @@ void write(wire::Welcome& to, const WelcomeMessage& from) {
   to.set_ticket(from.ticket);
   to.set_resumed(from.resumed);
   if (from.heights) write(*to.mutable_heights(), *from.heights);
+  if (!from.spawn) return;
+  write(*to.mutable_spawn(), from.spawn->eye_m);
+  to.set_spawn_yaw_degrees(from.spawn->yaw_degrees);
+  to.set_spawn_pitch_degrees(from.spawn->pitch_degrees);
 }
 
 WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
@@ -114,6 +120,10 @@ WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
   welcome.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   welcome.resumed = from.resumed();
   if (from.has_heights()) welcome.heights = read_heights(from.heights(), check);
+  if (from.has_spawn())
+    welcome.spawn = {check.vec3(from.spawn(), "spawn"),
+                     check.finite(from.spawn_yaw_degrees(), "spawn_yaw_degrees"),
+                     check.finite(from.spawn_pitch_degrees(), "spawn_pitch_degrees")};
   return welcome;
 }
 

@@ -14,6 +14,7 @@
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
 #include "proto/protocol_version.h"
+#include "proto/spawn.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
 #include "shared/base/ids.h"
@@ -46,6 +47,7 @@ struct HelloMessage {
   bool administers = false;      ///< it does nothing else: it sees and changes no terrain, and takes no place
   uint32_t oldest_protocol = 0;  ///< the oldest that it speaks; 0: none but `protocol`
   uint32_t operations = operation_kinds;  ///< it carries out so many kinds, in the order of their numbers
+  bool at_spawn = false;  ///< the server puts the eye at WelcomeMessage::spawn, where there is one
 };
 
 /// A message of a kind that this version does not know, or a request with an unknown value. It is skipped
@@ -187,6 +189,8 @@ struct WelcomeMessage {
   /// If the ground is by heights: then terrain.kind and random_seed mean nothing. Who receives it makes
   /// terrain.heights of it.
   std::optional<HeightGround> heights{};
+  /// Where who has no place of its own begins. Servers of older releases say none.
+  std::optional<Spawn> spawn{};
 };
 
 /// The reason for which the server closes the connection.

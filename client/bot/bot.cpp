@@ -51,14 +51,25 @@ Result<void> Bot::join() {
 }
 
 tl::expected<void, ConnectionEnd> Bot::connect() {
-  TRY(join_and_wait(client_, {protocol_version, "scree-bot", eye_m_, config_.interest_radius_m}));
+  HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
+  hello.at_spawn = config_.at_spawn && !stands_;
+  TRY(join_and_wait(client_, hello));
   report_.welcome = *client_.welcome();
+  if (hello.at_spawn && report_.welcome.spawn) begin_at(*report_.welcome.spawn);
   repairs_asked_ = 0;
   ++report_.connections;
   stand_on_ground();
   log("connected", fmt::format("connected to {} at tick {} as {}", report_.server, report_.welcome.tick,
                                name_of(report_.welcome.role)));
   return {};
+}
+
+/// The ground that a visitor sees in the middle distance.
+void Bot::begin_at(const Spawn& spawn) {
+  CarverConfig carving = config_.carver;
+  carving.centre_m = ahead_of(spawn, limits::bot_ahead_m);
+  carver_ = Carver(carving, config_.random_seed);
+  set_interest(carving.centre_m, config_.interest_radius_m);
 }
 
 /// Once, when the ground is known: as a rule from the welcome on, else when its tiles have come.

@@ -26,6 +26,7 @@ struct BotConfig : ServerEndpoint {
   uint64_t random_seed = 1;
   double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come
   CarverConfig carver;
+  bool at_spawn = false;  ///< carve before the eyes of who begins in the world, not around carver.centre_m
   std::optional<Material> paint;    ///< material with which the rock of each carve is painted first
   float interest_radius_m = 96.0F;  ///< around the carver's centre
   bool linger = false;              ///< stay until no piece is left and the field is at rest
@@ -69,6 +70,7 @@ class Bot {
 
   tl::expected<void, ConnectionEnd> connect();
   Result<void> reconnect(const ConnectionEnd& end);
+  void begin_at(const Spawn& spawn);
   void stand_on_ground();
   void count_connection();
   void receive(const Client::Applied& applied);

@@ -27,7 +27,7 @@ std::vector<std::string> names_of() {
 struct Words {
   std::string shape{name_of(CarverConfig{}.shape)};
   std::string pattern = "radial";
-  std::vector<float> centre_m = {0.0F, 0.0F};
+  std::vector<float> centre_m{};  ///< empty: in the view of the world's spawn
   std::string paint;
 };
 
@@ -81,7 +81,9 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
       ->check(CLI::IsMember(patterns))
       ->capture_default_str();
   constexpr double world_m = limits::world_half_width_m;
-  bounded(app.add_option("--centre", words.centre_m, "x and z around which to carve, metres"),
+  bounded(app.add_option("--centre", words.centre_m,
+                         "x and z around which to carve, metres; default: in the "
+                         "view of the world's spawn"),
           {-world_m, world_m})
       ->expected(2);
   bounded(app.add_option("--area", bot.carver.area_m, "half the side of the square to carve in, metres"),
@@ -117,7 +119,8 @@ void complete(BotOptions& options, const Words& words) {
   carver.shape = *kind_named<ShapeKind>(words.shape);       // one of bot_shapes
   carver.pattern = kind_named<SeedPattern>(words.pattern);  // none: both
   options.bot.paint = kind_named<Material>(words.paint);
-  carver.centre_m = {words.centre_m[0], 0.0F, words.centre_m[1]};
+  options.bot.at_spawn = words.centre_m.empty();
+  if (!options.bot.at_spawn) carver.centre_m = {words.centre_m[0], 0.0F, words.centre_m[1]};
 }
 
 }  // namespace

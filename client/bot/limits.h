@@ -18,6 +18,10 @@ inline constexpr int bot_connect_ms = 5000;
 /// Statuses (one a second) without an equal hash, after everything is done, until the bot gives up on it.
 inline constexpr uint32_t bot_final_statuses_max = 10;
 
+/// Distance before the eye of who begins in a world at which a bot carves, metres, where nobody says a place:
+/// in the middle of that picture.
+inline constexpr float bot_ahead_m = 22.0F;
+
 /// Length of the ray by which a bot finds a surface to carve, metres.
 inline constexpr float bot_sight_m = 96.0F;
 

@@ -1,8 +1,10 @@
 #include "client/cache/rejoin.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "client/cache/limits.h"
+#include "shared/base/limits.h"
 
 namespace scree {
 
@@ -24,6 +26,7 @@ Rejoin::Opening Rejoin::open(const std::string& address, HelloMessage hello) {
   if (enabled() && world_ == 0) load(std::nullopt);
   eye_m_ = hello.eye_m;
   radius_m_ = hello.interest_radius_m;
+  at_spawn_ = hello.at_spawn;
   hello.ticket = ticket_;
   Opening opening{std::move(hello), {}};
   offered_.clear();
@@ -58,6 +61,7 @@ void Rejoin::ask_for_tiles(ServerChannel& connection) {
 
 std::unique_ptr<Mirror> Rejoin::begin(ServerChannel& connection) {
   const WelcomeMessage welcome = with_ground(connection.welcome());
+  if (std::exchange(at_spawn_, false) && welcome.spawn) eye_m_ = welcome.spawn->eye_m;
   ask_for_tiles(connection);
   ticket_ = welcome.ticket;
   to_pack_.clear();
@@ -77,7 +81,9 @@ std::unique_ptr<Mirror> Rejoin::begin(ServerChannel& connection) {
 
 /// Empty when the server knows all of it.
 OfferMessage Rejoin::next_offer(const std::unordered_set<ChunkCoord, CoordHash>& held) {
-  OfferMessage offer = cache_.offer(eye_m_, radius_m_ + limits::offer_margin_m, voxel_size_m_, held);
+  // Whose place is not known yet offers what it has, wherever that is.
+  const float radius_m = at_spawn_ ? 2.0F * limits::world_half_width_m : radius_m_ + limits::offer_margin_m;
+  OfferMessage offer = cache_.offer(eye_m_, radius_m, voxel_size_m_, held);
   offer.world = world_;
   if (std::ranges::includes(offered_, offer.chunks)) return {};
   offered_ = offer.chunks;

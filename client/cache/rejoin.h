@@ -61,6 +61,8 @@ class Rejoin {
   /// Before the program ends: keeps and writes what the mirror holds, if there is a folder. May be null.
   void finish(Mirror* mirror);
 
+  /// The place of the interest.
+  glm::vec3 eye_m() const { return eye_m_; }
   const ChunkCache& cache() const { return cache_; }
   /// Null when the ground has no tiles.
   const ReceivedTiles* tiles() const { return tiles_.get(); }
@@ -84,6 +86,7 @@ class Rejoin {
   std::string ticket_;
   glm::vec3 eye_m_{0.0F};
   float radius_m_ = 0.0F;
+  bool at_spawn_ = false;            ///< the next welcome says where the eye is
   std::vector<ChunkCoord> offered_;  ///< last, as far as the server may still know of it
   bool changed_ = false;             ///< since the last write
   std::vector<ChunkCoord> to_pack_;

@@ -88,6 +88,7 @@ Client::Joined Client::begin(std::unique_ptr<ServerChannel> channel) {
   channel_ = std::move(channel);
   predictions_.reset();
   mirror_ = rejoin_.begin(*channel_);
+  eye_m_ = rejoin_.eye_m();
   predictions_ = std::make_unique<Predictions>(*mirror_);
   playback_.start(channel_->welcome());
   acknowledged_ = 0;

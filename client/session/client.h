@@ -54,8 +54,8 @@ class Client {
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
 
-  /// Begins an attempt; none may be under way. The hello says the place and the radius of interest; ticket
-  /// and offer are added. An open connection ends as by drop().
+  /// Begins an attempt; none may be under way. The hello says the place and the radius of interest, or that
+  /// the place is the welcome's spawn; ticket and offer are added. An open connection ends as by drop().
   void join(const HelloMessage& hello, double now_s);
   /// Ends the connection without a goodbye, and without an event: the server keeps the session for a while,
   /// and the next attempt resumes it.

@@ -13,6 +13,7 @@ Result<void> LiveServer::State::open() {
   config.net.service = config.world.service;                     // those of a recording are not this server's
   const uint32_t work_percent_most = config.world.work_percent;  // a kept world may have less, of a busy hour
   const Digest given = config.world.ground;
+  std::optional<Spawn> spawn;  // of a replay
   const bool keeps = !config.record_path.empty() || !config.world_path.empty();
   CHECK(!keeps || config.world.terrain.heights == nullptr || given != Digest{});
   if (!config.replay.path.empty()) {
@@ -28,6 +29,7 @@ Result<void> LiveServer::State::open() {
     TRY(replay);
     feed = std::move(replay->feed);
     config.world = replay->world;
+    spawn = replay->spawn;
     config.net.replay = true;
     config.net.control = [this](const ControlReplayRequest& wish) { return feed->control(wish); };
   } else if (auto opened = open_world(); !opened) {
@@ -48,6 +50,7 @@ Result<void> LiveServer::State::open() {
   // The port comes first: a server that cannot listen leaves no empty recording behind.
   World* const world = feed->world();
   TickDelta keyframe = world == nullptr ? TickDelta() : world->keyframe();
+  if (world == nullptr) keyframe.spawn = spawn;
   report.settings = keyframe.settings;  // ticks say only what changes
   auto listening = TRY(NetServer::listen(config.net, commands, std::move(keyframe)));
   net = std::move(listening);

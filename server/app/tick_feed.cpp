@@ -53,7 +53,8 @@ Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& 
   const PlayerOptions player{
       options.at_end, options.speed, ticks_per_transform,
       [path = options.path](const std::string& what) { spdlog::warn("{}: {}", path, what); }};
-  return ReplayFeed{std::make_unique<RecordedFeed>(std::move(source), player), world};
+  const Spawn spawn = source->spawn();
+  return ReplayFeed{std::make_unique<RecordedFeed>(std::move(source), player), world, spawn};
 }
 
 }  // namespace scree

@@ -39,6 +39,7 @@ struct ReplayOptions {
 struct ReplayFeed {
   std::unique_ptr<TickFeed> feed;
   WorldConfig world;  ///< of the recording
+  Spawn spawn;        ///< where visitors begin until a tick says otherwise
 };
 /// `ground` gives the recording the ground that it names. `ticks_per_transform`: of the network.
 Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground,

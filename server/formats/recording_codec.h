@@ -5,11 +5,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "proto/messages.h"
+#include "proto/spawn.h"
 #include "server/command/command.h"
 #include "shared/base/digest.h"
 #include "shared/base/result.h"
@@ -28,6 +30,7 @@ struct RecordedHeader {
   uint32_t tick_rate_hz = 60;
   uint32_t merges_per_tick_max = 0;
   SettingValues settings;          ///< to start with
+  std::optional<Spawn> spawn{};    ///< as of WorldConfig: it is not among `settings`
   uint32_t merge_burst_ticks = 0;  ///< of a recording's events: EventDeriver
 };
 

@@ -38,6 +38,7 @@ void write(recorded::Header& to, const RecordedHeader& from) {
   write(*to.mutable_settings(), from.settings);
   if (from.ground != Digest{}) to.set_ground(std::string(from.ground.begin(), from.ground.end()));
   to.set_merge_burst_ticks(from.merge_burst_ticks);
+  if (from.spawn) to.set_spawn(text_of(*from.spawn));
 }
 
 RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
@@ -57,6 +58,9 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
   header.merge_burst_ticks =
       check.within(from.merge_burst_ticks(), 0, limits::merge_burst_ticks_max, "merge_burst_ticks");
   header.settings = check.settings(from.settings());
+  if (!from.spawn().empty())
+    header.spawn = check.value_or_refuse(
+        parse_spawn(check.text(from.spawn(), limits::setting_value_bytes_max, "spawn")));
   if (from.ground().size() == header.ground.size())
     std::ranges::copy(as_span(from.ground()), header.ground.begin());
   else if (!from.ground().empty())

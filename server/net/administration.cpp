@@ -1,10 +1,12 @@
 #include "server/net/administration.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <variant>
 
 #include "server/doors/unix_time.h"
+#include "server/world/settings.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
 
@@ -35,7 +37,7 @@ tl::expected<void, Refused> Administration::administer(ClientSession& session, c
   return {};
 }
 
-void Administration::set(ClientSession& session, uint32_t request, const SettingsRequest& asked) {
+void Administration::set(ClientSession& session, uint32_t request, SettingsRequest asked) {
   // The act of a later release reads as none at all, and must not count as done.
   if (asked.settings.empty()) {
     ++counts_.requests;
@@ -43,11 +45,42 @@ void Administration::set(ClientSession& session, uint32_t request, const Setting
         session, request,
         {Refusal::value_unknown, "an administrator's request that this server does not know"});
   }
+  if (const Result<void> found = find_here(session, asked); !found) {
+    ++counts_.requests;
+    return requests_.refuse(session, request, {Refusal::settings_invalid, found.error().message});
+  }
   std::string changes;
   for (const SettingValue& setting : asked.settings) changes += " " + setting.name + "=" + setting.value;
   if (requests_.pass(session, {session.id(), request, asked}))
     settings_asked_[{session.id(), request}] =
         fmt::format("session {}: {} sets{}", session.id(), session.peer(), changes);
+}
+
+Result<void> Administration::find_here(const ClientSession& session, SettingsRequest& asked) const {
+  for (SettingValue& setting : asked.settings) {
+    if (setting.name != spawn_setting || !setting.value.starts_with(spawn_here)) continue;
+    const std::string number = setting.value.substr(std::min(setting.value.size(), spawn_here.size() + 1));
+    const PlayerCursor& person = *TRY(person_at(session, number));
+    setting.value = text_of(spawn_looking_at(person.eye_m, person.aim_m));
+  }
+  return {};
+}
+
+Result<const PlayerCursor*> Administration::person_at(const ClientSession& session,
+                                                      const std::string& number) const {
+  const auto& cursors = cursors_();
+  std::vector<const PlayerCursor*> here;
+  for (const auto& [id, cursor] : cursors) {
+    const SessionEntry* const entry = sessions_.find(id);
+    const bool meant = number.empty() ? entry != nullptr && entry->session->ip() == session.ip()
+                                      : number == std::to_string(id);
+    if (meant) here.push_back(&cursor);
+  }
+  if (here.size() == 1) return here.front();
+  const std::string way_out = ": say whose eye it is (spawn here SESSION; scree admin sessions lists them)";
+  if (!number.empty()) return fail("session " + number + " has no eye, or is not there" + way_out);
+  return fail(here.empty() ? "nobody is here from this address" + way_out
+                           : std::to_string(here.size()) + " persons are here from this address" + way_out);
 }
 
 void Administration::log_settings(const TickDelta& delta) {

@@ -20,17 +20,19 @@ namespace scree {
 class Administration {
  public:
   using Control = std::function<Result<void>(const ControlReplayRequest&)>;
+  using Cursors = std::function<const std::map<uint64_t, PlayerCursor>&()>;
 
-  /// All arguments but `control`, which is as of NetConfig, must outlive this object. `counts`: requests are
-  /// counted there.
+  /// All arguments but `control`, which is as of NetConfig, and `cursors`, which gives those of the persons
+  /// who are there, must outlive this object. `counts`: requests are counted there.
   Administration(SessionTable& sessions, Requests& requests, Authorizer& authorizer, Tickets& tickets,
-                 NetStats& counts, Control control)
+                 NetStats& counts, Control control, Cursors cursors)
       : sessions_(sessions),
         requests_(requests),
         authorizer_(authorizer),
         tickets_(tickets),
         counts_(counts),
-        control_(std::move(control)) {}
+        control_(std::move(control)),
+        cursors_(std::move(cursors)) {}
 
   /// Handles a request. The error is a wrong admin token's, and ends the session.
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
@@ -38,7 +40,11 @@ class Administration {
   void log_settings(const TickDelta& delta);
 
  private:
-  void set(ClientSession& session, uint32_t request, const SettingsRequest& asked);
+  void set(ClientSession& session, uint32_t request, SettingsRequest asked);
+  /// A spawn that is "here", or "here SESSION", as the place of that person's eye.
+  Result<void> find_here(const ClientSession& session, SettingsRequest& asked) const;
+  /// The person of that number; of none: the only one at the address of the session.
+  Result<const PlayerCursor*> person_at(const ClientSession& session, const std::string& number) const;
   void act(ClientSession& session, const AdminMessage& message);
   std::vector<BanRow> ban_rows() const;
   Result<void> kick(const KickRequest& kick);
@@ -53,6 +59,7 @@ class Administration {
   Tickets& tickets_;
   NetStats& counts_;
   const Control control_;
+  const Cursors cursors_;
   /// Lines for the log, by session and request, of settings that the world has not answered yet.
   std::map<std::pair<uint64_t, uint32_t>, std::string> settings_asked_;
 };

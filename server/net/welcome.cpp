@@ -20,6 +20,11 @@ tl::expected<void, Refused> find_protocol(const HelloMessage& hello) {
                             protocol_version, spoken));
 }
 
+HelloMessage placed(HelloMessage hello, const std::optional<Spawn>& spawn) {
+  if (hello.at_spawn && spawn) hello.eye_m = spawn->eye_m;
+  return hello;
+}
+
 Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
   if (!std::isfinite(eye_m.x) || !std::isfinite(eye_m.y) || !std::isfinite(eye_m.z))
     return fail("the eye's position is not a number");
@@ -28,13 +33,14 @@ Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
   return std::min(radius_m, limits::interest_radius_max_m);
 }
 
-WelcomeMessage welcome_of(const NetConfig& config, uint64_t world) {
+WelcomeMessage welcome_of(const NetConfig& config, uint64_t world, const std::optional<Spawn>& spawn) {
   WelcomeMessage welcome;
   welcome.tick_rate_hz = config.tick_rate_hz;
   welcome.ticks_per_transform = config.ticks_per_transform;
   welcome.terrain = config.terrain;
   welcome.replay = config.replay;
   welcome.world = world;
+  welcome.spawn = spawn;
   if (const auto& ground = config.terrain.heights) {
     welcome.heights = HeightGround{ground->layout(), sha256(ground->packed(ground->layout().top())), {}};
     if (const auto& bricks = ground->bricks())

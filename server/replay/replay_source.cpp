@@ -103,6 +103,7 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::next(Tick count) {
     append(*joint, *more);
     work_us += state_->work_us;
   }
+  state_->tell_spawn(*joint);
   return joint;
 }
 
@@ -117,7 +118,12 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   for (const auto& [id, volume] : state_->pieces)
     if (!pieces.contains(id)) delta->spawned.push_back({id, volume});
   if (state_->settings != settings) delta->settings = state_->settings;
+  state_->tell_spawn(*delta);
   return delta;
+}
+
+Spawn ReplaySource::spawn() {
+  return state_->spawn();
 }
 
 std::shared_ptr<const TickDelta> ReplaySource::same() const {

@@ -44,6 +44,8 @@ class ReplaySource {
   /// this one's state to that one's: the bricks that differ (TickDelta::reverted, too), pieces, no
   /// operations.
   Result<std::shared_ptr<const TickDelta>> jump(Tick to);
+  /// Where visitors begin at this moment. Ticks tell when it moves only once somebody has asked.
+  Spawn spawn();
   /// A tick in which nothing changes.
   std::shared_ptr<const TickDelta> same() const;
   /// The cursors of those who were there at this moment.

@@ -188,7 +188,13 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
   std::ranges::sort(delta->bricks, {}, &BrickState::coord);
   for (const auto& [id, volume] : pieces) delta->spawned.push_back({id, volume});
   delta->settings = settings;
+  delta->spawn = spawn();
   return delta;
+}
+
+void ReplaySource::State::tell_spawn(TickDelta& delta) {
+  if (!delta.settings.empty()) chosen_spawn_ = chosen_spawn(settings);
+  spawn_place_.follow(field, chosen_spawn_, delta);
 }
 
 Result<bool> ReplaySource::State::begins_something(Tick at) {

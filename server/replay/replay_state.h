@@ -12,6 +12,7 @@
 #include "server/replay/event_marks.h"
 #include "server/replay/recorded_cursors.h"
 #include "server/replay/replay_source.h"
+#include "server/world/spawn_place.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
@@ -59,6 +60,13 @@ struct ReplaySource::State {
   RecordedCursors cursors;
   EventMarks marks;
 
+  /// Where visitors begin as it stands now; tell_spawn() notes in a later delta when it is another place.
+  Spawn spawn() {
+    chosen_spawn_ = chosen_spawn(settings);
+    return spawn_place_.find(field, chosen_spawn_);
+  }
+  void tell_spawn(TickDelta& delta);
+
  private:
   Result<void> restore(KeyframeParts parts, BricksBefore& before);
   Result<void> apply_operation(const Operation& operation, TickDelta& delta, std::set<BrickCoord>& changed,
@@ -66,6 +74,9 @@ struct ReplaySource::State {
   Result<void> place_pieces(const RecordedFrame& frame, TickDelta& delta);
   Result<void> check_hash(uint64_t recorded) const;
   tl::unexpected<Error> damaged(const std::string& what) const;
+
+  SpawnPlace spawn_place_;
+  std::optional<Spawn> chosen_spawn_;  ///< by the settings
 };
 
 }  // namespace scree

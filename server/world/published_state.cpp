@@ -104,6 +104,7 @@ void PublishedState::apply(const TickDelta& delta) {
     pieces_merged_ += pieces_merged_by(applied.operation);
   ledger_ = delta.ledger;
   if (!delta.settings.empty()) settings_ = delta.settings;
+  if (delta.spawn) spawn_ = delta.spawn;
   field_hash_ = delta.field_hash;
   state_hash_ = delta.state_hash;
   CHECK_DEBUG(field_hash_ == sum_of_chunks());
@@ -157,6 +158,7 @@ TickDelta PublishedState::without_bricks() const {
   }
   delta.ledger = ledger_;
   delta.settings = settings_;
+  delta.spawn = spawn_;
   delta.field_hash = field_hash_;
   delta.state_hash = state_hash_;
   return delta;

@@ -79,6 +79,8 @@ class PublishedState {
   const std::map<PieceId, PublishedPiece>& pieces() const { return pieces_; }
   const Ledger& ledger() const { return ledger_; }
   const SettingValues& settings() const { return settings_; }
+  /// Where visitors begin; nothing where no delta said it.
+  const std::optional<Spawn>& spawn() const { return spawn_; }
   uint64_t field_hash() const { return field_hash_; }
   uint64_t state_hash() const { return state_hash_; }
   uint64_t pieces_made() const { return pieces_made_; }
@@ -104,6 +106,7 @@ class PublishedState {
   std::map<PieceId, PublishedPiece> pieces_;
   Ledger ledger_;
   SettingValues settings_;
+  std::optional<Spawn> spawn_;
   uint64_t field_hash_ = 0;
   uint64_t state_hash_ = 0;
   uint64_t pieces_made_ = 0;

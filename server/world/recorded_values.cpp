@@ -11,6 +11,9 @@ RecordedHeader to_recorded(const WorldConfig& config) {
   out.tick_rate_hz = config.tick_rate_hz;
   out.merges_per_tick_max = config.merges_per_tick_max;
   out.settings = print(config);
+  // Older programs refuse a header with a setting that they do not know.
+  std::erase_if(out.settings, [](const SettingValue& value) { return value.name == spawn_setting; });
+  out.spawn = config.spawn;
   return out;
 }
 
@@ -21,6 +24,7 @@ Result<WorldConfig> config_of(const RecordedHeader& header) {
   config.tick_rate_hz = header.tick_rate_hz;
   config.merges_per_tick_max = header.merges_per_tick_max;
   TRY(set_all(config, header.settings));
+  config.spawn = header.spawn;
   TRY(validate(config));
   return config;
 }

@@ -69,6 +69,23 @@ constexpr Setting number(std::string_view name, std::string_view help, NumberBou
   return {name, help, {}, bounds, tried, get_member<Member>, put_member<Member>};
 }
 
+constexpr Setting text(std::string_view name, std::string_view help, const TextForm& form) {
+  return {name, help, {}, {}, {}, nullptr, nullptr, form};
+}
+
+constexpr std::string_view auto_spawn = "auto";
+
+Result<void> parse_spawn_choice(WorldConfig& config, std::string_view value) {
+  if (value == auto_spawn)
+    config.spawn.reset();
+  else
+    config.spawn = TRY(parse_spawn(value));
+  return {};
+}
+std::string print_spawn_choice(const WorldConfig& config) {
+  return config.spawn ? text_of(*config.spawn) : std::string(auto_spawn);
+}
+
 constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
 constexpr std::array<std::string_view, 1> little_work{"20"};
 
@@ -98,13 +115,15 @@ constexpr std::array table{
     number<&ServiceLimits::requests_per_second>(
         "requests-per-second", "carves, fills and paints of one client; more are refused",
         {limits::requests_per_second_min, limits::requests_per_second_max, "requests a second", false}),
+    text(spawn_setting, "where visitors begin, and which way they look; auto: where the ground suggests",
+         {"auto or X,Y,Z or X,Y,Z,YAW,PITCH, metres and degrees", parse_spawn_choice, print_spawn_choice}),
 };
 
 /// Each member is bound by name: a new member that is not in the table does not compile. The terrain, the
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
   const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent, methods,
-               service, ground] = world;
+               service, spawn, ground] = world;
   static_cast<void>(ground);  // names the terrain's
   const auto& [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       methods;
@@ -118,7 +137,9 @@ constexpr std::array table{
       static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),
       static_cast<int>(group_merges), static_cast<int>(cutter),  static_cast<int>(simplifier)};
   const std::array granted{static_cast<double>(sessions_max), requests_per_second};
-  return std::integral_constant<size_t, config.size() - fixed + choices.size() + granted.size()>{};
+  const std::array texts{&spawn};
+  return std::integral_constant<size_t,
+                                config.size() - fixed + choices.size() + granted.size() + texts.size()>{};
 }
 static_assert(decltype(members(std::declval<const WorldConfig&>()))::value == table.size());
 
@@ -140,6 +161,7 @@ Result<double> parse_number(std::string_view value, const NumberBounds& bounds) 
 }  // namespace
 
 std::string Setting::may_be() const {
+  if (is_text()) return std::string(text.may_be);
   if (choices.empty())
     return text_of(bounds.min) + " to " + text_of(bounds.max) + " " + std::string(bounds.unit) +
            (bounds.whole ? ", whole" : "");
@@ -147,6 +169,11 @@ std::string Setting::may_be() const {
 }
 
 Result<void> Setting::parse(std::string_view value, WorldConfig& config) const {
+  if (is_text()) {
+    if (const Result<void> done = text.parse(config, value); !done)
+      return fail("is " + may_be() + "; " + done.error().message);
+    return {};
+  }
   if (choices.empty()) {
     const Result<double> number = parse_number(value, bounds);
     if (!number) return fail("is " + may_be());
@@ -160,6 +187,7 @@ Result<void> Setting::parse(std::string_view value, WorldConfig& config) const {
 }
 
 std::string Setting::print(const WorldConfig& config) const {
+  if (is_text()) return text.print(config);
   const double value = get(config);
   return choices.empty() ? text_of(value) : std::string(choices[static_cast<size_t>(value)]);
 }

@@ -23,18 +23,33 @@ struct NumberBounds {
   bool whole = true;  ///< no fractions
 };
 
-/// A choice of several values by name, or a number within bounds.
+/// A value that is neither a choice nor a number.
+struct TextForm {
+  std::string_view may_be{};  ///< the possible values, in words; empty: it is no text
+  Result<void> (*parse)(WorldConfig& config, std::string_view text) = nullptr;
+  std::string (*print)(const WorldConfig& config) = nullptr;
+};
+
+/// The name of WorldConfig::spawn, of which readers of settings alone make use.
+inline constexpr std::string_view spawn_setting = "spawn";
+/// As its value in an administrator's request: the place of a person's eye, which the network side writes in
+/// its place. With a space and a session's number: of that one.
+inline constexpr std::string_view spawn_here = "here";
+
+/// A choice of several values by name, a number within bounds, or a text.
 struct Setting {
   std::string_view name;                      ///< the flag's name without dashes; the same everywhere
   std::string_view help;                      ///< the effect, for --help
-  std::span<const std::string_view> choices;  ///< all values of a choice; empty for a number
+  std::span<const std::string_view> choices;  ///< all values of a choice; else empty
   NumberBounds bounds;                        ///< of a number
   /// Values that the tests of determinism try: all of a choice; of a number a few that have an effect in a
   /// short session, none where the simulation does not read it.
   std::span<const std::string_view> tried;
   double (*get)(const WorldConfig& config);  ///< the number, or the index in `choices`
   void (*put)(WorldConfig& config, double value);
+  TextForm text{};  ///< of a text; then `bounds`, `get` and `put` mean nothing
 
+  bool is_text() const { return text.parse != nullptr; }
   /// The possible values in words: "field, mesh or rays"; "1 to 20000 pieces, whole".
   std::string may_be() const;
   /// Sets the value. The error lists the possible values; the config is then unchanged.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "proto/messages.h"
+#include "proto/spawn.h"
 #include "server/command/command.h"
 #include "server/work/tick_work.h"
 #include "server/world/service_limits.h"
@@ -60,7 +61,8 @@ struct TickDelta {
   std::vector<SpawnedPiece> spawned;  ///< pieces made in this tick, ordered; some may be gone again
   std::vector<PieceState> pieces;     ///< every piece alive after the tick, ordered by id
   std::vector<Reply> replies;
-  SettingValues settings;  ///< how every setting stands, when one changed (at first: all did); else empty
+  SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
+  std::optional<Spawn> spawn;  ///< where visitors begin, when that is another place than before (SpawnPlace)
   std::optional<ServiceLimits> service;       ///< those of them that are the network's; never in a recording
   std::optional<PlaybackMessage> playback;    ///< where a replay stands; of a replay alone, as the next two
   std::shared_ptr<const MarksMessage> marks;  ///< the recording's events; null: none are known

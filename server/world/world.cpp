@@ -139,6 +139,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   enqueue_commands(s, commands, *delta);
   for (const TickStageRow& row : tick_stages) run_stage(row.stage, s, *delta);
   s.stopwatch.switch_to(TickStage::requests, delta->times);
+  s.spawn_place.follow(s.field, s.config.spawn, *delta);
   return delta;
 }
 

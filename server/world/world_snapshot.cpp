@@ -365,6 +365,7 @@ TickDelta World::outline() {
   for (const BodyState& body : s.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
   delta.ledger = s.ledger;
   publish_settings(s, delta);
+  delta.spawn = s.spawn_place.find(s.field, s.config.spawn);
   delta.field_hash = s.field.hash();
   delta.state_hash = s.hash();
   return delta;

@@ -20,6 +20,7 @@
 #include "server/work/request_queue.h"
 #include "server/work/work.h"
 #include "server/world/island_stage.h"
+#include "server/world/spawn_place.h"
 #include "server/world/stages.h"
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
@@ -73,6 +74,7 @@ struct World::State {
   Tick requested = 0;            ///< tick in which a request that costs time was carried out last
   PieceShares shares;            ///< of the clients in `pieces`, by PieceTraits::owner
   std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
+  SpawnPlace spawn_place;        ///< where visitors begin
   bool wants_physics = false;    ///< a client wants to see the bodies
   StageStopwatch stopwatch;      ///< of the tick's stages
   ThreadCheck thread;            ///< that of step()

@@ -327,7 +327,7 @@ std::optional<GroundExtent> extent_of(const TerrainSource& source) {
   return extent;
 }
 
-std::optional<glm::vec3> spawn_of(const TerrainSource& source) {
+std::optional<glm::vec3> place_above(const TerrainSource& source) {
   constexpr float above_m = 20.0F;
   if (!extent_of(source)) return std::nullopt;
   return glm::vec3(0.0F, top_m(source) + above_m, 0.0F);

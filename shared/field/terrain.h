@@ -77,9 +77,8 @@ struct GroundExtent {
 };
 std::optional<GroundExtent> extent_of(const TerrainSource& source);
 
-/// Where to begin to look at it from, metres: above the middle of what the ground covers; nothing when it has
-/// no end.
-std::optional<glm::vec3> spawn_of(const TerrainSource& source);
+/// A place above the middle of all that the ground covers, metres; nothing when it has no end.
+std::optional<glm::vec3> place_above(const TerrainSource& source);
 
 /// Negative inside the undisturbed ground, without what stands on it (the canyon's arch). In metres, but not
 /// a distance.

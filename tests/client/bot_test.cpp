@@ -94,6 +94,29 @@ TEST_F(BotTest, authored_and_clustered_seeds_leave_both_sides_the_same_terrain) 
   }
 }
 
+TEST_F(BotTest, without_a_place_it_carves_before_the_eyes_of_who_begins_in_the_world) {
+  LiveConfig live;
+  live.world.terrain = flat_terrain;
+  live.world.spawn = Spawn{{200.0F, 6.0F, 50.0F}, 90.0F, -10.0F};  // it looks along −x
+  live.pacing = Pacing::by_hand;
+  auto started = LiveServer::start(live);
+  ASSERT_TRUE(started) << started.error().message;
+  server_ = std::move(*started);
+  BotConfig carving = config(2);
+  carving.at_spawn = true;
+  Bot bot(carving);
+  ASSERT_TRUE(bot.join());
+  ASSERT_TRUE(finish(bot)) << bot.report().failure;
+  ASSERT_EQ(bot.report().carves_accepted, 2U);
+  const float chunk_m = static_cast<float>(chunk_size) * flat_terrain.voxel_size_m;
+  const auto chunks = bot.mirror()->field().edited_chunks();
+  ASSERT_FALSE(chunks.empty());
+  for (const ChunkCoord chunk : chunks) {
+    EXPECT_NEAR(static_cast<float>(chunk.x) * chunk_m, 200.0F - limits::bot_ahead_m, 20.0F);
+    EXPECT_NEAR(static_cast<float>(chunk.z) * chunk_m, 50.0F, 20.0F);
+  }
+}
+
 TEST_F(BotTest, no_carves_is_a_check_that_the_server_answers) {
   Bot bot(config(0));
   ASSERT_TRUE(bot.join());

@@ -149,6 +149,24 @@ TEST_F(ClientTest, each_event_is_told_when_the_mirror_is_as_of_it) {
   EXPECT_EQ(std::get<ReplyMessage>(reply).request, 4U);
 }
 
+TEST_F(ClientTest, who_has_no_place_is_where_the_welcome_says_and_who_has_one_stays) {
+  server_.welcome.spawn = Spawn{{40.0F, 5.0F, -6.0F}, 0.0F, 0.0F};
+  start();
+  join();
+  EXPECT_FALSE(server_.hellos.at(0).at_spawn);
+  EXPECT_EQ(client_->eye_m(), glm::vec3(1.0F, 2.0F, 3.0F));
+  HelloMessage hello{protocol_version, "test", {1.0F, 2.0F, 3.0F}, 32.0F};
+  hello.at_spawn = true;
+  client_->join(hello, 0.0);
+  static_cast<void>(events_at(0.0));
+  EXPECT_TRUE(server_.hellos.at(1).at_spawn);
+  EXPECT_EQ(client_->eye_m(), glm::vec3(40.0F, 5.0F, -6.0F));
+  server_.welcome.spawn.reset();
+  client_->join(hello, 0.0);
+  static_cast<void>(events_at(0.0));
+  EXPECT_EQ(client_->eye_m(), glm::vec3(1.0F, 2.0F, 3.0F)) << "an older server says none";
+}
+
 TEST_F(ClientTest, messages_that_came_with_the_welcome_are_told_after_it_in_the_same_poll) {
   start();
   server_.coming.push_back(empty_frame(1));

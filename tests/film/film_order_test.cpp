@@ -34,6 +34,24 @@ class FilmOrders : public RecordingTest {
   }
 };
 
+TEST_F(FilmOrders, the_spawn_is_a_place_to_see_a_film_from) {
+  const FilmPlan planned = plan({.camera = AtSpawn{}});
+  ASSERT_TRUE(std::holds_alternative<Camera>(planned.shot));
+  EXPECT_FALSE(planned.event.has_value());
+  EXPECT_GT(std::get<Camera>(planned.shot).eye_m.y, 2.0F) << "over the flat ground";
+}
+
+class QuietFilm : public RecordingTest {};
+
+TEST_F(QuietFilm, where_nothing_happened_is_seen_from_the_spawn) {
+  simulate(5);
+  record();
+  const auto planned = plan_film({}, path, {});
+  ASSERT_TRUE(planned) << planned.error().message;
+  EXPECT_FALSE(planned->event.has_value());
+  EXPECT_TRUE(std::holds_alternative<Camera>(planned->shot));
+}
+
 TEST_F(FilmOrders, an_event_is_a_number_or_a_kind) {
   EXPECT_EQ(event_tick("1"), 10U);
   EXPECT_EQ(event_tick("fill"), 10U) << "the first of several alike";

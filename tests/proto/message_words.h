@@ -259,6 +259,7 @@ inline Lines describe(const WelcomeMessage& m) {
                   m.terrain.voxel_size_m),
       fmt::format("world 0x{:016x}, ticket {}, resumed: {}", m.world, words_of_bytes(m.ticket), m.resumed)};
   if (m.heights) append(lines, words(*m.heights));
+  if (m.spawn) lines.push_back("spawn: " + text_of(*m.spawn));
   return lines;
 }
 inline Lines describe(const RefusalMessage& m) {

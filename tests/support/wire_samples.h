@@ -135,6 +135,7 @@ inline std::vector<ServerMessage> server_messages() {
   chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), Material::rock}, {{-1, 11, 3}, noisy_brick(4)}};
   chunk.hash = 0xFEDCBA9876543210ULL;
   WelcomeMessage on_heights = welcome;
+  on_heights.spawn = Spawn{{-3.5F, 40.25F, 17.0F}, -120.5F, 12.0F};
   on_heights.heights = HeightGround{{87, 61, 10.0F, -512, 25600, {5.0F, 90.0F}},
                                     {1, 2, 255},
                                     BrickGround{{0.25F, {-5, -2, -7}, {6, 3, 1}}, {9, 8, 255}}};

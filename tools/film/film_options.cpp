@@ -34,6 +34,15 @@ Result<void> check_quality(const std::string& name) {
   return fail("there is no '" + name + "'; there are " + listed(kind_names<Quality>));
 }
 
+/// In place of a place.
+constexpr const char* at_spawn = "spawn";
+
+Result<void> check_place(const std::string& text) {
+  if (text == at_spawn) return {};
+  TRY(parse_camera(text));
+  return {};
+}
+
 /// Nothing where the option was not given.
 template <typename Value, typename Parse>
 std::optional<Value> if_given(const std::string& text, Parse parse) {
@@ -101,12 +110,15 @@ void FilmOptionParser::declare_moments(CLI::App& app) {
 }
 
 void FilmOptionParser::declare_camera(CLI::App& app) {
-  CLI::Option_group* const places = app.add_option_group(
-      "camera", "the camera, at most one of these; default: an orbit around the largest event");
+  CLI::Option_group* const places =
+      app.add_option_group("camera",
+                           "the camera, at most one of these; default: an orbit around the largest event, or "
+                           "spawn without events");
   places
       ->add_option("--camera", camera_,
-                   "a fixed camera: x,y,z,yaw,pitch in metres and degrees, as in the viewer")
-      ->check(understood_by(parse_camera), "PLACE");
+                   "a fixed camera: x,y,z,yaw,pitch in metres and degrees, as in the viewer; "
+                   "spawn: the place where the world's visitors begin")
+      ->check(understood_by(check_place), "PLACE");
   places->add_option("--path", path_,
                      "FILE with key frames of the camera, as in the viewer (key K records one)");
   places->add_option(
@@ -150,7 +162,10 @@ void FilmOptionParser::declare_pictures(CLI::App& app) {
 
 Result<void> FilmOptionParser::understand_camera() {
   options_.order.camera = if_given<WhichEvent>(orbit_, parse_event).value_or(WhichEvent());
-  if (const auto camera = if_given<Camera>(camera_, parse_camera)) options_.order.camera = *camera;
+  if (camera_ == at_spawn)
+    options_.order.camera = AtSpawn{};
+  else if (const auto camera = if_given<Camera>(camera_, parse_camera))
+    options_.order.camera = *camera;
   if (!eye_.empty()) options_.order.camera = PersonsEye{eye_};
   if (path_.empty()) return {};
   auto path = TRY(CameraPath::read(path_));

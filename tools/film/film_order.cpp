@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "client/viewer/base/camera_text.h"
 #include "server/replay/export_lines.h"
 #include "server/replay/recorded_field.h"
 #include "shared/base/overloaded.h"
@@ -46,21 +47,18 @@ class EventSearch {
       found_ = event;
   }
 
-  Result<Event> found() const {
-    if (found_ && found_->place_m) return *found_;
+  /// Nothing: any would do, and none has a place.
+  Result<std::optional<Event>> found() const {
+    if (found_ && found_->place_m) return found_;
     const std::string way_out = "; choose a --camera or a --path; `scree replay events` lists the events";
     if (found_)
       return fail(
           fmt::format("event {} is a {}, which has no place{}", number(), name_of(found_->kind), way_out));
-    return fail(std::visit(
-        Overloaded{[&](std::monostate) { return "it has no events" + way_out; },
-                   [&](size_t wanted) {
-                     return fmt::format("it has {} events and no event {}{}", number_, wanted, way_out);
-                   },
-                   [&](EventKind kind) {
-                     return fmt::format("it has no {} with a place{}", name_of(kind), way_out);
-                   }},
-        which_));
+    if (const auto* wanted = std::get_if<size_t>(&which_))
+      return fail(fmt::format("it has {} events and no event {}{}", number_, *wanted, way_out));
+    if (const auto* kind = std::get_if<EventKind>(&which_))
+      return fail(fmt::format("it has no {} with a place{}", name_of(*kind), way_out));
+    return std::nullopt;
   }
 
  private:
@@ -71,7 +69,8 @@ class EventSearch {
   std::optional<Event> found_;
 };
 
-Result<Event> find_event(const WhichEvent& which, RecordingReader& recording, const GroundGiver& ground) {
+Result<std::optional<Event>> find_event(const WhichEvent& which, RecordingReader& recording,
+                                        const GroundGiver& ground) {
   EventSearch search(which);
   const auto read =
       each_event(recording, ground, [&](const Event& event, std::optional<float>) { search.add(event); });
@@ -133,11 +132,20 @@ Result<Shot> eye_shot(const PersonsEye& eye, const FilmOrder& order, const FilmS
   return shot;
 }
 
+/// As it stands at the film's first moment.
+Result<Shot> spawn_shot(const FilmSpan& span, const RecordingReader& recording, const GroundGiver& ground) {
+  const auto source = TRY(ReplaySource::open(recording.path(), static_cast<Tick>(span.from_tick), ground));
+  auto camera = camera_of(source->spawn());
+  if (!camera) return fail(recording.path() + ": " + camera.error().message);
+  return Shot(*camera);
+}
+
 Result<Shot> shot_of(const FilmOrder& order, const std::optional<Event>& event, const FilmSpan& span,
                      RecordingReader& recording, const GroundGiver& ground) {
   if (const auto* camera = std::get_if<Camera>(&order.camera)) return *camera;
   if (const auto* path = std::get_if<CameraPath>(&order.camera)) return *path;
   if (const auto* eye = std::get_if<PersonsEye>(&order.camera)) return eye_shot(*eye, order, span, recording);
+  if (!event) return spawn_shot(span, recording, ground);
   const auto field = TRY(field_at(recording.path(), static_cast<Tick>(span.from_tick), ground));
   return Orbit::around(*event, *field, static_cast<double>(span.frames) / order.frames_per_s);
 }
@@ -157,7 +165,7 @@ Result<FilmPlan> plan_film(const FilmOrder& order, const std::string& path, cons
   FilmPlan plan;
   if (const auto* which = std::get_if<WhichEvent>(&order.camera)) {
     const auto event = TRY(find_event(*which, *recording, ground));
-    plan.event = event;
+    plan.event = event;  // of what happened, if anything did
   }
   const auto span = TRY(span_of(order, plan.event, *recording));
   plan.span = span;

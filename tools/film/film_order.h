@@ -23,13 +23,16 @@ struct PersonsEye {
   std::string person;
 };
 
+/// From where visitors of the world begin.
+struct AtSpawn {};
+
 struct FilmOrder {
   std::optional<TickOrTime> from{};
   std::optional<TickOrTime> to{};
   double frames_per_s = 30.0;
   double speed = 1.0;  ///< seconds of the recording in one of the film
-  /// From where; WhichEvent: an orbit round it.
-  std::variant<WhichEvent, Camera, CameraPath, PersonsEye> camera{};
+  /// From where; WhichEvent: an orbit round it, or, where nothing happened and none is asked for, AtSpawn.
+  std::variant<WhichEvent, Camera, CameraPath, PersonsEye, AtSpawn> camera{};
 };
 
 /// The ticks of a film's frames.

@@ -31,7 +31,9 @@ Result<void> build_scene(World& world, const SceneSetup& setup) {
 }
 
 Result<std::unique_ptr<World>> scene_world(const SceneSetup& setup, size_t threads) {
-  auto world = World::create(setup.config, threads);
+  WorldConfig config = setup.config;
+  config.spawn = spawn_looking_at(setup.eye_m, setup.target_m);
+  auto world = World::create(config, threads);
   if (!world) return world;
   TRY(build_scene(**world, setup));
   return world;

@@ -21,8 +21,8 @@ using BuildStep = std::variant<FillRequest, PaintRequest>;
 struct SceneSetup {
   WorldConfig config{};                 ///< with its ground
   std::vector<BuildStep> build{};       ///< in order
-  glm::vec3 eye_m{0.0F};                ///< where to stand
-  glm::vec3 target_m{0.0F};             ///< where to look
+  glm::vec3 eye_m{0.0F};                ///< where to stand: the world's spawn
+  glm::vec3 target_m{0.0F};             ///< where to look from there
   std::vector<CarveRequest> strikes{};  ///< blows that show what the scene is for, in order
 };
 

@@ -9,8 +9,8 @@ root=$(dirname "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")")
 readonly root bin=${SCREE_PROGRAMS:-$root/build/release/bin}
 # Seconds. A software renderer on two busy cores is slow; nothing here should come near these.
 readonly start_s_max=60 session_s_max=600
-# Where the bot carves, metres: between the cliff and the arch, all of it before the camera. A scene has places of its own.
-area_m=10 stage_m=(9 4) camera=30,9,19,63,-7 world=(--terrain canyon)
+# Where the bot carves, metres: between the cliff and the arch, all of it before the spawn. A scene has places of its own.
+area_m=10 stage_m=(9 4) world=(--terrain canyon --spawn 30,9,19,63,-7)
 # Pieces in flight that make the second picture: about two carves' worth, which three carves a second reach. In a scene
 # rock may be thin.
 blast_pieces=100
@@ -95,12 +95,11 @@ wait_for_exit() {
   wait "$2" || die "$3 failed" "$4"
 }
 
-# make_scene: the scene's world, its camera, and where its strikes lie.
+# make_scene: the scene's world, which has a spawn, and where its strikes lie.
 make_scene() {
   local file="$out/scene.world"
   "$bin/scree-scene" make "$scene" "$file" >"$out/scene.json" || die "there is no world of the scene '$scene'"
   world=(--world "$file") blast_pieces=20 area_m=3
-  camera=$(jq -r .camera "$out/scene.json")
   mapfile -t stage_m < <(jq -r '.centre[]' "$out/scene.json")
 }
 
@@ -127,7 +126,7 @@ start_bot() {
 
 play_in_window() {
   say "close the window to end the demo"
-  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --camera "$camera" --size "$size" \
+  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --size "$size" \
     >"$out/viewer.log" 2>&1 &
   viewer_pid=$!
   start_bot 86400 # the player may go on for as long as they like
@@ -138,7 +137,7 @@ play_in_window() {
 
 draw_pictures() {
   say "no display: drawing before.png, blast.png and settled.png offscreen"
-  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --camera "$camera" --offscreen --size "$size" \
+  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --offscreen --size "$size" \
     --timeout "$session_s_max" \
     --screenshot "$out/before.png@joined" --screenshot "$out/blast.png@pieces>=$blast_pieces" \
     --screenshot "$out/settled.png@settled" >"$out/viewer.log" 2>&1 &
@@ -159,7 +158,7 @@ draw_page() {
   [[ -z ${SCREE_PROGRAMS:-} ]] || return 0 # tests of the page draw it
   [[ -e $root/build/web/dist/index.html && -e $root/build/page/node_modules/.installed ]] && command -v chromium >/dev/null || return 0
   say "drawing browser.png in Chromium"
-  "$root/tests/page/run.sh" "$root/build/page" draw.js "$page#camera=$camera&quality=low" "$out/browser.png" "$size" >"$out/browser.log" 2>&1 ||
+  "$root/tests/page/run.sh" "$root/build/page" draw.js "$page#quality=low" "$out/browser.png" "$size" >"$out/browser.log" 2>&1 ||
     say "Chromium drew nothing: $out/browser.log says why"
 }
 

@@ -25,6 +25,7 @@ struct Options {
   std::string whom;  ///< a session's number, or an address
   uint32_t minutes = 0;
   std::string reason;
+  std::vector<std::string> place;
   bool json = false;
   bool alive = false, ready = false;
   bool play = false, pause = false;
@@ -79,6 +80,21 @@ int change(const Options& options) {
   const auto changes = parse(options.changes);
   if (!changes) return complain(changes.error(), exit_usage);
   return print(scree::change_settings(options.server, *changes), options.json);
+}
+
+/// "here", "here 7", "auto", or the numbers of a place.
+int place_spawn(const Options& options) {
+  const bool in_words = options.place.front() == "here" || options.place.front() == "auto";
+  std::string value;
+  for (const std::string& part : options.place) {
+    if (!value.empty()) value += in_words ? ' ' : ',';
+    value += part;
+  }
+  const auto settings = scree::change_settings(options.server, {{"spawn", value}});
+  if (!settings) return complain(settings.error(), exit_failed);
+  scree::SettingValues spawn = *settings;
+  std::erase_if(spawn, [](const auto& setting) { return setting.name != "spawn"; });
+  return print(spawn, options.json);
 }
 
 int print_sessions(const Options& options) {
@@ -194,6 +210,14 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
       ->excludes(alive);
   CLI::App* set = add("set", "changes all of these settings or none, and prints every setting");
   set->add_option("NAME=VALUE", options.changes, "a setting; scree-server --help lists them")->required();
+  CLI::App* spawn = add("spawn", "sets where visitors begin, and their direction of view");
+  spawn
+      ->add_option(
+          "PLACE", options.place,
+          "X Y Z or X Y Z YAW PITCH in metres and degrees; here: your eye in the window or the page; "
+          "here SESSION: the eye of that session; auto: a place that the ground suggests")
+      ->required()
+      ->expected(1, 5);
   CLI::App* sessions = add("sessions", "lists the sessions, with role and address");
   CLI::App* kicked = add("kick", "ends a session");
   kicked->add_option("SESSION", options.whom, "number of the session")->required();
@@ -217,6 +241,7 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
           {status, [](const Options& o) { return print(scree::read_status(o.server), o.json); }},
           {healthy, health},
           {set, change},
+          {spawn, place_spawn},
           {sessions, print_sessions},
           {kicked, kick},
           {banned, ban},

@@ -29,6 +29,10 @@ Result<Camera> camera_of(const std::array<float, 5>& values) {
   return camera;
 }
 
+Result<Camera> camera_of(const Spawn& spawn) {
+  return camera_of({spawn.eye_m.x, spawn.eye_m.y, spawn.eye_m.z, spawn.yaw_degrees, spawn.pitch_degrees});
+}
+
 std::string camera_text(const Camera& camera) {
   // A yaw that went round several times is told as one turn.
   const double degrees = static_cast<double>(glm::degrees(camera.yaw));

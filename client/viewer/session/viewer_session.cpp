@@ -36,7 +36,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   if (!connected() && !client_.joining() && !gave_up_ && now_s >= next_try_s_) join(now_s, camera.eye_m);
   take_events(now_s, step);
   client_.settle(now_s, step.changes);
-  if (!connected()) return step;
+  if (!connected() || at_spawn_) return step;
   measure_rate(now_s);
   report(now_s, camera.eye_m);
   report_cursor(now_s, camera);
@@ -74,6 +74,7 @@ void ViewerSession::join(double now_s, glm::vec3 eye_m) {
   hello.interest_radius_m = choice_.interest_radius_m;
   hello.name = choice_.name;
   hello.meets = true;
+  hello.at_spawn = at_spawn_;
   client_.join(hello, now_s);
 }
 

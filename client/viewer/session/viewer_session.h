@@ -61,6 +61,9 @@ class ViewerSession {
   const ScenePieces& pieces(double now_s);
   /// The person's name from the next connection on.
   void set_name(const std::string& name) { choice_.name = name; }
+  /// The camera has no place yet: the next welcome says it. Until this is off again, the server is not told
+  /// where the camera is.
+  void begin_at_spawn(bool on) { at_spawn_ = on; }
   /// Follows the server so far about the camera.
   void set_interest_radius(float metres);
   /// Whether carves are shown before the server has answered.
@@ -131,6 +134,7 @@ class ViewerSession {
   void control_replay(double now_s);
 
   SessionChoice choice_;
+  bool at_spawn_ = false;       ///< begin_at_spawn()
   bool radius_is_new_ = false;  ///< the server has not heard of it
   Client client_;
   Pace pace_;

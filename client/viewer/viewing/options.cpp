@@ -22,7 +22,8 @@
 namespace scree {
 namespace {
 
-/// Over the canyon floor, looking at the cliff and the arch.
+/// Over the canyon floor, looking at the cliff and the arch: where a server of an older release says no
+/// spawn.
 constexpr const char* default_camera = "30,9,19,63,-7";
 
 Result<void> understand_place(const std::string& size, const std::string& camera, ViewerOptions& options) {
@@ -59,8 +60,10 @@ void declare_view(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--name", options.name, "Your name, as others see it at your cursor")->envname("SCREE_NAME");
   app.add_option("--size", texts.size, "Window or image, WIDTHxHEIGHT")->envname("SCREE_SIZE");
   app.add_option("--camera", texts.camera,
-                 "x,y,z,yaw,pitch in metres and degrees; yaw 0 looks along -z and grows to the left")
-      ->envname("SCREE_CAMERA");
+                 "x,y,z,yaw,pitch in metres and degrees; yaw 0 looks along -z and grows to the left; "
+                 "default: the world's spawn")
+      ->envname("SCREE_CAMERA")
+      ->default_str("");
   app.add_option("--method", texts.method, "Drawing method:\n" + describe_methods())->envname("SCREE_METHOD");
   app.add_option("--quality", texts.quality,
                  "Quality: low, medium, high, or auto, which chooses by the time of the first frames "

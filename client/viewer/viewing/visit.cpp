@@ -1,6 +1,7 @@
 #include "client/viewer/viewing/visit.h"
 
 #include <cmath>
+#include <glm/trigonometric.hpp>
 #include <utility>
 
 namespace scree {
@@ -34,6 +35,7 @@ Visit::Visit(std::unique_ptr<Connector> connector, SessionChoice session_choice,
       quality_(choice.quality),
       chosen_radius_m_(choice.view_radius_m),
       render_scale_(choice.render_scale) {
+  session.begin_at_spawn(true);
   if (choice.camera) place_camera(*choice.camera);
   view->renderer().set_trace(trace.get());
   use(choice.quality);
@@ -69,12 +71,22 @@ std::optional<Quality> Visit::choose_quality(std::optional<Quality> wanted, floa
 void Visit::place_camera(const Camera& place) {
   camera = place;
   stands_ = true;
+  session.begin_at_spawn(false);
 }
 
-/// Where a ground has a middle, and nobody said where to look from, the camera begins above it.
-void Visit::stand_on_ground() {
-  if (std::exchange(stands_, true)) return;
-  if (const auto eye_m = spawn_of(session.mirror()->terrain())) camera.eye_m = *eye_m;
+/// Where nobody said where to look from, and once: who comes back has a place. A server of an older release
+/// says nothing; then the camera begins above the middle of a ground that has one.
+void Visit::stand_at_spawn() {
+  const WelcomeMessage* const welcome = session.welcome();
+  if (welcome == nullptr || std::exchange(stands_, true)) return;
+  session.begin_at_spawn(false);
+  if (welcome->spawn) {
+    camera.eye_m = welcome->spawn->eye_m;
+    camera.yaw = glm::radians(welcome->spawn->yaw_degrees);
+    camera.pitch = glm::radians(welcome->spawn->pitch_degrees);
+  } else if (const auto eye_m = place_above(session.mirror()->terrain())) {
+    camera.eye_m = *eye_m;
+  }
 }
 
 Result<void> Visit::step(double now_s) {
@@ -82,7 +94,7 @@ Result<void> Visit::step(double now_s) {
     const TraceSpan span(trace.get(), "viewer", "messages");
     return session.step(now_s, camera);
   }();
-  if (step.new_mirror) stand_on_ground();
+  if (step.new_mirror) stand_at_spawn();
   if (step.new_mirror || step.jumped) {
     piece_events_.begin();
     dust_.clear();

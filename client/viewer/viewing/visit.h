@@ -20,7 +20,7 @@ struct VisitChoice {
   Quality quality = AutoQuality::first;
   std::optional<float> view_radius_m;  ///< instead of the quality's
   std::optional<float> render_scale;   ///< the same
-  std::optional<Camera> camera;        ///< instead of where the ground says
+  std::optional<Camera> camera;        ///< instead of where the world's visitors begin
   bool particles = true;               ///< dust, grit and splinters
   bool predict = true;                 ///< carves are shown before the server answers
 };
@@ -44,7 +44,7 @@ class Visit {
   /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.
   void add_overlay(LineList& lines, const OverlayChoice& choice, double now_s);
 
-  /// The camera stays there, whatever the ground says.
+  /// The camera stays there, wherever the world's visitors begin.
   void place_camera(const Camera& place);
   /// Draws by that preset, but for what was chosen apart.
   void use(Quality quality);
@@ -65,7 +65,7 @@ class Visit {
   Camera camera;
 
  private:
-  void stand_on_ground();
+  void stand_at_spawn();
   void follow_pieces(double now_s);
 
   PieceEventDetector piece_events_;
@@ -77,7 +77,8 @@ class Visit {
   AutoQuality auto_quality_;
   std::optional<float> chosen_radius_m_;
   std::optional<float> render_scale_;
-  bool stands_ = false;  ///< the camera is where somebody wanted it, or where the first world's ground said
+  bool stands_ =
+      false;  ///< the camera is where somebody wanted it, or where the first world's visitors begin
 };
 
 }  // namespace scree

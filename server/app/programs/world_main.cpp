@@ -68,6 +68,7 @@ Json describe(const std::string& path, const WorldRows& rows, const ChunkSums& s
   const WorldMoment& moment = rows.world.moment;
   Json settings = Json::object();
   for (const SettingValue& setting : moment.config.settings) settings[setting.name] = setting.value;
+  settings[spawn_setting] = moment.config.spawn ? text_of(*moment.config.spawn) : "auto";
   size_t waiting = 0;
   for (const PartyValue& party : moment.requests.parties)
     for (const SessionValue& session : party.sessions) waiting += session.requests.size();

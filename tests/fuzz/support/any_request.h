@@ -84,6 +84,10 @@ inline CarveRequest known(CarveRequest carve) {
 inline std::string any_value(FuzzInput& input, const Setting& row) {
   if (input.below(8) == 7) return input.text(limits::setting_value_bytes_max);
   if (!row.choices.empty()) return std::string(row.choices[input.below(256) % row.choices.size()]);
+  if (row.is_text())
+    return text_of(Spawn{{input.coordinate(5000.0F), input.coordinate(600.0F), input.coordinate(5000.0F)},
+                         input.coordinate(400.0F),
+                         input.coordinate(100.0F)});
   const double near = input.flag() ? row.bounds.min : row.bounds.max;
   return std::to_string(near + input.coordinate(100.0F));
 }

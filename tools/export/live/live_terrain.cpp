@@ -178,7 +178,7 @@ class Fetcher {
   }
 
   Result<LiveTerrain> fetch_all(const std::function<void(double)>& progress) {
-    if (const auto middle = spawn_of(mirror().terrain()); middle && *middle != glm::vec3{})
+    if (const auto middle = place_above(mirror().terrain()); middle && *middle != glm::vec3{})
       TRY(join(*middle));
     TRY(complete_edits());
     if (!has_all_edits_)
