@@ -29,6 +29,7 @@ struct RecordedHeader {
   uint32_t merges_per_tick_max = 0;
   SettingValues settings;          ///< to start with
   uint32_t merge_burst_ticks = 0;  ///< of a recording's events: EventDeriver
+  uint32_t rules = 0;              ///< by which the simulation serves (server/world/rules.h)
 };
 
 struct RecordedFrame {

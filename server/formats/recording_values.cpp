@@ -38,6 +38,7 @@ void write(recorded::Header& to, const RecordedHeader& from) {
   write(*to.mutable_settings(), from.settings);
   if (from.ground != Digest{}) to.set_ground(std::string(from.ground.begin(), from.ground.end()));
   to.set_merge_burst_ticks(from.merge_burst_ticks);
+  to.set_rules(from.rules);
 }
 
 RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
@@ -56,6 +57,7 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
   header.merges_per_tick_max = from.merges_per_tick_max();
   header.merge_burst_ticks =
       check.within(from.merge_burst_ticks(), 0, limits::merge_burst_ticks_max, "merge_burst_ticks");
+  header.rules = from.rules();
   header.settings = check.settings(from.settings());
   if (from.ground().size() == header.ground.size())
     std::ranges::copy(as_span(from.ground()), header.ground.begin());

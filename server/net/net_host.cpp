@@ -62,6 +62,7 @@ Result<void> NetHost::listen() {
   TRY(web_.open());
   TRY(arrivals_.listen());
   room_.fit(service_.sessions_max);
+  requests_.bound_reach(service_.reach_m);
   tick_timer();
   return {};
 }
@@ -117,6 +118,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   entry.party = returns_.join_party(session, grant, before ? before->party : 0, now_s);
   entry.name = grant.name;
   entry.program = hello.client;
+  entry.eye_m = hello.eye_m;
   entry.joined_s = before ? before->joined_s : now_s;
   if (before) entry.requests = before->requests;
   if (config_.control)
@@ -166,8 +168,9 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           [&](const AdminMessage& admin) { return administration_.administer(session, admin); },
           [&](const UnknownMessage& unknown) { return skip(session, unknown); },
           [&](const CursorMessage& cursor) -> Done {
-            publisher_.set_cursor(
-                {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
+            SessionEntry& entry = sessions_.at(session.id());
+            entry.eye_m = cursor.eye_m;
+            publisher_.set_cursor({session.id(), entry.name, cursor.eye_m, cursor.aim_m});
             return {};
           },
           [&](const SayMessage& said) -> Done {
@@ -214,6 +217,7 @@ tl::expected<void, Refused> NetHost::skip(ClientSession& session, const UnknownM
 tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {
   const auto radius_m = granted_radius(interest.eye_m, interest.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
+  sessions_.at(session.id()).eye_m = interest.eye_m;
   publisher_.set_interest(session.id(), interest.eye_m, *radius_m);
   return {};
 }
@@ -304,6 +308,7 @@ void NetHost::grant(const ServiceLimits& service) {
   else
     room_.bound(service.sessions_max);
   sessions_.set_requests_per_second(service.requests_per_second);
+  requests_.bound_reach(service.reach_m);
 }
 
 void NetHost::shut_down() {

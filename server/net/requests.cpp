@@ -6,8 +6,33 @@
 
 namespace scree {
 
+namespace {
+
+/// Refuses an edit that is too far away. One that is no shape is the simulation's to refuse.
+tl::expected<void, Refused> check_reach(const SessionEntry& session, const Request& request, double reach_m) {
+  const Shape* const shape = shape_of(request);
+  if (shape == nullptr || session.grant.role == Role::admin || !validate(*shape)) return {};
+  const double away_m = distance(*shape, session.eye_m);
+  if (away_m <= reach_m) return {};
+  const glm::vec3& eye = session.eye_m;
+  return refuse(
+      Refusal::reach,
+      fmt::format("this edit lies {:.0f} m from your eye at ({:.0f}, {:.0f}, {:.0f}); this server's "
+                  "limit is {:g} m (reach): go nearer, or have the limit raised (--reach)",
+                  away_m, eye.x, eye.y, eye.z, reach_m));
+}
+
+/// Refuses a request beyond the session's role, or beyond its reach.
+tl::expected<void, Refused> check_session(const SessionEntry& session, const Request& request,
+                                          double reach_m) {
+  TRY(check_role(session.grant.role, role_for(request)));
+  return check_reach(session, request, reach_m);
+}
+
+}  // namespace
+
 void Requests::ask(ClientSession& session, const Command& command) {
-  const auto may_ask = check_role(sessions_.at(session.id()).grant.role, role_for(command.body));
+  const auto may_ask = check_session(sessions_.at(session.id()), command.body, reach_m_);
   if (may_ask) {
     pass(session, command);
     return;

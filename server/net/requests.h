@@ -9,6 +9,7 @@
 #include "server/net/net_server.h"
 #include "server/net/request_times.h"
 #include "server/net/session_table.h"
+#include "server/world/service_limits.h"
 
 namespace scree {
 
@@ -18,7 +19,9 @@ class Requests {
   Requests(CommandQueue& commands, SessionTable& sessions, NetStats& counts, bool replay)
       : commands_(commands), departures_(commands), sessions_(sessions), counts_(counts), replay_(replay) {}
 
-  /// Passes a request on if the session's role may ask it; else it is refused.
+  /// How far from its eye a session may edit, metres.
+  void bound_reach(double reach_m) { reach_m_ = reach_m; }
+  /// Passes a request on if the session's role may ask it, and its eye is near enough; else it is refused.
   void ask(ClientSession& session, const Command& command);
   /// Whether the request is on its way to the world; else it is refused.
   bool pass(ClientSession& session, const Command& command);
@@ -41,6 +44,7 @@ class Requests {
   SessionTable& sessions_;
   NetStats& counts_;
   const bool replay_;
+  double reach_m_ = ServiceLimits().reach_m;
 };
 
 }  // namespace scree

@@ -4,6 +4,7 @@
 // Invariant: each session is an outsider (it has not joined, or was refused) or has joined, never both.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,6 +27,8 @@ struct SessionEntry {
   double joined_s = 0.0;
   uint64_t party = 0;    ///< as of Command; 0: an administrator, in none of Parties
   bool relayed = false;  ///< as of Caller
+  /// As it said last, with its interest or its cursor; who never did is at the origin.
+  glm::vec3 eye_m{0.0F};
 
   Caller caller() const { return {session->address(), session->ip(), session->encrypted(), relayed}; }
 };

@@ -11,6 +11,7 @@ RecordedHeader to_recorded(const WorldConfig& config) {
   out.tick_rate_hz = config.tick_rate_hz;
   out.merges_per_tick_max = config.merges_per_tick_max;
   out.settings = print(config);
+  out.rules = config.rules;
   return out;
 }
 
@@ -20,6 +21,7 @@ Result<WorldConfig> config_of(const RecordedHeader& header) {
   config.ground = header.ground;
   config.tick_rate_hz = header.tick_rate_hz;
   config.merges_per_tick_max = header.merges_per_tick_max;
+  config.rules = header.rules;
   TRY(set_all(config, header.settings));
   TRY(validate(config));
   return config;
