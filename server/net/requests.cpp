@@ -18,7 +18,7 @@ tl::expected<void, Refused> check_reach(const SessionEntry& session, const Reque
   return refuse(
       Refusal::reach,
       fmt::format("this edit lies {:.0f} m from your eye at ({:.0f}, {:.0f}, {:.0f}); this server's "
-                  "limit is {:g} m (reach): go nearer, or have the limit raised (--reach)",
+                  "limit is {:g} m (reach): go nearer",
                   away_m, eye.x, eye.y, eye.z, reach_m));
 }
 

@@ -156,10 +156,12 @@ void IslandQueue::fell(std::span<const BrickCoord> bricks) {
 
 void IslandQueue::changed(std::span<const BrickCoord> bricks) {
   fell(bricks);
-  for (const auto& [party, line] : falling_.lines())
-    for (const Falling& falling : line.items)
-      if (has_seen(*falling.search, bricks)) push(party, falling.starts());
-  falling_.erase_if([&](const Falling& falling) { return has_seen(*falling.search, bricks); });
+  for (auto& [party, line] : falling_.lines())
+    for (Falling& falling : line.items) {
+      falling.stale = has_seen(*falling.search, bricks);
+      if (falling.stale) push(party, falling.starts());
+    }
+  falling_.erase_if([](const Falling& falling) { return falling.stale; });
 }
 
 bool IslandQueue::search(Field& field, SearchAllowance& allowance) {

@@ -96,6 +96,7 @@ class IslandQueue {
     std::vector<Island> islands;
     std::unique_ptr<IslandSearch> search;
     float cost_us = 0.0F;  ///< of the next island
+    bool stale = false;    ///< a brick that the search read has changed
   };
   TurnQueue<Waiting> waiting_;
   TurnQueue<Falling> falling_;
