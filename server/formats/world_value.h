@@ -49,7 +49,7 @@ struct BodyShape {
 struct PieceTraits {
   uint8_t generation = 0;  ///< number of breaks among its ancestors
   bool fell = false;       ///< it was an island: where it merges, nothing that hangs loose falls once more
-  uint64_t owner = 0;      ///< party of the client whose carve it comes from (command.h); 0: of none
+  uint64_t owner = 0;      ///< party that caused it, by a carve or a fall (command.h); 0: the world itself
 
   bool operator==(const PieceTraits&) const = default;
 };
