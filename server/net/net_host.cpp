@@ -41,7 +41,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       door_(config_.door),
       authorizer_(config_.access, config_.admin_token, door_),
       sessions_(service_.requests_per_second),
-      requests_(commands, sessions_, figures_.counts(), config_.replay),
+      requests_(commands, sessions_, figures_.counts(), config_),
       returns_([this](uint64_t session) { requests_.gone(session); }, door_),
       administration_(sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
                       config_.control),
@@ -62,7 +62,6 @@ Result<void> NetHost::listen() {
   TRY(web_.open());
   TRY(arrivals_.listen());
   room_.fit(service_.sessions_max);
-  requests_.bound_reach(service_.reach_m);
   tick_timer();
   return {};
 }
@@ -111,14 +110,13 @@ tl::expected<void, Refused> NetHost::find_room(const ClientSession& newcomer, co
 void NetHost::join(ClientSession& session, const HelloMessage& hello, float radius_m, const Grant& grant,
                    const std::optional<Departed>& before) {
   const double now_s = steady_now_s();
-  SessionEntry& entry = sessions_.join(session, before ? before->session : session.id());
+  SessionEntry& entry = sessions_.join(session, before ? before->session : session.id(), hello.eye_m);
   publisher_.join(session.id(), hello.eye_m, radius_m, hello.lacks_kernels ? 0 : hello.operations,
                   hello.world == world_);
   entry.grant = grant;
   entry.party = returns_.join_party(session, grant, before ? before->party : 0, now_s);
   entry.name = grant.name;
   entry.program = hello.client;
-  entry.eye_m = hello.eye_m;
   entry.joined_s = before ? before->joined_s : now_s;
   if (before) entry.requests = before->requests;
   if (config_.control)
@@ -144,8 +142,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const InterestMessage& interest) { return follow(session, interest); },
           [&]<typename Asks>(const RequestMessage<Asks>& asked) -> Done {
-            requests_.ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
-                                    sessions_.at(session.id()).party});
+            requests_.ask(session, asked.request, static_cast<const Asks&>(asked));
             return {};
           },
           [&](const RepairMessage& repair) -> Done {
@@ -301,14 +298,12 @@ void NetHost::set_files(std::shared_ptr<const WebFiles> files) {
 
 /// Settings hold for who is connected, too. A session that has joined stays, however few may now.
 void NetHost::grant(const ServiceLimits& service) {
-  const bool more = service.sessions_max > service_.sessions_max;
-  service_ = service;
-  if (more)
+  if (service.sessions_max > service_.sessions_max)
     room_.fit(service.sessions_max);
   else
     room_.bound(service.sessions_max);
-  sessions_.set_requests_per_second(service.requests_per_second);
-  requests_.bound_reach(service.reach_m);
+  service_ = service;
+  requests_.grant(service);
 }
 
 void NetHost::shut_down() {

@@ -31,14 +31,20 @@ tl::expected<void, Refused> check_session(const SessionEntry& session, const Req
 
 }  // namespace
 
-void Requests::ask(ClientSession& session, const Command& command) {
-  const auto may_ask = check_session(sessions_.at(session.id()), command.body, reach_m_);
+void Requests::grant(const ServiceLimits& service) {
+  sessions_.set_requests_per_second(service.requests_per_second);
+  reach_m_ = service.reach_m;
+}
+
+void Requests::ask(ClientSession& session, uint32_t request, const Request& body) {
+  const SessionEntry& entry = sessions_.at(session.id());
+  const auto may_ask = check_session(entry, body, reach_m_);
   if (may_ask) {
-    pass(session, command);
+    pass(session, {session.id(), request, body, entry.party});
     return;
   }
   ++counts_.requests;
-  refuse(session, command.request, may_ask.error());
+  refuse(session, request, may_ask.error());
 }
 
 bool Requests::pass(ClientSession& session, const Command& command) {

@@ -9,20 +9,24 @@
 #include "server/net/net_server.h"
 #include "server/net/request_times.h"
 #include "server/net/session_table.h"
-#include "server/world/service_limits.h"
 
 namespace scree {
 
 class Requests {
  public:
-  /// All arguments must outlive this object. `replay`: as of NetConfig. `counts`: requests are counted there.
-  Requests(CommandQueue& commands, SessionTable& sessions, NetStats& counts, bool replay)
-      : commands_(commands), departures_(commands), sessions_(sessions), counts_(counts), replay_(replay) {}
+  /// All arguments must outlive this object. `counts`: requests are counted there.
+  Requests(CommandQueue& commands, SessionTable& sessions, NetStats& counts, const NetConfig& config)
+      : commands_(commands),
+        departures_(commands),
+        sessions_(sessions),
+        counts_(counts),
+        replay_(config.replay),
+        reach_m_(config.service.reach_m) {}
 
-  /// How far from its eye a session may edit, metres.
-  void bound_reach(double reach_m) { reach_m_ = reach_m; }
+  /// How often, and how far from its eye, a session may ask for edits.
+  void grant(const ServiceLimits& service);
   /// Passes a request on if the session's role may ask it, and its eye is near enough; else it is refused.
-  void ask(ClientSession& session, const Command& command);
+  void ask(ClientSession& session, uint32_t request, const Request& body);
   /// Whether the request is on its way to the world; else it is refused.
   bool pass(ClientSession& session, const Command& command);
   /// Answers a request that is counted already.
@@ -44,7 +48,7 @@ class Requests {
   SessionTable& sessions_;
   NetStats& counts_;
   const bool replay_;
-  double reach_m_ = ServiceLimits().reach_m;
+  double reach_m_;
 };
 
 }  // namespace scree

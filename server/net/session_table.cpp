@@ -26,7 +26,7 @@ void SessionTable::add(std::shared_ptr<ClientSession> session, bool relayed) {
   outsiders_.insert(id);
 }
 
-SessionEntry& SessionTable::join(ClientSession& session, uint64_t id) {
+SessionEntry& SessionTable::join(ClientSession& session, uint64_t id, glm::vec3 eye_m) {
   outsiders_.erase(session.id());
   auto node = entries_.extract(session.id());
   CHECK(!node.empty());
@@ -34,7 +34,9 @@ SessionEntry& SessionTable::join(ClientSession& session, uint64_t id) {
   session.continue_as(id);
   const auto placed = entries_.insert(std::move(node));
   CHECK(placed.inserted);
-  return placed.position->second;
+  SessionEntry& entry = placed.position->second;
+  entry.eye_m = eye_m;
+  return entry;
 }
 
 void SessionTable::erase(uint64_t id) {

@@ -42,7 +42,7 @@ class SessionTable {
   /// Enters a session as an outsider; its number must be new.
   void add(std::shared_ptr<ClientSession> session, bool relayed);
   /// The session has joined, and goes on under the number `id`, which no other session has.
-  SessionEntry& join(ClientSession& session, uint64_t id);
+  SessionEntry& join(ClientSession& session, uint64_t id, glm::vec3 eye_m = glm::vec3(0.0F));
   /// A session that was refused is an outsider until it is closed.
   void refuse(uint64_t id) { outsiders_.insert(id); }
   void erase(uint64_t id);

@@ -31,8 +31,8 @@ struct RestAllowance {
   float most_us = 0.0F;
 };
 
-/// The pieces that merge, or freeze, in this tick: as many as are allowed, one at least. Of each layer, from
-/// the ground up, by the parties' turns. `layers`: of RestDetector.
+/// The pieces that merge, or freeze, in this tick: as many as are allowed, one at least. They come layer by
+/// layer, from the ground up, and by the parties' turns within each. `layers`: of RestDetector.
 std::vector<PieceId> in_turn(World::State& state, const std::vector<PieceId>& ready,
                              std::span<const uint32_t> layers, const RestAllowance& allowance) {
   TurnQueue<WaitingPiece>& turns = state.turns.merges;

@@ -11,7 +11,7 @@ namespace rules {
 inline constexpr uint32_t as_they_come = 0;
 /// They belong to the party that caused them, and parties take turns (server/work/turn_queue.h).
 inline constexpr uint32_t by_party = 1;
-/// Of new worlds. A program goes by its own newest where a file names newer ones.
+/// New worlds have these. A program goes by its own newest where a file names newer ones.
 inline constexpr uint32_t newest = by_party;
 }  // namespace rules
 
