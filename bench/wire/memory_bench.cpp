@@ -32,8 +32,8 @@ BenchReport run_memory_bench(const BenchOptions& options) {
   const ScratchFolder folder("memory");
   ::setenv("XDG_CACHE_HOME", (folder / "").c_str(), 1);
   const std::string told_path = folder / "report.json";
-  ServerProcess server(server_program().c_str(),
-                       {"--memory-max", std::to_string(memory_max_mb), "--report", told_path});
+  ServerProcess server(server_program().c_str(), {"--memory-max", std::to_string(memory_max_mb), "--reach",
+                                                  "16384", "--report", told_path});
   if (server.port() == 0) {
     report.check("server_starts", false, server_program().string() + " does not start");
     return report;

@@ -200,9 +200,17 @@ void Bot::ask(Clock::time_point now) {
     const Clock::time_point sent = Clock::now();
     requests_[carve.request] = {sent, carve.random_seed};
     unseen_[carve.random_seed] = sent;
+    go_near(carve.impact_m);
     if (config_.paint) client_.send(PaintMessage{{carve.shape, *config_.paint}, 0});
     client_.send(carve);
   }
+}
+
+/// Servers refuse edits far from the eye.
+void Bot::go_near(glm::vec3 place_m) {
+  if (glm::distance(eye_m_, place_m) <= limits::bot_reach_m) return;
+  const float ground_m = ground_height_m(client_.mirror()->terrain(), place_m.x, place_m.z);
+  set_interest({place_m.x, ground_m, place_m.z}, config_.interest_radius_m);
 }
 
 bool Bot::scripted_work_done() const {

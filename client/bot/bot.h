@@ -78,6 +78,7 @@ class Bot {
   void receive_frame(const FrameMessage& frame, Clock::time_point arrived);
   void receive_status(const StatusMessage& status);
   void ask(Clock::time_point now);
+  void go_near(glm::vec3 place_m);
   bool scripted_work_done() const;
   void log(std::string_view kind, const std::string& line);
 

@@ -1,5 +1,6 @@
 #include "server/app/admission.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <set>
@@ -8,23 +9,12 @@
 
 #include "server/app/limits.h"
 #include "server/work/limits.h"
-#include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
 
 namespace {
-
-/// The shape of a request that edits terrain.
-const Shape* shape_of(const Request& request) {
-  return std::visit(Overloaded{[](const CarveRequest& carve) { return &carve.shape; },
-                               [](const FillRequest& fill) { return &fill.shape; },
-                               [](const PaintRequest& paint) { return &paint.shape; },
-                               [](const SettingsRequest&) { return static_cast<const Shape*>(nullptr); },
-                               [](const LeaveRequest&) { return static_cast<const Shape*>(nullptr); }},
-                    request);
-}
 
 Refused no_memory(double used_bytes, double added_bytes, uint32_t max_mb) {
   const auto whole = [](double bytes) { return static_cast<uint64_t>(std::ceil(bytes / bytes_per_mb)); };
@@ -86,27 +76,30 @@ Admitted Admission::admit(std::vector<Command> arrived, const EditGround& ground
   }
   Admitted admitted;
   std::deque<Held> still_held;
+  std::map<uint64_t, size_t> held_by;  // by party: each may have as many as there are places left
   for (Held& one : held_) {
     // Who leaves is answered by the simulation, whatever waits.
     if (leaving.contains(one.command.session)) {
       admitted.commands.push_back(std::move(one.command));
       continue;
     }
-    if (blocked.contains(one.command.session)) {
-      still_held.push_back(std::move(one));
-      continue;
-    }
-    const auto verdict = judge(one, ground, now_s);
+    const bool is_behind = blocked.contains(one.command.session);
+    const auto verdict = is_behind ? Verdict::hold : judge(one, ground, now_s);
     if (!verdict) {
       admitted.refused.push_back(refusal_of(one.command, verdict.error()));
     } else if (*verdict == Verdict::admit) {
       admitted.commands.push_back(std::move(one.command));
-    } else if (still_held.size() >= limits::requests_waiting_max) {
+    } else if (size_t& own = held_by[party_of(one.command)];
+               own >=
+               limits::requests_waiting_max - std::min(limits::requests_waiting_max, still_held.size())) {
       admitted.refused.push_back(refusal_of(
           one.command,
-          {Refusal::requests_waiting, "too many requests wait for terrain to be read: ask again"}));
+          {Refusal::requests_waiting,
+           "too many requests of this client, or of those who share with it, wait for terrain to be "
+           "read: ask again"}));
     } else {
-      held_count_ += one.since_s == now_s ? 1 : 0;
+      held_count_ += one.since_s == now_s && !is_behind ? 1 : 0;
+      ++own;
       blocked.insert(one.command.session);
       still_held.push_back(std::move(one));
     }

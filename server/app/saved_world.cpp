@@ -65,6 +65,7 @@ Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t thre
   RecordedHeader& header = rows.world.moment.config;
   if (auto given = give_ground(header.ground, header.terrain, ground); !given)
     return fail(path + ": " + given.error().message);
+  header.rules = rules::newest;  // the world goes on; what it was is in its recordings
   auto reader = TRY(chunk_reader(path));
   const auto config = config_of(header);
   const uint32_t max_mb = config ? config->memory_max_mb : limits::memory_max_min_mb;

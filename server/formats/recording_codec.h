@@ -32,6 +32,7 @@ struct RecordedHeader {
   SettingValues settings;          ///< to start with
   std::optional<Spawn> spawn{};    ///< as of WorldConfig: it is not among `settings`
   uint32_t merge_burst_ticks = 0;  ///< of a recording's events: EventDeriver
+  uint32_t rules = 0;              ///< by which the simulation serves (server/world/rules.h)
 };
 
 struct RecordedFrame {

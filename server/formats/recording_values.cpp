@@ -39,6 +39,7 @@ void write(recorded::Header& to, const RecordedHeader& from) {
   if (from.ground != Digest{}) to.set_ground(std::string(from.ground.begin(), from.ground.end()));
   to.set_merge_burst_ticks(from.merge_burst_ticks);
   if (from.spawn) to.set_spawn(text_of(*from.spawn));
+  to.set_rules(from.rules);
 }
 
 RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
@@ -57,6 +58,7 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
   header.merges_per_tick_max = from.merges_per_tick_max();
   header.merge_burst_ticks =
       check.within(from.merge_burst_ticks(), 0, limits::merge_burst_ticks_max, "merge_burst_ticks");
+  header.rules = from.rules();
   header.settings = check.settings(from.settings());
   if (!from.spawn().empty())
     header.spawn = check.value_or_refuse(

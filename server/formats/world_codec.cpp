@@ -67,6 +67,7 @@ void write(kept::Cut& to, const PendingRefracture& from) {
   to.set_pattern(static_cast<uint32_t>(from.pattern));
   to.set_random_seed(from.random_seed);
   to.set_impact(pack_vec3s({from.impact_m}));
+  to.set_party(from.party);
   if (from.thrown_by == nullptr) return;
   const Command carve{0, 0, *from.thrown_by, 0};
   to.set_thrown_by(to_string(encode(std::span(&carve, 1))));
@@ -78,6 +79,7 @@ PendingRefracture read(const kept::Cut& from, FieldChecker& check) {
   pending.pieces = from.pieces();
   pending.pattern = check.kind<SeedPattern>(from.pattern(), "pattern");
   pending.random_seed = from.random_seed();
+  pending.party = from.party();
   const auto impact = check.value_or_refuse(unpack_vec3s(from.impact(), "impact of a cut", 1));
   if (impact.size() == 1)
     pending.impact_m = impact.front();
@@ -136,6 +138,42 @@ PieceRecord read(const kept::Piece& from, FieldChecker& check) {
   return piece;
 }
 
+using Shares = google::protobuf::RepeatedPtrField<kept::Share>;
+
+/// All bricks in one list, and in `shares` whose they are; party 0 alone needs none.
+std::string write(Shares& shares, const std::vector<PartyBricks>& from) {
+  std::vector<BrickCoord> all;
+  const bool has_parties = std::ranges::any_of(from, [](const PartyBricks& one) { return one.party != 0; });
+  for (const auto& [party, bricks] : from) {
+    all.insert(all.end(), bricks.begin(), bricks.end());
+    if (!has_parties) continue;
+    kept::Share& share = *shares.Add();
+    share.set_party(party);
+    share.set_bricks(static_cast<uint32_t>(bricks.size()));
+  }
+  return pack_bricks(all);
+}
+
+std::vector<PartyBricks> read(const Shares& shares, const std::string& packed_bricks, const char* what,
+                              FieldChecker& check) {
+  std::vector<BrickCoord> all = check.value_or_refuse(unpack_bricks(packed_bricks, what));
+  if (all.empty() && shares.empty()) return {};
+  if (shares.empty()) return {{0, std::move(all)}};
+  std::vector<PartyBricks> parties;
+  auto next = all.begin();
+  for (const kept::Share& share : shares) {
+    if (share.bricks() == 0 || share.bricks() > static_cast<size_t>(all.end() - next)) break;
+    const auto end = next + share.bricks();
+    parties.push_back({share.party(), {next, end}});
+    next = end;
+  }
+  if (next != all.end() || parties.size() != static_cast<size_t>(shares.size()))
+    check.refuse(fmt::format("{}: not as many as their parties have", what));
+  if (std::ranges::adjacent_find(parties, std::ranges::greater_equal{}, &PartyBricks::party) != parties.end())
+    check.refuse(fmt::format("{}: their parties are not in order", what));
+  return parties;
+}
+
 void write(kept::Moment& to, const WorldMoment& from) {
   write(*to.mutable_config(), from.config);
   to.set_tick(from.tick);
@@ -164,9 +202,10 @@ void write(kept::Moment& to, const WorldMoment& from) {
     kept::Search& added = *to.add_searches();
     added.set_bricks(pack_bricks(search.bricks));
     added.set_restarts(search.restarts);
+    added.set_party(search.party);
   }
-  to.set_cut(pack_bricks(from.loosened_bricks));
-  to.set_strained(pack_bricks(from.strained));
+  to.set_cut(write(*to.mutable_cut_shares(), from.loosened_bricks));
+  to.set_strained(write(*to.mutable_strained_shares(), from.strained));
   to.set_gained(pack_boxes(from.gained));
   to.set_buried(pack_ids(from.buried));
   to.set_sunk(pack_ids(from.sunk));
@@ -204,10 +243,10 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   moment.refractured_at = from.cut_at();
   moment.island_at = from.island_at();
   for (const kept::Search& search : from.searches())
-    moment.islands.push_back(
-        {check.value_or_refuse(unpack_bricks(search.bricks(), "searched bricks")), search.restarts()});
-  moment.loosened_bricks = check.value_or_refuse(unpack_bricks(from.cut(), "cut bricks"));
-  moment.strained = check.value_or_refuse(unpack_bricks(from.strained(), "strained bricks"));
+    moment.islands.push_back({check.value_or_refuse(unpack_bricks(search.bricks(), "searched bricks")),
+                              search.restarts(), search.party()});
+  moment.loosened_bricks = read(from.cut_shares(), from.cut(), "cut bricks", check);
+  moment.strained = read(from.strained_shares(), from.strained(), "strained bricks", check);
   moment.gained = check.value_or_refuse(unpack_boxes(from.gained(), "gained terrain"));
   moment.buried = check.value_or_refuse(unpack_piece_ids(from.buried(), "buried pieces"));
   moment.sunk = check.value_or_refuse(unpack_piece_ids(from.sunk(), "sunk pieces"));

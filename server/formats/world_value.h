@@ -3,7 +3,8 @@
 //
 // What Bullet cannot take up again is left out: caches of contacts with their impulses, who sleeps, and the
 // order of its tree. A restored body is awake and without contacts. Nor is a search for islands kept: islands
-// that wait to fall are searched anew. So a restored world is no continuation of the running one bit for bit,
+// that wait to fall are searched anew. Parties keep the work that waits for them, but begin level: turns are
+// kept of requests alone. So a restored world is no continuation of the running one bit for bit,
 // but a pure function of the value: the same value and the same commands give the same hashes, and
 // snapshot(restore(value)) is the value.
 //
@@ -48,7 +49,7 @@ struct BodyShape {
 struct PieceTraits {
   uint8_t generation = 0;  ///< number of breaks among its ancestors
   bool fell = false;       ///< it was an island: where it merges, nothing that hangs loose falls once more
-  uint64_t owner = 0;      ///< party of the client whose carve it comes from (command.h); 0: of none
+  uint64_t owner = 0;      ///< party that caused it, by a carve or a fall (command.h); 0: the world itself
 
   bool operator==(const PieceTraits&) const = default;
 };
@@ -156,14 +157,24 @@ struct PendingRefracture {
   /// The carve whose volume this is, whole: its blow throws the pieces. Null: they move on as parts of the
   /// piece.
   std::shared_ptr<const CarveRequest> thrown_by{};
+  uint64_t party = 0;  ///< whose carve it was (command.h); 0: the world itself
 };
 
 /// Changed bricks around which islands are searched for.
 struct LooseningEdit {
   std::vector<BrickCoord> bricks;
   uint32_t restarts = 0;
+  uint64_t party = 0;  ///< who caused the change, as in PendingRefracture
 
   bool operator==(const LooseningEdit&) const = default;
+};
+
+/// Bricks that a party changed; never empty.
+struct PartyBricks {
+  uint64_t party = 0;
+  std::vector<BrickCoord> bricks;  ///< ordered
+
+  bool operator==(const PartyBricks&) const = default;
 };
 
 /// All but the terrain: cheap to make, so that every tick can be saved.
@@ -180,14 +191,14 @@ struct WorldMoment {
   RequestsValue requests;
   Tick requested = 0;  ///< tick in which a request that costs time was carried out last
   float debt_us = 0.0F;
-  std::vector<PendingRefracture> refractures;  ///< in order
+  std::vector<PendingRefracture> refractures;  ///< by party, each one's in order
   Tick refractured_at = 0;                     ///< tick of the last cut, as island_at of the last fall
   Tick island_at = 0;
-  std::vector<LooseningEdit> islands;       ///< searches, in order
-  std::vector<BrickCoord> loosened_bricks;  ///< ordered; await a search for islands
-  std::vector<BrickCoord> strained;         ///< ordered; await a search for support
-  std::vector<VoxelBox> gained;             ///< around terrain that gained rock
-  std::vector<PieceId> buried;              ///< ordered, as `sunk`; may be gone
+  std::vector<LooseningEdit> islands;        ///< searches, in order
+  std::vector<PartyBricks> loosened_bricks;  ///< await a search for islands; by party, as `strained`
+  std::vector<PartyBricks> strained;         ///< await a search for support
+  std::vector<VoxelBox> gained;              ///< around terrain that gained rock
+  std::vector<PieceId> buried;               ///< ordered, as `sunk`; may be gone
   std::vector<PieceId> sunk;
 };
 

@@ -41,7 +41,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       door_(config_.door),
       authorizer_(config_.access, config_.admin_token, door_),
       sessions_(service_.requests_per_second),
-      requests_(commands, sessions_, figures_.counts(), config_.replay),
+      requests_(commands, sessions_, figures_.counts(), config_),
       returns_([this](uint64_t session) { requests_.gone(session); }, door_),
       administration_(
           sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
@@ -110,7 +110,7 @@ tl::expected<void, Refused> NetHost::find_room(const ClientSession& newcomer, co
 void NetHost::join(ClientSession& session, const HelloMessage& hello, float radius_m, const Grant& grant,
                    const std::optional<Departed>& before) {
   const double now_s = steady_now_s();
-  SessionEntry& entry = sessions_.join(session, before ? before->session : session.id());
+  SessionEntry& entry = sessions_.join(session, before ? before->session : session.id(), hello.eye_m);
   publisher_.join(session.id(), hello.eye_m, radius_m, hello.lacks_kernels ? 0 : hello.operations,
                   hello.world == world_);
   entry.grant = grant;
@@ -143,8 +143,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const InterestMessage& interest) { return follow(session, interest); },
           [&]<typename Asks>(const RequestMessage<Asks>& asked) -> Done {
-            return ask(session, {session.id(), asked.request, static_cast<const Asks&>(asked),
-                                 sessions_.at(session.id()).party});
+            return ask(session, asked.request, static_cast<const Asks&>(asked));
           },
           [&](const RepairMessage& repair) -> Done {
             log_.say(spdlog::level::warn, "repair",
@@ -169,8 +168,9 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           [&](const AdminMessage& admin) { return administration_.administer(session, admin); },
           [&](const UnknownMessage& unknown) { return skip(session, unknown); },
           [&](const CursorMessage& cursor) -> Done {
-            publisher_.set_cursor(
-                {session.id(), sessions_.at(session.id()).name, cursor.eye_m, cursor.aim_m});
+            SessionEntry& entry = sessions_.at(session.id());
+            entry.eye_m = cursor.eye_m;
+            publisher_.set_cursor({session.id(), entry.name, cursor.eye_m, cursor.aim_m});
             return {};
           },
           [&](const SayMessage& said) -> Done {
@@ -200,14 +200,15 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
 }
 
 /// A session that takes no place changes no terrain.
-tl::expected<void, Refused> NetHost::ask(ClientSession& session, const Command& command) {
+tl::expected<void, Refused> NetHost::ask(ClientSession& session, uint32_t request,
+                                           const Request& body) {
   if (!sessions_.at(session.id()).administers) {
-    requests_.ask(session, command);
+    requests_.ask(session, request, body);
     return {};
   }
   ++figures_.counts().requests;
   requests_.refuse(
-      session, command.request,
+      session, request,
       {Refusal::role, "this session administers alone (Hello.administers): it changes no terrain"});
   return {};
 }
@@ -231,6 +232,7 @@ tl::expected<void, Refused> NetHost::follow(ClientSession& session, const Intere
   const bool sees_nothing = sessions_.at(session.id()).administers;
   const auto radius_m = granted_radius(interest.eye_m, sees_nothing ? 0.0F : interest.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
+  sessions_.at(session.id()).eye_m = interest.eye_m;
   publisher_.set_interest(session.id(), interest.eye_m, *radius_m);
   return {};
 }
@@ -317,13 +319,12 @@ void NetHost::set_files(std::shared_ptr<const WebFiles> files) {
 
 /// Settings hold for who is connected, too. A session that has joined stays, however few may now.
 void NetHost::grant(const ServiceLimits& service) {
-  const bool more = service.sessions_max > service_.sessions_max;
-  service_ = service;
-  if (more)
+  if (service.sessions_max > service_.sessions_max)
     room_.fit(service.sessions_max);
   else
     room_.bound(service.sessions_max);
-  sessions_.set_requests_per_second(service.requests_per_second);
+  service_ = service;
+  requests_.grant(service);
 }
 
 void NetHost::shut_down() {

@@ -82,7 +82,7 @@ class NetHost final : public SessionHost, public WebHost {
 
   tl::expected<void, Refused> find_room(const ClientSession& newcomer, const Grant& grant,
                                         const std::optional<Departed>& before, double now_s);
-  tl::expected<void, Refused> ask(ClientSession& session, const Command& command);
+  tl::expected<void, Refused> ask(ClientSession& session, uint32_t request, const Request& body);
   void join(ClientSession& session, const HelloMessage& hello, float radius_m, const Grant& grant,
             const std::optional<Departed>& before);
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);

@@ -6,14 +6,45 @@
 
 namespace scree {
 
-void Requests::ask(ClientSession& session, const Command& command) {
-  const auto may_ask = check_role(sessions_.at(session.id()).grant.role, role_for(command.body));
+namespace {
+
+/// Refuses an edit that is too far away. One that is no shape is the simulation's to refuse.
+tl::expected<void, Refused> check_reach(const SessionEntry& session, const Request& request, double reach_m) {
+  const Shape* const shape = shape_of(request);
+  if (shape == nullptr || session.grant.role == Role::admin || !validate(*shape)) return {};
+  const double away_m = distance(*shape, session.eye_m);
+  if (away_m <= reach_m) return {};
+  const glm::vec3& eye = session.eye_m;
+  return refuse(
+      Refusal::reach,
+      fmt::format("this edit lies {:.0f} m from your eye at ({:.0f}, {:.0f}, {:.0f}); this server's "
+                  "limit is {:g} m (reach): go nearer",
+                  away_m, eye.x, eye.y, eye.z, reach_m));
+}
+
+/// Refuses a request beyond the session's role, or beyond its reach.
+tl::expected<void, Refused> check_session(const SessionEntry& session, const Request& request,
+                                          double reach_m) {
+  TRY(check_role(session.grant.role, role_for(request)));
+  return check_reach(session, request, reach_m);
+}
+
+}  // namespace
+
+void Requests::grant(const ServiceLimits& service) {
+  sessions_.set_requests_per_second(service.requests_per_second);
+  reach_m_ = service.reach_m;
+}
+
+void Requests::ask(ClientSession& session, uint32_t request, const Request& body) {
+  const SessionEntry& entry = sessions_.at(session.id());
+  const auto may_ask = check_session(entry, body, reach_m_);
   if (may_ask) {
-    pass(session, command);
+    pass(session, {session.id(), request, body, entry.party});
     return;
   }
   ++counts_.requests;
-  refuse(session, command.request, may_ask.error());
+  refuse(session, request, may_ask.error());
 }
 
 bool Requests::pass(ClientSession& session, const Command& command) {

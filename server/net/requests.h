@@ -14,12 +14,19 @@ namespace scree {
 
 class Requests {
  public:
-  /// All arguments must outlive this object. `replay`: as of NetConfig. `counts`: requests are counted there.
-  Requests(CommandQueue& commands, SessionTable& sessions, NetStats& counts, bool replay)
-      : commands_(commands), departures_(commands), sessions_(sessions), counts_(counts), replay_(replay) {}
+  /// All arguments must outlive this object. `counts`: requests are counted there.
+  Requests(CommandQueue& commands, SessionTable& sessions, NetStats& counts, const NetConfig& config)
+      : commands_(commands),
+        departures_(commands),
+        sessions_(sessions),
+        counts_(counts),
+        replay_(config.replay),
+        reach_m_(config.service.reach_m) {}
 
-  /// Passes a request on if the session's role may ask it; else it is refused.
-  void ask(ClientSession& session, const Command& command);
+  /// How often, and how far from its eye, a session may ask for edits.
+  void grant(const ServiceLimits& service);
+  /// Passes a request on if the session's role may ask it, and its eye is near enough; else it is refused.
+  void ask(ClientSession& session, uint32_t request, const Request& body);
   /// Whether the request is on its way to the world; else it is refused.
   bool pass(ClientSession& session, const Command& command);
   /// Answers a request that is counted already.
@@ -41,6 +48,7 @@ class Requests {
   SessionTable& sessions_;
   NetStats& counts_;
   const bool replay_;
+  double reach_m_;
 };
 
 }  // namespace scree

@@ -27,7 +27,7 @@ SessionEntry& SessionTable::add(std::shared_ptr<ClientSession> session, bool rel
   return entry->second;
 }
 
-SessionEntry& SessionTable::join(ClientSession& session, uint64_t id) {
+SessionEntry& SessionTable::join(ClientSession& session, uint64_t id, glm::vec3 eye_m) {
   outsiders_.erase(session.id());
   auto node = entries_.extract(session.id());
   CHECK(!node.empty());
@@ -35,7 +35,9 @@ SessionEntry& SessionTable::join(ClientSession& session, uint64_t id) {
   session.continue_as(id);
   const auto placed = entries_.insert(std::move(node));
   CHECK(placed.inserted);
-  return placed.position->second;
+  SessionEntry& entry = placed.position->second;
+  entry.eye_m = eye_m;
+  return entry;
 }
 
 void SessionTable::erase(uint64_t id) {

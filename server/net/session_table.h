@@ -4,6 +4,7 @@
 // Invariant: each session is an outsider (it has not joined, or was refused) or has joined, never both.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <map>
 #include <memory>
 #include <optional>
@@ -29,6 +30,9 @@ struct SessionEntry {
   bool administers = false;  ///< as of HelloMessage
   bool at_door = true;       ///< it has a place there (Door::enter), which it gives back
 
+  /// As it said last, with its interest or its cursor; who never did is at the origin.
+  glm::vec3 eye_m{0.0F};
+
   /// Whether it counts among the sessions that the server has room for.
   bool needs_place() const { return grant.role != Role::admin && !administers; }
 
@@ -44,7 +48,7 @@ class SessionTable {
   /// Enters a session as an outsider; its number must be new.
   SessionEntry& add(std::shared_ptr<ClientSession> session, bool relayed);
   /// The session has joined, and goes on under the number `id`, which no other session has.
-  SessionEntry& join(ClientSession& session, uint64_t id);
+  SessionEntry& join(ClientSession& session, uint64_t id, glm::vec3 eye_m = glm::vec3(0.0F));
   /// A session that was refused is an outsider until it is closed.
   void refuse(uint64_t id) { outsiders_.insert(id); }
   void erase(uint64_t id);

@@ -127,7 +127,11 @@ std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,
   put_off_ = resting.size() - std::min(resting.size(), merges_max);
   resting.resize(resting.size() - put_off_);
   std::vector<PieceId> ready;
-  for (const Resting& piece : resting) ready.push_back(piece.id);
+  layers_.clear();
+  for (const Resting& piece : resting) {
+    ready.push_back(piece.id);
+    layers_.push_back(piece.layer);
+  }
   CHECK(ready.size() <= merges_max && ready.size() + put_off_ <= at_rest_);
   return ready;
 }

@@ -50,12 +50,14 @@ class RestDetector {
   /// Call once a tick, after the bodies' step. `pieces`: every piece alive that is not frozen, ordered by id;
   /// pieces that are missing are forgotten. `on_terrain`: pieces that touch terrain, ordered. `supports`:
   /// which piece lies on which. Returns at most `merges_max` pieces that may merge now, in the order in which
-  /// to merge them: those on terrain first, lowest first, then those on them. The caller may merge only the
-  /// first of them. `hurried`: half of the rest time is enough.
+  /// to merge them: those on terrain first, lowest first, then those on them. The caller may leave some of a
+  /// layer out, and then all above it. `hurried`: half of the rest time is enough.
   std::vector<PieceId> update(std::span<const RestPiece> pieces, std::span<const PieceId> on_terrain,
                               std::span<const RestSupport> supports, size_t merges_max, bool hurried = false);
 
-  /// The last of the pieces that update() returned do not merge now.
+  /// For each piece that update() returned, in its order: 1 on terrain, n + 1 on a piece of n.
+  std::span<const uint32_t> layers() const { return layers_; }
+  /// So many of the pieces that update() returned do not merge now.
   void put_off_more(size_t pieces) { put_off_ += pieces; }
 
   /// All that update() needs to go on.
@@ -83,6 +85,7 @@ class RestDetector {
   uint32_t rest_ticks_, patience_ticks_, contact_ticks_;
   float leash_growth_m_tick_;
   std::map<PieceId, Timer> timers_;
+  std::vector<uint32_t> layers_;
   size_t at_rest_ = 0;
   size_t put_off_ = 0;
 };

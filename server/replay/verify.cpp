@@ -22,7 +22,9 @@ Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
   TRY(state);
   if (!state->has_value() || !report.difference.empty()) return false;
   // The terrain comes chunk by chunk: the value has its hash.
-  const std::vector<uint8_t> own = encode(WorldSnapshot{world->moment(), {}});
+  WorldMoment moment = world->moment();
+  moment.config.rules = (*state)->moment.config.rules;  // a newer program may have gone on
+  const std::vector<uint8_t> own = encode(WorldSnapshot{std::move(moment), {}});
   const std::vector<uint8_t> said = encode(**state);
   if (own != said)
     report.difference = hashes_differ("the whole state", XXH3_64bits(own.data(), own.size()),

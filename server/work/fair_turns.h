@@ -16,6 +16,11 @@
 
 namespace scree {
 
+/// Nanoseconds of microseconds that are not negative: sums of these are exact.
+inline uint64_t in_ns(float us) {
+  return static_cast<uint64_t>(us * 1000.0F);
+}
+
 class FairTurns {
  public:
   /// Begins to wait for a turn that will cost about so much; `who` must not wait yet.

@@ -34,6 +34,17 @@ uint32_t PieceShares::of(uint64_t party) const {
   return found == pieces_.end() ? 0 : found->second;
 }
 
+bool PieceShares::holds_little(uint64_t party) const {
+  if (party == 0) return false;
+  size_t pieces = 0, parties = of(party) == 0 ? 1 : 0;
+  for (const auto& [other, count] : pieces_) {
+    if (other == 0) continue;
+    pieces += count;
+    ++parties;
+  }
+  return of(party) * parties < pieces;
+}
+
 PieceGrant PieceShares::grant(uint64_t party, uint32_t wanted, const PieceRoom& room) const {
   CHECK(wanted > 0);
   const size_t left = room.pieces_max - std::min<size_t>(room.alive, room.pieces_max);

@@ -37,6 +37,9 @@ class PieceShares {
   void remove(uint64_t party);
   /// Number of the party's pieces.
   uint32_t of(uint64_t party) const;
+  /// Whether several parties share the pieces alive, and this one holds less than its part of them. Never
+  /// the world itself.
+  bool holds_little(uint64_t party) const;
 
   /// `wanted` is positive. The world itself is granted what there is room for.
   PieceGrant grant(uint64_t party, uint32_t wanted, const PieceRoom& room) const;

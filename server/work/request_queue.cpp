@@ -18,10 +18,6 @@ bool may_cost(float cost_us) {
   return cost_us >= 0.0F && cost_us <= kept_cost_max_us;
 }
 
-uint64_t in_ns(float us) {
-  return static_cast<uint64_t>(us * 1000.0F);
-}
-
 std::string in_ms(float us) {
   return std::to_string(static_cast<int>(std::lround(us / 1000.0F))) + " ms";
 }
@@ -37,13 +33,8 @@ Result<void> RequestQueue::push(WaitingRequest request) {
   TRY(may_wait(request));
   const uint64_t party_id = party_of(request.command), session_id = request.command.session;
   Party& party = parties_[party_id];
-  const uint64_t cost_ns = in_ns(request.cost_us);
-  if (party.requests == 0) turns_.wait(party_id, cost_ns);
-  Session& session = party.sessions[session_id];
-  if (session.requests.empty()) party.turns.wait(session_id, cost_ns);
-  session.waiting_us += request.cost_us;
-  session.requests.push_back(std::move(request));
-  ++party.requests;
+  if (party.size() == 0) turns_.wait(party_id, in_ns(request.cost_us));
+  party.push(session_id, std::move(request));
   ++size_;
   expect_next(party_id, party);
   return {};
@@ -52,7 +43,7 @@ Result<void> RequestQueue::push(WaitingRequest request) {
 Result<void> RequestQueue::may_wait(const WaitingRequest& request) const {
   CHECK(size_ <= limits::requests_waiting_max);
   const auto party = parties_.find(party_of(request.command));
-  const size_t own = party == parties_.end() ? 0 : party->second.requests;
+  const size_t own = party == parties_.end() ? 0 : party->second.size();
   if (own >= limits::requests_waiting_max - size_)
     return fail(std::to_string(own) +
                 " requests of this client, or of clients with its address or token, are waiting, and only " +
@@ -60,9 +51,10 @@ Result<void> RequestQueue::may_wait(const WaitingRequest& request) const {
                 std::to_string(limits::requests_waiting_max) +
                 " places are free (limits.requests_waiting_max): ask again later");
   if (party == parties_.end()) return {};
-  const auto session = party->second.sessions.find(request.command.session);
-  if (session == party->second.sessions.end()) return {};
-  const size_t busy = turns_.waiting() * party->second.sessions.size();
+  const auto& sessions = party->second.lines();
+  const auto session = sessions.find(request.command.session);
+  if (session == sessions.end()) return {};
+  const size_t busy = turns_.waiting() * sessions.size();
   const float share_us = client_us_per_s_ / static_cast<float>(busy) * limits::waiting_work_max_s;
   const float waiting_us = session->second.waiting_us;
   if (waiting_us + request.cost_us <= share_us) return {};
@@ -75,12 +67,8 @@ const WaitingRequest* RequestQueue::next() const {
   return turns_.empty() ? nullptr : &parties_.at(turns_.next()).next();
 }
 
-const WaitingRequest& RequestQueue::Party::next() const {
-  return sessions.at(turns.next()).requests.front();
-}
-
 void RequestQueue::expect_next(uint64_t id, const Party& party) {
-  if (!party.turns.empty()) turns_.expect(id, in_ns(party.next().cost_us));
+  if (!party.empty()) turns_.expect(id, in_ns(party.next().cost_us));
 }
 
 void RequestQueue::pop(float charged_us) {
@@ -88,20 +76,11 @@ void RequestQueue::pop(float charged_us) {
   using Then = FairTurns::Then;
   const uint64_t id = turns_.next();
   Party& party = parties_.at(id);
-  const auto session = party.sessions.find(party.turns.next());
-  CHECK(session != party.sessions.end() && !session->second.requests.empty());
-  session->second.waiting_us -= session->second.requests.front().cost_us;
-  session->second.requests.pop_front();
-  --party.requests;
+  party.pop(charged_us);
   --size_;
-  const uint64_t charged_ns = in_ns(charged_us);
-  const bool more = !session->second.requests.empty();
-  party.turns.charge(charged_ns, more ? Then::waits : Then::leaves);
-  if (more) party.turns.expect(session->first, in_ns(session->second.requests.front().cost_us));
-  if (!more) party.sessions.erase(session);  // no rounding of waiting_us is carried over
-  turns_.charge(charged_ns, party.requests == 0   ? Then::leaves
-                            : party.turns.empty() ? Then::is_passed_over
-                                                  : Then::waits);
+  turns_.charge(in_ns(charged_us), party.size() == 0 ? Then::leaves
+                                   : party.empty()   ? Then::is_passed_over
+                                                     : Then::waits);
   expect_next(id, party);
 }
 
@@ -109,8 +88,8 @@ void RequestQueue::pass_over() {
   CHECK(!turns_.empty());
   const uint64_t id = turns_.next();
   Party& party = parties_.at(id);
-  party.turns.pass_over();
-  if (party.turns.empty()) turns_.pass_over();
+  party.pass_over();
+  if (party.empty()) turns_.pass_over();
   expect_next(id, party);
 }
 
@@ -118,14 +97,12 @@ std::vector<Command> RequestQueue::drop(uint64_t session) {
   bring_back();
   std::vector<Command> dropped;
   for (auto& [id, party] : parties_) {  // it may have come again as one of another party
-    const auto found = party.sessions.find(session);
-    if (found == party.sessions.end()) continue;
-    for (WaitingRequest& request : found->second.requests) dropped.push_back(std::move(request.command));
-    party.requests -= found->second.requests.size();
-    size_ -= found->second.requests.size();
-    party.sessions.erase(found);
-    party.turns.leave(session);
-    if (party.requests == 0) turns_.leave(id);
+    if (!party.waits(session)) continue;
+    for (WaitingRequest& request : party.drop(session)) {
+      dropped.push_back(std::move(request.command));
+      --size_;
+    }
+    if (party.size() == 0) turns_.leave(id);
     expect_next(id, party);
   }
   return dropped;
@@ -134,7 +111,7 @@ std::vector<Command> RequestQueue::drop(uint64_t session) {
 void RequestQueue::bring_back() {
   turns_.bring_back();
   for (auto& [id, party] : parties_) {
-    party.turns.bring_back();
+    party.bring_back();
     expect_next(id, party);
   }
 }
@@ -143,13 +120,13 @@ void RequestQueue::begin_tick() {
   bring_back();
   turns_.forget_the_idle();
   for (auto& [id, party] : parties_)
-    party.turns.forget_the_idle();  // or a party whose sessions come and go would grow for ever
-  std::erase_if(parties_, [](const auto& entry) { return entry.second.requests == 0; });
+    party.begin_tick();  // or a party whose sessions come and go would grow for ever
+  std::erase_if(parties_, [](const auto& entry) { return entry.second.size() == 0; });
 }
 
 bool RequestQueue::waits(uint64_t party) const {
   const auto found = parties_.find(party);
-  return found != parties_.end() && found->second.requests > 0;
+  return found != parties_.end() && found->second.size() > 0;
 }
 
 bool RequestQueue::others_wait(uint64_t party) const {
@@ -159,10 +136,10 @@ bool RequestQueue::others_wait(uint64_t party) const {
 RequestsValue RequestQueue::value() const {
   RequestsValue value{turns_.value(), {}};
   for (const auto& [id, party] : parties_) {
-    PartyValue& one = value.parties.emplace_back(PartyValue{id, party.turns.value(), {}});
-    for (const auto& [session_id, session] : party.sessions) {
-      SessionValue& waiting = one.sessions.emplace_back(SessionValue{session_id, session.waiting_us, {}});
-      for (const WaitingRequest& request : session.requests) {
+    PartyValue& one = value.parties.emplace_back(PartyValue{id, party.turns(), {}});
+    for (const auto& [session_id, line] : party.lines()) {
+      SessionValue& waiting = one.sessions.emplace_back(SessionValue{session_id, line.waiting_us, {}});
+      for (const WaitingRequest& request : line.items) {
         const auto& [asker, number, body, in_common] = request.command;
         waiting.requests.push_back({{asker, number, body, in_common}, request.cost_us, request.since});
       }
@@ -190,25 +167,21 @@ Result<void> RequestQueue::restore_party(const PartyValue& value) {
   for (const SessionValue& session : value.sessions) {
     if (session.requests.empty() || !may_cost(session.waiting_us))
       return fail("a session without requests, or that waits for less than nothing or too much");
-    Session& one = party.sessions[session.session];
-    if (!one.requests.empty()) return fail("a session's requests come twice");
-    one.waiting_us = session.waiting_us;
+    if (party.waits(session.session)) return fail("a session's requests come twice");
     for (const auto& [recorded, cost_us, since] : session.requests) {
       const auto& [asker, number, body, in_common] = recorded;
       const Command command{asker, number, body, in_common};
       if (asker != session.session || party_of(command) != value.party || !may_cost(cost_us))
         return fail("a request waits where another one's turn is, or costs too much");
-      one.requests.push_back({command, cost_us, since});
+      party.push(asker, {command, cost_us, since});
     }
-    party.requests += one.requests.size();
+    party.lines().at(session.session).waiting_us = session.waiting_us;
     with_requests.push_back(session.session);
   }
   if (!agrees(value.turns, with_requests))
     return fail("sessions wait without a turn, or the other way round");
-  party.turns.restore(value.turns, [&](uint64_t session) {
-    return in_ns(party.sessions.at(session).requests.front().cost_us);
-  });
-  size_ += party.requests;
+  party.restore_turns(value.turns);
+  size_ += party.size();
   parties_.emplace(value.party, std::move(party));
   return {};
 }

@@ -1,16 +1,16 @@
 // Requests that wait for a tick with room for them. Parties take turns (command.h), and within a party its
-// sessions do (fair_turns.h): who asks for much waits for himself alone, and by more sessions nobody gets
+// sessions do (turn_queue.h): who asks for much waits for himself alone, and by more sessions nobody gets
 // more. Part of the simulation: deterministic, no clock. Not thread-safe.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <map>
 #include <vector>
 
 #include "server/command/command.h"
 #include "server/work/fair_turns.h"
+#include "server/work/turn_queue.h"
 #include "shared/base/ids.h"
 #include "shared/base/result.h"
 
@@ -55,18 +55,7 @@ class RequestQueue {
   bool others_wait(uint64_t party) const;
 
  private:
-  struct Session {
-    std::deque<WaitingRequest> requests;
-    float waiting_us = 0.0F;
-  };
-  struct Party {
-    std::map<uint64_t, Session> sessions;  ///< those with requests
-    FairTurns turns;                       ///< of the sessions
-    size_t requests = 0;                   ///< of all sessions
-
-    /// Some session must wait that was not passed over.
-    const WaitingRequest& next() const;
-  };
+  using Party = TurnQueue<WaitingRequest>;  ///< its sessions' requests
 
   /// By name, if no more of this party's requests, or this session's, may wait.
   Result<void> may_wait(const WaitingRequest& request) const;

@@ -99,11 +99,15 @@ void merge_buried(World::State& state, TickDelta& delta) {
   find_stuck(state);
   std::vector<PieceId> now;
   const bool merging = merges(state.config.methods.recombine);
-  for (const PieceId id : state.buried) {
-    if (!state.bodies.contains(id)) continue;
-    const float cost_us = merge_cost_us(state, id);
-    const bool affordable = now.empty() || state.work.affords(cost_us);
-    if (merging && affordable) {
+  TurnQueue<WaitingPiece>& turns = state.turns.buried;
+  for (const PieceId id : state.buried)
+    if (state.bodies.contains(id)) turns.push(state.party_of(id), {id, merge_cost_us(state, id)});
+  turns.begin_tick();
+  while (!turns.empty()) {
+    const auto [id, cost_us] = turns.next();
+    const bool merged = merging && (now.empty() || state.work.affords(cost_us));
+    turns.pop(merged ? cost_us : 0.0F);
+    if (merged) {
       state.work.spend(cost_us);
       now.push_back(id);
     } else if (!state.bodies.state(id).frozen) {

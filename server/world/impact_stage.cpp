@@ -156,7 +156,7 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
                                                                   .impact_voxels = breakup.impact_voxels(),
                                                                   .first_piece = state.next_piece,
                                                                   .cutter = cutter},
-                                                 delta);
+                                                 parent.owner, delta);
   CHECK_EQ(applied.terrain_gain, 0);
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
@@ -246,7 +246,7 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
     return;  // at the world's edge
   if (!quota.try_afford(limits::dent_cost_us, state.work, delta.work.dents_left_out)) return;
   const uint64_t owner = state.traits_of(impact.id).owner;
-  const Applied applied = state.apply_and_record(operation, delta);
+  const Applied applied = state.apply_and_record(operation, owner, delta);
   state.enter_removed(applied);
   const Ejecta ejecta(state, blow, applied);
   const auto thrown = [&](PieceId, const Volume& volume) {
@@ -265,10 +265,17 @@ void apply_impacts(World::State& state, TickDelta& delta) {
   if (!state.config.methods.impacts && !state.config.methods.dents) return;
   Quota breaks{limits::breaks_per_tick_max};
   Quota dents{limits::dents_per_tick_max};
-  for (const Blow& blow : blows_of(state)) {
+  const std::vector<Blow> blows = blows_of(state);
+  TurnQueue<WaitingWork>& turns = state.turns.blows;
+  for (size_t i = 0; i < blows.size(); ++i) turns.push(state.party_of(blows[i].impact.id), {i});
+  turns.begin_tick();
+  while (!turns.empty()) {
+    const Blow& blow = blows[turns.next().index];
     const bool on_terrain = !blow.impact.other.has_value();
+    const float left_us = state.work.left_us();
     if (state.config.methods.dents && on_terrain) dent_ground(state, blow, dents, delta);
     if (state.config.methods.impacts && blow.excess > 1.0F) break_piece(state, blow, breaks, delta);
+    turns.pop(left_us - state.work.left_us());
   }
 }
 

@@ -1,6 +1,10 @@
 #include "server/world/island_stage.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "server/work/limits.h"
@@ -21,10 +25,10 @@ bool still_there(Field& field, const Island& island) {
   return field.brick(brick_of(v)).codes[static_cast<size_t>(Brick::index(v.x & 7, v.y & 7, v.z & 7))] < 0;
 }
 
-void drop(World::State& state, const Island& island, TickDelta& delta) {
+void drop(World::State& state, const Island& island, uint64_t party, TickDelta& delta) {
   if (!still_there(state.field, island)) return;
   const Applied applied =
-      state.apply_and_record(IslandOperation{island.box, island.start, state.next_piece}, delta);
+      state.apply_and_record(IslandOperation{island.box, island.start, state.next_piece}, party, delta);
   state.enter_removed(applied);
   state.islands.fell(applied.changed);
   const float dx = state.config.terrain.voxel_size_m;
@@ -33,6 +37,7 @@ void drop(World::State& state, const Island& island, TickDelta& delta) {
     born.body.pose.position_m = volume.centre_voxels * dx;
     born.may_be_concave = true;
     born.traits.fell = true;
+    born.traits.owner = party;
     return born;
   };
   spawn(state, applied, at_rest, delta);
@@ -53,22 +58,40 @@ size_t bricks_to_read(const WorkBudget& work) {
                     limits::island_bricks_per_tick_max);
 }
 
-/// Adds one search for this tick's cuts; or several, when the cuts of many ticks waited for Methods::islands:
-/// a search over all of them would restart with every change among them.
+/// Adds one search for each party's cuts of this tick; or several, when the cuts of many ticks waited for
+/// Methods::islands: a search over all of them would restart with every change among them.
 void begin_searches(World::State& state) {
-  std::vector<BrickCoord> part;
-  for (const BrickCoord brick : state.loosened_bricks) {
-    part.push_back(brick);
-    if (part.size() == limits::island_loosened_bricks_max) state.islands.push(std::exchange(part, {}));
+  for (const auto& [party, bricks] : state.loosened_bricks) {
+    std::vector<BrickCoord> part;
+    for (const BrickCoord brick : bricks) {
+      part.push_back(brick);
+      if (part.size() == limits::island_loosened_bricks_max)
+        state.islands.push(party, std::exchange(part, {}));
+    }
+    state.islands.push(party, std::move(part));
   }
-  state.islands.push(std::move(part));
   state.loosened_bricks.clear();
+}
+
+/// Whether the party's terrain may become one more piece now.
+bool may_fall(const World::State& state, uint64_t party) {
+  const PieceRoom room{.alive = state.pieces.size(),
+                       .pieces_max = state.config.pieces_max,
+                       .bodies_load = state.work.bodies_load(),
+                       .others_wait = state.requests.others_wait(party) || state.islands.others_wait(party)};
+  const PieceGrant grant = state.shares.grant(party, 1, room);
+  return grant.pieces > 0 || grant.pieces_at_last > 0;
 }
 
 }  // namespace
 
-void IslandQueue::push(std::vector<BrickCoord> loosened) {
-  if (!loosened.empty()) waiting_.push_back({std::move(loosened), nullptr, 0});
+void IslandQueue::push(uint64_t party, std::vector<BrickCoord> loosened) {
+  if (!loosened.empty()) waiting_.push(party, {std::move(loosened), nullptr, 0});
+}
+
+void IslandQueue::begin_tick() {
+  waiting_.begin_tick();
+  falling_.begin_tick();
 }
 
 std::vector<BrickCoord> IslandQueue::Falling::starts() const {
@@ -77,47 +100,75 @@ std::vector<BrickCoord> IslandQueue::Falling::starts() const {
   return starts;
 }
 
+IslandQueue::Backlog IslandQueue::backlog(uint64_t party) const {
+  Backlog backlog;
+  if (const auto line = waiting_.lines().find(party); line != waiting_.lines().end())
+    backlog.searches = line->second.items.size();
+  if (const auto line = falling_.lines().find(party); line != falling_.lines().end())
+    for (const Falling& falling : line->second.items) backlog.falls += falling.islands.size();
+  return backlog;
+}
+
+size_t IslandQueue::parties() const {
+  return waiting_.lines().size() +
+         static_cast<size_t>(std::ranges::count_if(
+             falling_.lines(), [this](const auto& line) { return !waiting_.waits(line.first); }));
+}
+
+bool IslandQueue::others_wait(uint64_t party) const {
+  return waiting_.others_wait(party) || falling_.others_wait(party);
+}
+
 std::vector<LooseningEdit> IslandQueue::value() const {
+  std::map<uint64_t, std::vector<LooseningEdit>> parties;
+  for (const auto& [party, line] : falling_.lines())
+    for (const Falling& falling : line.items) parties[party].push_back({falling.starts(), 0, party});
+  for (const auto& [party, line] : waiting_.lines())
+    for (const Waiting& waiting : line.items)
+      parties[party].push_back({waiting.loosened, waiting.restarts, party});
   std::vector<LooseningEdit> value;
-  for (const Falling& falling : falling_) value.push_back({falling.starts(), 0});
-  for (const Waiting& waiting : waiting_) value.push_back({waiting.loosened, waiting.restarts});
+  for (auto& [party, searches] : parties) std::ranges::move(searches, std::back_inserter(value));
   return value;
 }
 
 void IslandQueue::restore(const std::vector<LooseningEdit>& value) {
-  falling_.clear();
-  waiting_.clear();
+  *this = IslandQueue();
   for (const LooseningEdit& edit : value)
-    if (!edit.bricks.empty()) waiting_.push_back({edit.bricks, nullptr, edit.restarts});
+    if (!edit.bricks.empty()) waiting_.push(edit.party, {edit.bricks, nullptr, edit.restarts});
 }
 
 std::vector<BrickCoord> IslandQueue::waiting() const {
   std::vector<BrickCoord> bricks;
-  for (const Waiting& waiting : waiting_)
-    bricks.insert(bricks.end(), waiting.loosened.begin(), waiting.loosened.end());
+  for (const auto& [party, line] : waiting_.lines())
+    for (const Waiting& waiting : line.items)
+      bricks.insert(bricks.end(), waiting.loosened.begin(), waiting.loosened.end());
   return bricks;
 }
 
 void IslandQueue::fell(std::span<const BrickCoord> bricks) {
-  for (Waiting& waiting : waiting_) {
-    if (waiting.search == nullptr || !has_seen(*waiting.search, bricks)) continue;
-    waiting.search.reset();
-    ++waiting.restarts;
-  }
+  for (auto& [party, line] : waiting_.lines())
+    for (Waiting& waiting : line.items) {
+      if (waiting.search == nullptr || !has_seen(*waiting.search, bricks)) continue;
+      waiting.search.reset();
+      ++waiting.restarts;
+    }
 }
 
 void IslandQueue::changed(std::span<const BrickCoord> bricks) {
   fell(bricks);
-  std::erase_if(falling_, [&](const Falling& falling) {
-    if (!has_seen(*falling.search, bricks)) return false;
-    push(falling.starts());
-    return true;
-  });
+  for (auto& [party, line] : falling_.lines())
+    for (Falling& falling : line.items) {
+      falling.stale = has_seen(*falling.search, bricks);
+      if (falling.stale) push(party, falling.starts());
+    }
+  falling_.erase_if([](const Falling& falling) { return falling.stale; });
 }
 
 bool IslandQueue::search(Field& field, SearchAllowance& allowance) {
   if (waiting_.empty() || allowance.bricks == 0) return false;
-  Waiting& first = waiting_.front();
+  const uint64_t party = waiting_.whose();
+  Waiting& first = waiting_.next();
+  const size_t read_before = allowance.read;
   if (first.search == nullptr) {
     first.search = std::make_unique<IslandSearch>(field, first.loosened, search_limits);
     allowance.read += first.search->read();
@@ -131,62 +182,118 @@ bool IslandQueue::search(Field& field, SearchAllowance& allowance) {
   CHECK(left <= allowed);
   allowance.read += allowed - left;
   allowance.bricks = left >> doublings;
-  if (!finished) return false;
+  const float charged_us = limits::island_brick_cost_us * static_cast<float>(allowance.read - read_before);
+  if (!finished) {
+    waiting_.go_on(charged_us, 0.0F);
+    return false;
+  }
   Falling falling{first.search->islands(), std::move(first.search)};
-  waiting_.pop_front();
+  waiting_.pop(charged_us);
   allowance.too_large += static_cast<uint32_t>(falling.search->too_large());
   // From the ground up, so that none falls on one that waits.
   std::ranges::sort(falling.islands, std::ranges::greater{},
                     [](const Island& island) { return std::pair(island.box.lo.y, island.start); });
-  if (!falling.islands.empty()) falling_.push_back(std::move(falling));
+  if (falling.islands.empty()) return true;
+  falling.cost_us = lift_price_us(falling.islands.back().box);
+  falling_.push(party, std::move(falling));
   return true;
 }
 
-void IslandQueue::pop() {
-  CHECK(!falling_.empty() && !falling_.front().islands.empty());
-  falling_.front().islands.pop_back();
-  if (falling_.front().islands.empty()) falling_.pop_front();
+void IslandQueue::pop(float charged_us) {
+  CHECK(!falling_.empty() && !falling_.next().islands.empty());
+  std::vector<Island>& islands = falling_.next().islands;
+  islands.pop_back();
+  if (islands.empty())
+    falling_.pop(charged_us);
+  else
+    falling_.go_on(charged_us, lift_price_us(islands.back().box));
 }
 
 size_t IslandQueue::falling() const {
   size_t count = 0;
-  for (const Falling& falling : falling_) count += falling.islands.size();
+  for (const auto& [party, line] : falling_.lines())
+    for (const Falling& falling : line.items) count += falling.islands.size();
   return count;
 }
+
+Result<void> may_cause_falls(const World::State& state, uint64_t party) {
+  party = state.charged(party);
+  if (party == 0 || !state.config.methods.islands || state.islands.idle(party)) return {};
+  const IslandQueue::Backlog own = state.islands.backlog(party);
+  const size_t left = limits::falls_waiting_max - std::min(limits::falls_waiting_max, state.islands.size());
+  const std::string count = std::to_string(own.count()) +
+                            " falls that this client, or those who share with "
+                            "it, caused are waiting";
+  if (own.count() >= left)
+    return fail(count + ", as many as there are places left of " + std::to_string(limits::falls_waiting_max) +
+                " (limits.falls_waiting_max): ask again later");
+  // Where they do not fit, one falls in island_rest_s, by the parties' turns.
+  const float wait_s =
+      limits::island_rest_s * static_cast<float>(own.falls) * static_cast<float>(state.islands.parties());
+  if (wait_s <= limits::falls_wait_max_s) return {};
+  return fail(count + ", for about " + std::to_string(static_cast<int>(std::lround(wait_s))) +
+              " s; this server lets them wait for " +
+              std::to_string(static_cast<int>(limits::falls_wait_max_s)) +
+              " s (limits.falls_wait_max_s): ask again when some have fallen");
+}
+
+namespace {
+
+/// Islands fall by the parties' turns while they fit. Where the next one does not, those of others may, and
+/// now and then it falls all the same; that is charged as all that could have been done meanwhile.
+void fall_in_turn(World::State& state, TickDelta& delta) {
+  const auto rest = static_cast<Tick>(limits::island_rest_s * static_cast<float>(state.config.tick_rate_hz));
+  const float rest_us = limits::island_rest_s * client_us_per_s(state.work, state.config);
+  bool in_order = true;
+  while (const Island* next = state.islands.next()) {
+    const Island island = *next;
+    const uint64_t party = state.islands.next_party();
+    if (state.pieces.size() >= state.config.pieces_max) break;
+    if (!may_fall(state, party)) {
+      state.islands.pass_over();
+      continue;
+    }
+    const float cost = lift_price_us(island.box);
+    const bool fits = state.work.affords(cost) && !is_crowding(state, party);
+    if (!fits && (!in_order || state.tick - state.island_at < rest)) {
+      in_order = false;
+      state.islands.pass_over();
+      continue;
+    }
+    if (in_order) state.island_at = state.tick;
+    state.islands.pop(fits ? cost : std::max(cost, rest_us));
+    drop(state, island, party, delta);
+    state.work.spend(cost);
+  }
+}
+
+}  // namespace
 
 void drop_islands(World::State& state, TickDelta& delta) {
   const std::vector<BrickCoord> changed(state.changed.begin(), state.changed.end());
   state.islands.changed(changed);
   if (!state.config.methods.islands) return;
   begin_searches(state);
+  state.islands.begin_tick();
   SearchAllowance allowance{.bricks = bricks_to_read(state.work)};
   while (state.islands.search(state.field, allowance)) {
   }
   delta.work.islands_too_large += allowance.too_large;
   state.work.spend(limits::island_brick_cost_us * static_cast<float>(allowance.read));
-  const auto rest = static_cast<Tick>(limits::island_rest_s * static_cast<float>(state.config.tick_rate_hz));
-  while (const Island* next = state.islands.next()) {
-    const Island island = *next;
-    const float cost = lift_price_us(island.box);
-    const bool fits = state.work.affords(cost) && !state.work.crowded();
-    if (state.pieces.size() >= state.config.pieces_max) break;
-    if (!fits && state.tick - state.island_at < rest) break;
-    state.island_at = state.tick;
-    state.islands.pop();
-    drop(state, island, delta);
-    state.work.spend(cost);
-  }
+  fall_in_turn(state, delta);
   delta.work.islands_put_off = static_cast<uint32_t>(state.islands.falling());
 }
 
 void sweep_specks(World::State& state, TickDelta& delta) {
   // A speck's fall may leave another speck behind: so this repeats until none is found.
   while (!state.unswept.empty()) {
-    const std::vector<BrickCoord> bricks(state.unswept.begin(), state.unswept.end());
-    state.unswept.clear();
-    for (const Island& speck : find_specks(state.field, bricks)) {
-      drop(state, speck, delta);
-      state.work.spend(limits::speck_cost_us);
+    const auto unswept = std::exchange(state.unswept, {});
+    for (const auto& [party, changed] : unswept) {
+      const std::vector<BrickCoord> bricks(changed.begin(), changed.end());
+      for (const Island& speck : find_specks(state.field, bricks)) {
+        drop(state, speck, party, delta);
+        state.work.spend(limits::speck_cost_us);
+      }
     }
   }
 }

@@ -42,6 +42,16 @@ inline constexpr int64_t neck_faces_per_seed = 24;
 inline constexpr uint32_t neck_seeds_max = 6;
 inline constexpr float neck_throw_m_s = 2.0F;
 
+/// Searches for islands and islands that wait to fall, of all parties. A party may have as many as there are
+/// places left, so that one more party always finds one. A finished search takes some 0.1 MB. Above: what may
+/// loosen more is refused.
+inline constexpr size_t falls_waiting_max = 512;
+
+/// How long a party's islands may wait until the last has fallen, seconds, where none fits and one falls in
+/// island_rest_s: who waits longer does not see any more what it was that he cut. Above: what may loosen more
+/// is refused.
+inline constexpr float falls_wait_max_s = 30.0F;
+
 /// Points of an island's surface that are tested against the ground, besides the corners of its hull. Above:
 /// they are spread more widely.
 inline constexpr size_t concave_samples_max = 128;
@@ -107,6 +117,11 @@ inline constexpr uint32_t sessions_max_max = 4096;
 /// practice.
 inline constexpr double requests_per_second_min = 0.1;
 inline constexpr double requests_per_second_max = 1.0e6;
+
+/// Reach of a client from its eye that a server may be asked for, metres: from an arm's length to beyond any
+/// place of a world.
+inline constexpr double reach_min_m = 1.0;
+inline constexpr double reach_max_m = 16384.0;
 
 /// Least reach of a request's shape, voxels: between the centres of voxels a smaller one would change
 /// nothing. Refused.

@@ -1,7 +1,9 @@
 #include "server/world/merge_stage.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
+#include <span>
 #include <utility>
 
 #include "server/work/limits.h"
@@ -23,14 +25,34 @@ StampMethod merge_method(const World::State& state) {
   return stamp_method_of(state.config.methods.recombine).value_or(smallest_stamp);
 }
 
-/// How many of the pieces, from the first on, merge in this tick: as many as the rest of its budget pays, or
-/// limits::merge_least_us where that is more; one at least.
-size_t affordable(const World::State& state, const std::vector<PieceId>& ready) {
-  const float most_us = std::max(state.work.left_us(), limits::merge_least_us);
+/// What a tick has for pieces at rest: so many, and microseconds for all of them.
+struct RestAllowance {
+  size_t pieces = 0;
+  float most_us = 0.0F;
+};
+
+/// The pieces that merge, or freeze, in this tick: as many as are allowed, one at least. They come layer by
+/// layer, from the ground up, and by the parties' turns within each. `layers`: of RestDetector.
+std::vector<PieceId> in_turn(World::State& state, const std::vector<PieceId>& ready,
+                             std::span<const uint32_t> layers, const RestAllowance& allowance) {
+  TurnQueue<WaitingPiece>& turns = state.turns.merges;
+  std::vector<PieceId> now;
   float sum_us = 0.0F;
-  size_t count = 0;
-  while (count < ready.size() && (sum_us += merge_cost_us(state, ready[count])) <= most_us) ++count;
-  return std::min(std::max<size_t>(count, 1), ready.size());
+  for (size_t at = 0; at < ready.size() && now.size() == at;) {
+    const uint32_t layer = layers[at];
+    for (; at < ready.size() && layers[at] == layer; ++at)
+      turns.push(state.party_of(ready[at]), {ready[at], merge_cost_us(state, ready[at])});
+    turns.begin_tick();
+    while (!turns.empty() && now.size() < allowance.pieces) {
+      const WaitingPiece next = turns.next();
+      sum_us += next.cost_us;
+      if (sum_us > allowance.most_us && !now.empty()) break;
+      turns.pop(next.cost_us);
+      now.push_back(next.piece);
+    }
+    turns.clear();
+  }
+  return now;
 }
 
 }  // namespace
@@ -52,19 +74,20 @@ void settle(World::State& state, TickDelta& delta) {
   std::vector<RestSupport> supports;
   for (const Carried& carried : contacts.carried) supports.push_back({carried.upper, carried.lower});
   delta.work.merging_sooner = merging && state.work.crowded();
-  std::vector<PieceId> ready = state.rest.update(
-      alive, contacts.on_terrain, supports,
-      merging ? state.config.merges_per_tick_max : limits::freezes_per_tick_max, delta.work.merging_sooner);
+  const std::vector<PieceId> ready =
+      state.rest.update(alive, contacts.on_terrain, supports, alive.size(), delta.work.merging_sooner);
+  const RestAllowance for_merges{state.config.merges_per_tick_max,
+                                 std::max(state.work.left_us(), limits::merge_least_us)};
+  const RestAllowance for_freezes{limits::freezes_per_tick_max, std::numeric_limits<float>::max()};
+  std::vector<PieceId> now = in_turn(state, ready, state.rest.layers(), merging ? for_merges : for_freezes);
+  state.rest.put_off_more(ready.size() - now.size());
   if (!merging) {
-    for (const PieceId id : ready) state.bodies.freeze(id);
+    for (const PieceId id : now) state.bodies.freeze(id);
     return;
   }
-  const size_t now = affordable(state, ready);
-  state.rest.put_off_more(ready.size() - now);
-  ready.resize(now);
   delta.work.merges_put_off = static_cast<uint32_t>(state.rest.put_off());
-  for (const PieceId id : ready) state.work.spend(merge_cost_us(state, id));
-  state.at_rest = std::move(ready);
+  for (const PieceId id : now) state.work.spend(merge_cost_us(state, id));
+  state.at_rest = std::move(now);
 }
 
 namespace {
@@ -137,10 +160,11 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
   }
   const bool all_fell =
       std::ranges::all_of(group, [&](const StampedPiece& one) { return state.traits_of(one.piece).fell; });
+  const uint64_t party = state.traits_of(first.piece).owner;
   for (const StampedPiece& one : group) state.bodies.remove(one.piece);
-  const Applied applied = state.apply_and_record(prepared.operation, delta, &prepared);
+  const Applied applied = state.apply_and_record(prepared.operation, party, delta, &prepared);
   // Flakes that hang loose now fall; but a flake that merges as it lay would fall again, and so for ever.
-  if (!all_fell) state.loosened_bricks.insert(applied.changed.begin(), applied.changed.end());
+  if (!all_fell) state.loosen(party, applied.changed);
   CHECK_EQ(applied.terrain_gain, prepared.gain);
   state.ledger.pieces -= mass;
   state.ledger.dust += mass - applied.terrain_gain;

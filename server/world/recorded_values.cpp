@@ -14,6 +14,7 @@ RecordedHeader to_recorded(const WorldConfig& config) {
   // Older programs refuse a header with a setting that they do not know.
   std::erase_if(out.settings, [](const SettingValue& value) { return value.name == spawn_setting; });
   out.spawn = config.spawn;
+  out.rules = config.rules;
   return out;
 }
 
@@ -23,6 +24,7 @@ Result<WorldConfig> config_of(const RecordedHeader& header) {
   config.ground = header.ground;
   config.tick_rate_hz = header.tick_rate_hz;
   config.merges_per_tick_max = header.merges_per_tick_max;
+  config.rules = header.rules;
   TRY(set_all(config, header.settings));
   config.spawn = header.spawn;
   TRY(validate(config));

@@ -28,6 +28,15 @@ ShatterOperation operation_of(const World::State& state, const PendingRefracture
           .cutter = cutter};
 }
 
+/// Price of its next cut; none when the piece is gone.
+float next_cut_us(const World::State& state, const PendingRefracture& pending) {
+  const auto piece = state.pieces.find(pending.piece);
+  if (piece == state.pieces.end()) return 0.0F;
+  const auto voxels = static_cast<float>(piece->second->window.codes.size());
+  const Cutter cutter = cutter_for(state.config.methods.cutter, voxels, limits::polygons_later_us);
+  return cut_price_us(cutter, voxels, pieces_at_once(cutter, voxels, pending.pieces));
+}
+
 void share_out(World::State& state, const Applied& applied, const PendingRefracture& of_all) {
   MassUnits mass = 0;
   for (const CreatedPiece& created : applied.created) mass += state.pieces.at(created.id)->mass;
@@ -38,7 +47,7 @@ void share_out(World::State& state, const Applied& applied, const PendingRefract
     if (pending.piece != 0) pending.thrown_by = nullptr;  // its parts were thrown when it was cut
     pending.piece = created.id;
     pending.pieces = static_cast<uint32_t>(state.pieces.at(created.id)->mass * of_all.pieces / mass);
-    if (pending.pieces >= 2) state.refractures.push_back(pending);
+    if (pending.pieces >= 2) enter_refracture(state, pending);
   }
 }
 
@@ -48,7 +57,7 @@ void refracture_piece(World::State& state, const PendingRefracture& pending, Sha
   const PieceTraits traits = state.traits_of(pending.piece);
   const glm::vec3 centre_voxels = state.pieces.at(pending.piece)->centre_voxels;
   state.bodies.remove(pending.piece);
-  const Applied applied = state.apply_and_record(operation, delta);
+  const Applied applied = state.apply_and_record(operation, pending.party, delta);
   CHECK_EQ(applied.terrain_gain, 0);
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
@@ -68,25 +77,33 @@ void refracture_piece(World::State& state, const PendingRefracture& pending, Sha
 
 }  // namespace
 
+void enter_refracture(World::State& state, const PendingRefracture& pending) {
+  state.refractures.push(pending.party, {pending, next_cut_us(state, pending)});
+}
+
 void queue_refractures(World::State& state, const Applied& applied, const CarveRequest& request,
-                       uint32_t wanted, bool whole) {
+                       uint64_t party, uint32_t wanted, bool whole) {
   state.refractured_at = state.tick;
   share_out(state, applied,
             {.pieces = wanted,
              .pattern = is_drawn(request.pattern) ? request.pattern : plain_pattern,
              .random_seed = request.random_seed,
              .impact_m = request.impact_m,
-             .thrown_by = whole ? std::make_shared<const CarveRequest>(request) : nullptr});
+             .thrown_by = whole ? std::make_shared<const CarveRequest>(request) : nullptr,
+             .party = state.charged(party)});
 }
 
 void refracture_pieces(World::State& state, TickDelta& delta) {
   const auto rest =
       static_cast<Tick>(limits::refracture_rest_s * static_cast<float>(state.config.tick_rate_hz));
+  const float rest_us = limits::refracture_rest_s * client_us_per_s(state.work, state.config);
+  state.refractures.begin_tick();
+  bool in_order = true;  // a piece whose turn it is may not fit, and those of others may
   while (!state.refractures.empty()) {
-    const PendingRefracture pending = state.refractures.front();
+    const PendingRefracture pending = state.refractures.next().pending;
     const size_t others = state.pieces.size() - 1;
     if (!state.bodies.contains(pending.piece) || others + 2 > state.config.pieces_max) {
-      state.refractures.pop_front();
+      state.refractures.pop(0.0F);
       continue;
     }
     ShatterOperation operation = operation_of(state, pending, state.bodies.state(pending.piece));
@@ -97,10 +114,14 @@ void refracture_pieces(World::State& state, TickDelta& delta) {
                                      operation.seeds);
     // A whole volume is thrown when it is cut, so it is next.
     const Tick wait = pending.thrown_by != nullptr ? 1 : rest;
-    const bool fits = state.work.affords(price) && !state.work.crowded();
-    if (!fits && state.tick - state.refractured_at < wait) break;
-    state.refractured_at = state.tick;
-    state.refractures.pop_front();
+    const bool fits = state.work.affords(price) && !is_crowding(state, pending.party);
+    if (!fits && (!in_order || state.tick - state.refractured_at < wait)) {
+      in_order = false;
+      state.refractures.pass_over();
+      continue;
+    }
+    if (in_order) state.refractured_at = state.tick;
+    state.refractures.pop(fits ? price : std::max(price, rest_us));
     refracture_piece(state, pending, operation, delta);
     state.work.spend(price);
   }

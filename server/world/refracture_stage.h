@@ -7,14 +7,17 @@
 
 namespace scree {
 
-/// Enters the pieces of a carve that asked for `wanted` pieces: each is to be cut into its share, by mass.
-/// `whole`: there is one, which the blow has not thrown yet.
+/// Enters the pieces of a party's carve that asked for `wanted` pieces: each is to be cut into its share, by
+/// mass. `whole`: there is one, which the blow has not thrown yet.
 void queue_refractures(World::State& state, const Applied& applied, const CarveRequest& request,
-                       uint32_t wanted, bool whole);
+                       uint64_t party, uint32_t wanted, bool whole);
 
-/// Cuts waiting pieces, in order: as many as the tick's budget allows, and now and then one that it does not.
-/// Pieces that are gone need no cut any more; where there is no room for more pieces
-/// (WorldConfig::pieces_max) they stay whole.
+/// Enters one that waits already.
+void enter_refracture(World::State& state, const PendingRefracture& pending);
+
+/// Cuts waiting pieces, by the parties' turns and each party's in order: as many as the tick's budget allows,
+/// and now and then one that it does not. Pieces that are gone need no cut any more; where there is no room
+/// for more pieces (WorldConfig::pieces_max) they stay whole.
 void refracture_pieces(World::State& state, TickDelta& delta);
 
 }  // namespace scree

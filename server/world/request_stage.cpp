@@ -163,11 +163,11 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, 
   const uint32_t at_once = seeds_at_once(state, request, grant, cutter);
   CarveOperation operation = operation_of(state, request, at_once, cutter);
   if (is_relaxed(request.pattern)) relax_seeds(state, operation);
-  const Applied applied = state.apply_and_record(operation, delta);
+  const Applied applied = state.apply_and_record(operation, party, delta);
   state.enter_removed(applied);
   const bool whole = at_once == 1 && grant.pieces > 1;  // what is cut later is thrown then
   throw_out(state, applied, whole ? at_rest(request) : request, party, delta);
-  if (at_once < grant.pieces) queue_refractures(state, applied, request, grant.pieces, whole);
+  if (at_once < grant.pieces) queue_refractures(state, applied, request, party, grant.pieces, whole);
   return static_cast<uint32_t>(applied.created.size());
 }
 
@@ -183,15 +183,15 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
   return static_cast<uint32_t>(enclosed.size());
 }
 
-Outcome fill(World::State& state, const FillRequest& request, TickDelta& delta) {
+Outcome fill(World::State& state, const FillRequest& request, uint64_t party, TickDelta& delta) {
   const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
-  const Applied applied = state.apply_and_record(FillOperation{request.shape}, delta);
+  const Applied applied = state.apply_and_record(FillOperation{request.shape}, party, delta);
   state.ledger.poured += applied.terrain_gain;
   return enclosed;
 }
 
-Outcome paint(World::State& state, const PaintRequest& request, TickDelta& delta) {
-  state.apply_and_record(PaintOperation{request.shape, request.material}, delta);
+Outcome paint(World::State& state, const PaintRequest& request, uint64_t party, TickDelta& delta) {
+  state.apply_and_record(PaintOperation{request.shape, request.material}, party, delta);
   return 0U;
 }
 
@@ -216,8 +216,8 @@ struct Executing {
   TickDelta& delta;
 
   Outcome operator()(const CarveRequest& request) const { return carve(state, request, party, grant, delta); }
-  Outcome operator()(const FillRequest& request) const { return fill(state, request, delta); }
-  Outcome operator()(const PaintRequest& request) const { return paint(state, request, delta); }
+  Outcome operator()(const FillRequest& request) const { return fill(state, request, party, delta); }
+  Outcome operator()(const PaintRequest& request) const { return paint(state, request, party, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
   Outcome operator()(const LeaveRequest&) const { return 0U; }  // enqueue_commands() has done it
 };
@@ -287,8 +287,20 @@ Outcome execute(World::State& state, const Command& command, const PieceGrant& g
   return std::visit(Executing{state, party_of(command), grant, delta}, command.body);
 }
 
+/// Whether terrain may fall because of it.
+bool may_loosen(const Request& request) {
+  return std::visit(
+      Overloaded{[](const CarveRequest&) { return true; }, [](const FillRequest&) { return true; },
+                 [](const PaintRequest&) { return false; }, [](const SettingsRequest&) { return false; },
+                 [](const LeaveRequest&) { return false; }},
+      request);
+}
+
 Checked enqueue(World::State& state, const Command& command) {
   if (Checked valid = check(state, command); !valid) return valid;
+  if (may_loosen(command.body))
+    if (Result<void> may = may_cause_falls(state, party_of(command)); !may)
+      return refuse(Refusal::falls_waiting, may.error().message);
   const float cost_us = price_us(command.body, state.field, state.config.methods.cutter);
   if (Result<void> taken = state.requests.push({command, cost_us, state.tick}); !taken)
     return refuse(Refusal::requests_waiting, taken.error().message);

@@ -10,6 +10,9 @@ namespace scree {
 struct ServiceLimits {
   uint32_t sessions_max = 64;         ///< clients at once; above: refused
   double requests_per_second = 30.0;  ///< of one client; above: each gets a reply that refuses it
+  /// From a session's eye to the nearest point of its edit, metres; beyond: refused. Administrators edit
+  /// anywhere.
+  double reach_m = 64.0;
 
   bool operator==(const ServiceLimits&) const = default;
 };

@@ -117,17 +117,21 @@ constexpr std::array table{
         {limits::requests_per_second_min, limits::requests_per_second_max, "requests a second", false}),
     text(spawn_setting, "where visitors begin, and which way they look; auto: where the ground suggests",
          {"auto or X,Y,Z or X,Y,Z,YAW,PITCH, metres and degrees", parse_spawn_choice, print_spawn_choice}),
+    number<&ServiceLimits::reach_m>(
+        "reach", "how far from its eye a client may edit, metres; administrators: anywhere",
+        {limits::reach_min_m, limits::reach_max_m, "metres", false}),
 };
 
 /// Each member is bound by name: a new member that is not in the table does not compile. The terrain, the
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
   const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent, methods,
-               service, spawn, ground] = world;
+                service, spawn, ground, rules] = world;
   static_cast<void>(ground);  // names the terrain's
+  static_cast<void>(rules);   // fixed from the start, as these three
   const auto& [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       methods;
-  const auto& [sessions_max, requests_per_second] = service;
+  const auto& [sessions_max, requests_per_second, reach_m] = service;
   constexpr size_t fixed = 3;
   const std::array config{static_cast<double>(terrain.voxel_size_m), static_cast<double>(tick_rate_hz),
                           static_cast<double>(pieces_max),           static_cast<double>(memory_max_mb),
@@ -136,7 +140,7 @@ constexpr std::array table{
       static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
       static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),
       static_cast<int>(group_merges), static_cast<int>(cutter),  static_cast<int>(simplifier)};
-  const std::array granted{static_cast<double>(sessions_max), requests_per_second};
+  const std::array granted{static_cast<double>(sessions_max), requests_per_second, reach_m};
   const std::array texts{&spawn};
   return std::integral_constant<size_t,
                                 config.size() - fixed + choices.size() + granted.size() + texts.size()>{};

@@ -26,7 +26,7 @@ void step_bodies(World::State& state, TickDelta& delta) {
   state.work.stepped(state.bodies);
 
   for (const PieceId id : state.bodies.beyond(world_half_m)) {
-    const Applied applied = state.apply_and_record(DiscardOperation{id}, delta);
+    const Applied applied = state.apply_and_record(DiscardOperation{id}, state.traits_of(id).owner, delta);
     state.bodies.remove(id);
     state.ledger.pieces -= applied.dust;
     state.ledger.dust += applied.dust;

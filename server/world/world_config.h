@@ -7,6 +7,7 @@
 
 #include "proto/spawn.h"
 #include "server/world/methods.h"
+#include "server/world/rules.h"
 #include "server/world/service_limits.h"
 #include "shared/base/digest.h"
 #include "shared/base/result.h"
@@ -27,9 +28,10 @@ struct WorldConfig {
   /// lowers it while its ticks are late, and raises it again (server/app/load_governor.h).
   uint32_t work_percent = 65;
   Methods methods;
-  ServiceLimits service;         ///< for the network; the simulation does not read it
-  std::optional<Spawn> spawn{};  ///< where visitors begin; nothing: where the ground suggests (SpawnPlace)
-  Digest ground{};               ///< names the file that terrain.heights is from; zeros: of no file
+  ServiceLimits service;           ///< for the network; the simulation does not read it
+  std::optional<Spawn> spawn{};    ///< where visitors begin; nothing: where the ground suggests (SpawnPlace)
+  Digest ground{};                 ///< names the file that terrain.heights is from; zeros: of no file
+  uint32_t rules = rules::newest;  ///< of service (rules.h); fixed from the start
 
   bool operator==(const WorldConfig&) const = default;
 };

@@ -1,4 +1,4 @@
-// World::moment(), snapshot(), restore() and renew().
+// World::snapshot() and restore(), and what a world is at once.
 #include "server/world/world_snapshot.h"
 
 #include <algorithm>
@@ -6,6 +6,7 @@
 
 #include "server/world/limits.h"
 #include "server/world/recorded_values.h"
+#include "server/world/refracture_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/world_state.h"
 #include "shared/base/check.h"
@@ -176,16 +177,18 @@ class Restoring {
   }
 
   Result<void> places() {
-    for (const auto* bricks : {&m_.loosened_bricks, &m_.strained})
-      if (!std::ranges::all_of(*bricks, [&](BrickCoord brick) { return in_world(brick); }))
-        return fail("a changed brick lies outside the world");
+    for (const auto* parties : {&m_.loosened_bricks, &m_.strained})
+      for (const PartyBricks& one : *parties)
+        if (!std::ranges::all_of(one.bricks, [&](BrickCoord brick) { return in_world(brick); }))
+          return fail("a changed brick lies outside the world");
     for (const LooseningEdit& search : m_.islands)
       if (!std::ranges::all_of(search.bricks, [&](BrickCoord brick) { return in_world(brick); }))
         return fail("a searched brick lies outside the world");
     if (!std::ranges::all_of(m_.gained, [&](const VoxelBox& box) { return is_sane(box); }))
       return fail("terrain gained rock outside the world");
-    s_.loosened_bricks = {m_.loosened_bricks.begin(), m_.loosened_bricks.end()};
-    s_.strained = {m_.strained.begin(), m_.strained.end()};
+    for (const auto& [party, bricks] : m_.loosened_bricks) s_.loosen(party, bricks);
+    for (const auto& [party, bricks] : m_.strained)
+      if (!bricks.empty()) s_.strained[s_.charged(party)].insert(bricks.begin(), bricks.end());
     s_.gained = m_.gained;
     return {};
   }
@@ -209,7 +212,7 @@ class Restoring {
       TRY(validate_shatter_pattern(pending.pattern));
       if (pending.thrown_by != nullptr && !is_valid(s_, {0, 0, *pending.thrown_by}))
         return fail("a cut's pieces are thrown by an operation that is not a carve");
-      s_.refractures.push_back(pending);
+      enter_refracture(s_, pending);
     }
     return {};
   }
@@ -276,44 +279,6 @@ Result<std::unique_ptr<World>> World::salvaged(WorldSnapshot value, const PagedT
   return std::unique_ptr<World>(new World(Made{}, std::move(state)));
 }
 
-WorldMoment World::moment() const {
-  const State& s = *state_;
-  CHECK(s.changed.empty() && s.unswept.empty() && s.at_rest.empty());
-  WorldMoment m;
-  m.config = to_recorded(s.config);
-  m.tick = s.tick;
-  m.next_piece = s.next_piece;
-  m.ledger = s.ledger;
-  m.field_hash = s.field.hash();
-  m.state_hash = s.hash();
-  for (const auto& [id, volume] : s.pieces)
-    m.pieces.push_back({id, s.traits.at(id), volume, s.bodies.shape(id)});
-  m.motion = s.bodies.motions();
-  m.rest = s.rest.value();
-  m.requests = s.requests.value();
-  m.requested = s.requested;
-  m.debt_us = s.work.debt_us();
-  m.refractures = {s.refractures.begin(), s.refractures.end()};
-  m.refractured_at = s.refractured_at;
-  m.island_at = s.island_at;
-  m.islands = s.islands.value();
-  m.loosened_bricks = {s.loosened_bricks.begin(), s.loosened_bricks.end()};
-  m.strained = {s.strained.begin(), s.strained.end()};
-  m.gained = s.gained;
-  m.buried = {s.buried.begin(), s.buried.end()};
-  m.sunk = {s.sunk.begin(), s.sunk.end()};
-  return m;
-}
-
-void World::renew() {
-  State& s = *state_;
-  CHECK(s.thread.is_the_same(), "another thread owns this world: it must call release_thread() first");
-  s.bodies.renew();
-  s.rest.restore(s.rest.value());
-  s.islands.restore(s.islands.value());
-  s.check();
-}
-
 WorldSnapshot World::snapshot() {
   WorldSnapshot value{moment(), {}};
   for (const ChunkCoord coord : state_->field.edited_chunks()) {
@@ -369,17 +334,6 @@ TickDelta World::outline() {
   delta.field_hash = s.field.hash();
   delta.state_hash = s.hash();
   return delta;
-}
-
-uint64_t first_free_session(const WorldMoment& moment) {
-  uint64_t last = 0;
-  for (const PieceRecord& piece : moment.pieces) last = std::max(last, piece.traits.owner);
-  for (const PartyValue& party : moment.requests.parties) {
-    last = std::max(last, party.party);
-    for (const SessionValue& session : party.sessions) last = std::max(last, session.session);
-  }
-  for (const TurnsValue::Turn& turn : moment.requests.turns.turns) last = std::max(last, turn.who);
-  return last + 1;
 }
 
 }  // namespace scree

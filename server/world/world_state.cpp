@@ -71,7 +71,15 @@ World::State::State(const WorldConfig& world_config, size_t threads)
   field.bound_generated(generated_bytes_within(config.memory_max_mb));
 }
 
-Applied World::State::apply_and_record(const Operation& operation, TickDelta& delta,
+namespace {
+
+void add(BricksByParty& to, uint64_t party, const std::vector<BrickCoord>& bricks) {
+  if (!bricks.empty()) to[party].insert(bricks.begin(), bricks.end());
+}
+
+}  // namespace
+
+Applied World::State::apply_and_record(const Operation& operation, uint64_t party, TickDelta& delta,
                                        const PreparedStamp* prepared) {
   const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);
   Applied applied = apply(operation, field, pieces, prepared);
@@ -81,9 +89,10 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
   delta.operations.back().stage = stopwatch.stage();
   changed.insert(applied.changed.begin(), applied.changed.end());
   const Loose loose = left_by(operation);
-  if (loose == Loose::islands) loosened_bricks.insert(applied.changed.begin(), applied.changed.end());
-  if (config.methods.support) strained.insert(applied.changed.begin(), applied.changed.end());
-  if (loose == Loose::specks) unswept.insert(applied.changed.begin(), applied.changed.end());
+  party = charged(party);
+  if (loose == Loose::islands) loosen(party, applied.changed);
+  if (config.methods.support) add(strained, party, applied.changed);
+  if (loose == Loose::specks) add(unswept, party, applied.changed);
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   if (applied.terrain_gain > 0) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
@@ -93,6 +102,10 @@ Applied World::State::apply_and_record(const Operation& operation, TickDelta& de
     traits.erase(ended);
   }
   return applied;
+}
+
+void World::State::loosen(uint64_t party, const std::vector<BrickCoord>& bricks) {
+  add(loosened_bricks, charged(party), bricks);
 }
 
 void World::State::enter_removed(const Applied& applied) {

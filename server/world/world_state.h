@@ -8,7 +8,6 @@
 // next_piece are used up; the ledger's sum is right.
 #pragma once
 
-#include <deque>
 #include <map>
 #include <set>
 
@@ -18,8 +17,10 @@
 #include "server/recombine/rest.h"
 #include "server/work/piece_shares.h"
 #include "server/work/request_queue.h"
+#include "server/work/turn_queue.h"
 #include "server/work/work.h"
 #include "server/world/island_stage.h"
+#include "server/world/rules.h"
 #include "server/world/spawn_place.h"
 #include "server/world/stages.h"
 #include "server/world/world.h"
@@ -28,12 +29,44 @@
 
 namespace scree {
 
+/// Bricks by the party that changed them; none is empty.
+using BricksByParty = std::map<uint64_t, std::set<BrickCoord>>;
+
+struct WaitingRefracture {
+  PendingRefracture pending;
+  float cost_us = 0.0F;
+};
+
+struct WaitingPiece {
+  PieceId piece = 0;
+  float cost_us = 0.0F;
+};
+/// Work whose price is not known before it is done.
+struct WaitingWork {
+  size_t index = 0;  ///< of the stage's own list
+  float cost_us = 0.0F;
+};
+
+/// The parties' turns in stages that find their work anew in every tick: they remember who had how much, and
+/// are empty between stages.
+struct StageTurns {
+  TurnQueue<WaitingPiece> merges, buried;
+  TurnQueue<WaitingWork> blows, supports;
+};
+
 struct World::State {
   State(const WorldConfig& world_config, size_t threads);
 
-  /// Applies a valid operation. Enters the terrain's gain in the ledger; the caller enters the other side.
-  Applied apply_and_record(const Operation& operation, TickDelta& delta,
+  /// Applies a valid operation, which a party (command.h) caused: falls and breaks that follow from it are
+  /// that party's. Enters the terrain's gain in the ledger; the caller enters the other side.
+  Applied apply_and_record(const Operation& operation, uint64_t party, TickDelta& delta,
                            const PreparedStamp* prepared = nullptr);
+  /// A search for islands begins around these bricks, as the party's.
+  void loosen(uint64_t party, const std::vector<BrickCoord>& bricks);
+  /// The party in whose turn work is done: by rules::as_they_come always 0, the world itself.
+  uint64_t charged(uint64_t party) const { return config.rules >= rules::by_party ? party : 0; }
+  /// The same of who made the piece.
+  uint64_t party_of(PieceId id) const { return charged(traits_of(id).owner); }
   /// Enters the mass that an operation took out of the terrain: in pieces, and the rest in dust.
   void enter_removed(const Applied& applied);
   PieceTraits traits_of(PieceId id) const;
@@ -58,27 +91,33 @@ struct World::State {
   Ledger ledger;
   Tick tick = 0;
   PieceId next_piece = 1;
-  std::set<BrickCoord> changed;          ///< in this tick
-  std::set<BrickCoord> loosened_bricks;  ///< changed bricks that await a search for islands
-  std::set<BrickCoord> strained;         ///< changed bricks that await a search for support
-  std::set<BrickCoord> unswept;          ///< changed by merges and falling islands: specks may lie there
-  std::vector<VoxelBox> gained;          ///< around terrain that gained rock since merge_buried() looked last
-  std::set<PieceId> buried;              ///< pieces in rock that await their merge
-  std::set<PieceId> sunk;                ///< pieces that were in rock when merge_buried() looked last
+  std::set<BrickCoord> changed;   ///< in this tick
+  BricksByParty loosened_bricks;  ///< changed bricks that await a search for islands
+  BricksByParty strained;         ///< changed bricks that await a search for support
+  BricksByParty unswept;          ///< changed by merges and falling islands: specks may lie there
+  std::vector<VoxelBox> gained;   ///< around terrain that gained rock since merge_buried() looked last
+  std::set<PieceId> buried;       ///< pieces in rock that await their merge
+  std::set<PieceId> sunk;         ///< pieces that were in rock when merge_buried() looked last
   IslandQueue islands;
-  std::deque<PendingRefracture> refractures;  ///< in order
+  TurnQueue<WaitingRefracture> refractures;
   Tick refractured_at = 0;  ///< tick in which one of them, or what they are parts of, was cut last
   Tick island_at = 0;       ///< tick in which an island fell last
   WorkBudget work;
   RequestQueue requests;         ///< that wait for a tick with room for them
   Tick requested = 0;            ///< tick in which a request that costs time was carried out last
   PieceShares shares;            ///< of the clients in `pieces`, by PieceTraits::owner
+  StageTurns turns;              ///< empty between stages
   std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
   SpawnPlace spawn_place;        ///< where visitors begin
   bool wants_physics = false;    ///< a client wants to see the bodies
   StageStopwatch stopwatch;      ///< of the tick's stages
   ThreadCheck thread;            ///< that of step()
 };
+
+/// Whether bodies are a crowd, and the party has its part of them.
+inline bool is_crowding(const World::State& state, uint64_t party) {
+  return state.work.crowded() && !state.shares.holds_little(party);
+}
 
 /// Estimated work that all clients together get a second.
 float client_us_per_s(const WorkBudget& work, const WorldConfig& config);

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "shared/base/overloaded.h"
 #include "shared/base/setting_value.h"
 #include "shared/field/material.h"
 #include "shared/field/shape.h"
@@ -53,5 +54,15 @@ struct LeaveRequest {
 };
 
 using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest>;
+
+/// The shape of a request that edits terrain; null: it edits none.
+inline const Shape* shape_of(const Request& request) {
+  return std::visit(Overloaded{[](const CarveRequest& carve) { return &carve.shape; },
+                               [](const FillRequest& fill) { return &fill.shape; },
+                               [](const PaintRequest& paint) { return &paint.shape; },
+                               [](const SettingsRequest&) { return static_cast<const Shape*>(nullptr); },
+                               [](const LeaveRequest&) { return static_cast<const Shape*>(nullptr); }},
+                    request);
+}
 
 }  // namespace scree

@@ -120,8 +120,10 @@ function beforeCarve(place, number) {
   return report.spoiled;
 }
 
+/** It goes on carving where it stood: the server measures its reach from the eye that was told last. */
 function look(from) {
   connection.send('interest', { eye: asPoint(from), radius_m: Number(options.interest) });
+  connection.send('cursor', { eye: asPoint(eye), aim: asPoint(eye) });
 }
 
 function frame(message) {

@@ -94,6 +94,19 @@ TEST(piece_shares, who_holds_less_than_his_part_of_the_limit_gets_the_least_at_l
   EXPECT_EQ(shares.grant(2, 64, room).pieces_at_last, 0U) << "it holds a third";
 }
 
+TEST(piece_shares, who_holds_less_than_its_part_holds_little) {
+  PieceShares shares = holding(1, 500);
+  EXPECT_FALSE(shares.holds_little(1)) << "it is alone";
+  EXPECT_TRUE(shares.holds_little(2));
+  for (int i = 0; i < 499; ++i) shares.add(2);
+  EXPECT_TRUE(shares.holds_little(2));
+  shares.add(2);
+  EXPECT_FALSE(shares.holds_little(2) || shares.holds_little(1)) << "each has its half";
+  for (int i = 0; i < 5000; ++i) shares.add(0);
+  EXPECT_FALSE(shares.holds_little(2)) << "the world's own pieces are nobody's rivals";
+  EXPECT_FALSE(shares.holds_little(0));
+}
+
 TEST(piece_shares, a_piece_that_nobody_has_cannot_go) {
   PieceShares shares = holding(1, 1);
   shares.remove(1);

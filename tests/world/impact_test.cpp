@@ -86,7 +86,7 @@ TEST(impact, a_piece_weighs_what_its_material_weighs_and_its_children_do_too) {
   World::State state(flat_world(), 1);
   TickDelta delta;
   const Applied cut = state.apply_and_record(
-      CarveOperation{sphere({0.0F, 0.0F, 0.0F}, 0.8F), SeedPattern::uniform, 1, 1, {}, 1}, delta);
+      CarveOperation{sphere({0.0F, 0.0F, 0.0F}, 0.8F), SeedPattern::uniform, 1, 1, {}, 1}, 0, delta);
   const auto born = [](PieceId, const Volume&) {
     Newborn piece;
     piece.body.pose.position_m = {8.0F, 20.0F, 0.0F};  // not back into its hole
@@ -138,7 +138,7 @@ glm::dvec3 momentum(const World::State& state, const PieceTable& pieces) {
 void throw_block(World::State& state, TickDelta& delta) {
   apply(FillOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(0.75F))}, state.field, state.pieces);
   const Applied cut = state.apply_and_record(
-      CarveOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(1.5F)), SeedPattern::uniform, 1, 1, {}, 1}, delta);
+      CarveOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(1.5F)), SeedPattern::uniform, 1, 1, {}, 1}, 0, delta);
   ASSERT_EQ(cut.created.size(), 1U);
   const auto born = [](PieceId, const Volume&) {
     Newborn piece;
@@ -246,7 +246,7 @@ PieceId throw_heaviest(World::State& state, TickDelta& delta) {
   for (const auto& [id, volume] : state.pieces) all.push_back(id);
   for (const PieceId id : all) {
     if (state.bodies.contains(id)) state.bodies.remove(id);
-    if (id != heaviest) state.apply_and_record(DiscardOperation{id}, delta);
+    if (id != heaviest) state.apply_and_record(DiscardOperation{id}, 0, delta);
   }
   Applied again;
   again.created = {{heaviest, {}}};
@@ -270,7 +270,7 @@ TEST(impact, a_piece_whose_ancestors_broke_often_enough_holds) {
   const Shape block = box({0.0F, 12.0F, 0.0F}, glm::vec3(3.0F));
   apply(FillOperation{block}, state.field, state.pieces);
   state.apply_and_record(
-      CarveOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(4.0F)), SeedPattern::uniform, 1, 1, {}, 1}, delta);
+      CarveOperation{box({0.0F, 12.0F, 0.0F}, glm::vec3(4.0F)), SeedPattern::uniform, 1, 1, {}, 1}, 0, delta);
   for (int generation = 0; generation <= limits::break_generations_max; ++generation) {
     const PieceId piece = throw_heaviest(state, delta);
     ASSERT_GT(state.pieces.at(piece)->mass, 2 * limits::break_mass_min)

@@ -236,7 +236,7 @@ TEST(work, a_tick_without_any_budget_left_still_merges_a_few) {
   TickDelta delta;
   const glm::vec3 centre_m(0.0F, 0.0F, 0.0F);
   const Applied cut = state.apply_and_record(
-      CarveOperation{sphere(centre_m, 2.0F), SeedPattern::uniform, 64, 1, centre_m, 1}, delta);
+      CarveOperation{sphere(centre_m, 2.0F), SeedPattern::uniform, 64, 1, centre_m, 1}, 0, delta);
   const auto where_it_was = [](PieceId, const Volume& volume) {
     Newborn born;
     born.body.pose.position_m = volume.centre_voxels * voxel_m;

@@ -1,0 +1,18 @@
+// In which order a world serves the work that its parties caused. A recording says by which rules it was
+// made, and is verified by these. A world of an older file is played on by the newest.
+#pragma once
+
+#include <cstdint>
+
+namespace scree {
+
+namespace rules {
+/// Falls, cuts, merges and support are served as they come, as the world's own. Before 0.3.
+inline constexpr uint32_t as_they_come = 0;
+/// They belong to the party that caused them, and parties take turns (server/work/turn_queue.h).
+inline constexpr uint32_t by_party = 1;
+/// New worlds have these. A program goes by its own newest where a file names newer ones.
+inline constexpr uint32_t newest = by_party;
+}  // namespace rules
+
+}  // namespace scree
