@@ -124,7 +124,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
       publisher_.set_control_refusal(session.id(), control.error().message);
   if (hello.meets)
     talk_.join(session.id(), entry.party != 0 ? entry.party : session.id(), entry.name, grant.role);
-  note({.kind = EventKind::join, .place_m = hello.eye_m, .session = session.id(), .text = entry.name});
+  note(EventKind::join, entry, hello.eye_m);
   ++figures_.counts().sessions_joined;
   figures_.counts().sessions_resumed += before ? 1 : 0;
   update_stats();
@@ -171,7 +171,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return {};
           },
           [&](const SayMessage& said) -> Done {
-            pass_on(said, session, talk_, sessions_, steady_now_s(), config_.said);
+            pass_on(said, session, talk_, sessions_, steady_now_s(), {config_.said, config_.log_chat});
             return {};
           },
           [&](const PhysicsSubscriptionMessage& subscription) -> Done {
@@ -243,7 +243,7 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
              fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
   }
   const SessionEntry& entry = sessions_.at(session.id());
-  if (entry.joined_s > 0.0) note({.kind = EventKind::leave, .session = session.id(), .text = entry.name});
+  if (entry.joined_s > 0.0) note(EventKind::leave, entry);
   door_.leave(session.address(), steady_now_s());
   forget(session.id());
   returns_.closed(entry, steady_now_s());
@@ -286,6 +286,7 @@ void NetHost::check_time() {
 void NetHost::set_access(std::shared_ptr<const Access> access) {
   CHECK(network_thread_.is_the_same());
   authorizer_.set_access(std::move(access));
+  administration_.read_bans_again();
   log_access(authorizer_.access());
   end_lapsed_grants(sessions_, authorizer_.access());
 }
@@ -380,8 +381,9 @@ void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
 
 // ---- what others are told
 
-void NetHost::note(Event event) const {
-  if (config_.noted) config_.noted(std::move(event));
+void NetHost::note(EventKind kind, const SessionEntry& entry, std::optional<glm::vec3> place_m) const {
+  const uint64_t session = entry.session->id(), token = entry.grant.token_id;
+  if (config_.noted) config_.noted({kind, 0, place_m, 0.0F, 0, session, 0.0F, entry.name, token});
 }
 
 NetFigures NetHost::status_figures() {

@@ -91,7 +91,7 @@ class NetHost final : public SessionHost, public WebHost {
   void grant(const ServiceLimits& service);
   void queue_frames(const TickDelta& delta);
   void answer(const TickDelta& delta, const TickSpan& span);
-  void note(Event event) const;
+  void note(EventKind kind, const SessionEntry& entry, std::optional<glm::vec3> place_m = {}) const;
   void update_stats();
 
   const NetConfig config_;
