@@ -34,6 +34,9 @@ struct Setting {
   std::span<const std::string_view> tried;
   double (*get)(const WorldConfig& config);  ///< the number, or the index in `choices`
   void (*put)(WorldConfig& config, double value);
+  /// A limit of the machine that a server runs on, not a part of the world: where a server is told it at its
+  /// start, that wins over what a kept world has saved.
+  bool of_machine = false;
 
   /// The possible values in words: "field, mesh or rays"; "1 to 20000 pieces, whole".
   std::string may_be() const;
@@ -54,5 +57,7 @@ Result<void> set_all(WorldConfig& config, const SettingValues& values);
 Result<void> check_together(const WorldConfig& config);
 /// Every setting, in the table's order.
 SettingValues print(const WorldConfig& config);
+/// Those of `values` that the configuration does not have so.
+SettingValues differing(const SettingValues& values, const WorldConfig& config);
 
 }  // namespace scree

@@ -249,7 +249,7 @@ TEST_F(RoleTest, who_is_banned_stays_out_over_a_restart_until_it_is_lifted) {
   EXPECT_TRUE(holds(refusal(hello(token(Role::builder))), "banned"));
   ASSERT_TRUE(ban_address(admin(the_admin_token), {0, "2001:db8:1:2:3:4:5:6", 90, ""}));
   EXPECT_TRUE(
-      holds(ban_address(admin(the_admin_token), {0, "nowhere", 0, ""}).error().message, "no IPv4 or IPv6"));
+      holds(ban_address(admin(the_admin_token), {0, "nowhere", 0, ""}).error().message, "an IPv4 or IPv6"));
   server->stop();
   start();
   EXPECT_TRUE(holds(refusal(hello("")), "banned from the server: griefing"));
