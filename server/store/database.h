@@ -65,6 +65,11 @@ class Database {
   bool is_busy() const;
   /// Whether an error of a database says that the system refused, as on a full disk: nothing of the file.
   static bool is_refusal(const Error& error);
+  /// The same, and all else that may pass by itself: another program that holds the file, a failing disk, a
+  /// file or a disk that may not be written just now.
+  static bool may_pass(const Error& error);
+  /// Whether an error says that another program holds the file.
+  static bool is_held(const Error& error);
   /// Whether the file is not there any more under its name.
   bool has_moved() const;
   /// Runs a select with the parameter (tick) and the columns (data, checksum). Data that does not match its
