@@ -37,7 +37,10 @@ struct LiveConfig {
   size_t bricks_in_max = 0;  ///< edited bricks in memory; 0: as many as the setting memory-max allows
   Durability durability = Durability::second;
   double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
-  std::string trace_path;     ///< file of the trace (shared/base/trace.h); empty: none
+  /// Limits of the machine (Setting::of_machine) that the server was told: they win over what the world that
+  /// it continues has saved. `world` has them, too.
+  SettingValues machine_limits;
+  std::string trace_path;  ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
   bool governed = false;      ///< the setting work-percent follows how late ticks are (load_governor.h)
   Tick ticks_max = 0;         ///< the server ends after so many ticks; 0: never
