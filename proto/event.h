@@ -107,7 +107,7 @@ struct RecordedMachine {
   std::vector<Event> events;
   std::vector<CursorSample> cursors{};  ///< ascending; the first has all persons
   uint64_t unix_ms = 0;                 ///< when its tick was written, ms since 1970; 0: it is not known
-  std::vector<Participant> persons{};        ///< where a part of a recording begins: who joined before
+  std::vector<Participant> persons{};   ///< where a part of a recording begins: who joined before
 };
 
 }  // namespace scree

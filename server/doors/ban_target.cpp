@@ -65,7 +65,8 @@ Result<BanTarget::Network> BanTarget::read_network(const std::string& text) {
   const asio::ip::address address = asio::ip::make_address(text.substr(0, slash), error);
   if (error)
     return fail(fmt::format(
-        "'{}' is not an IPv4 or IPv6 address, a network such as 203.0.113.0/24, name:NAME or token:ID", text));
+        "'{}' is not an IPv4 or IPv6 address, a network such as 203.0.113.0/24, name:NAME or token:ID",
+        text));
   const bool is_mapped = address.is_v6() && address.to_v6().is_v4_mapped();
   Network network{bytes_of(address), 0, address.is_v4() || is_mapped};
   const bool of_v4 = address.is_v4();
@@ -77,7 +78,8 @@ Result<BanTarget::Network> BanTarget::read_network(const std::string& text) {
                                            : limits::ban_bits_min_v6;
     const auto read = read_bits(text.substr(slash + 1), least, most);
     if (!read)
-      return fail(fmt::format("'{}' is not a network: it has {} to {} bits behind the slash", text, least, most));
+      return fail(
+          fmt::format("'{}' is not a network: it has {} to {} bits behind the slash", text, least, most));
     bits = *read;
   }
   network.bits = of_v4 ? v4_at + bits : bits;

@@ -59,8 +59,7 @@ Result<std::vector<Bans::Line>> Bans::read_file(bool is_strict) {
       parsed = fail(fmt::format("there are more than {} bans (limits.bans_max)", limits::bans_max));
     if (parsed) continue;
     line.key.clear();
-    if (is_strict)
-      return fail(fmt::format("{}, line {}: {}", path_, lines.size(), parsed.error().message));
+    if (is_strict) return fail(fmt::format("{}, line {}: {}", path_, lines.size(), parsed.error().message));
   }
   return lines;
 }

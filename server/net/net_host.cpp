@@ -381,11 +381,6 @@ void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
 
 // ---- what others are told
 
-void NetHost::note(EventKind kind, const SessionEntry& entry, std::optional<glm::vec3> place_m) const {
-  const uint64_t session = entry.session->id(), token = entry.grant.token_id;
-  if (config_.noted) config_.noted({kind, 0, place_m, 0.0F, 0, session, 0.0F, entry.name, token});
-}
-
 NetFigures NetHost::status_figures() {
   update_stats();
   return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s())};

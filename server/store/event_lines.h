@@ -14,7 +14,7 @@ struct EventContext {
   uint32_t tick_rate_hz = 60;
   std::optional<float> tick_ms{};  ///< that the tick's simulation took: the event's cost
   uint64_t unix_ms = 0;            ///< when it happened, ms since 1970; 0: it is not known
-  Participant who{};                    ///< the event's session
+  Participant who{};               ///< the event's session
 };
 
 /// A line without its end: an object with event, tick, time_s, and what else is known of at (ISO 8601, UTC),
