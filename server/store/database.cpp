@@ -204,12 +204,6 @@ Result<void> Database::copy_to(const std::string& path) {
   return {};
 }
 
-bool Database::is_full() const {
-  const int refused = refused_by_system(database_.get());  // EFBIG: ulimit -f
-  return sqlite3_errcode(database_.get()) == SQLITE_FULL || refused == ENOSPC || refused == EFBIG ||
-         refused == EDQUOT;
-}
-
 bool Database::is_refusal(const Error& error) {
   return error.message.find(refusal_words) != std::string::npos || error.message.ends_with(full_words);
 }

@@ -59,8 +59,6 @@ class Database {
   Result<void> each_number(const std::string& select, const NumbersVisitor& visit);
   /// Copies the whole database, as of one moment, into a new file.
   Result<void> copy_to(const std::string& path);
-  /// Whether the last failure was that the disk, or the limit of a file's size, has no room.
-  bool is_full() const;
   /// Whether the last call failed because another program has the file open.
   bool is_busy() const;
   /// Whether an error of a database says that the system refused, as on a full disk: nothing of the file.
