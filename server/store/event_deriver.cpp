@@ -14,7 +14,7 @@ glm::vec3 middle_of(const Shape& shape) {
   return row_of(shape.kind).has_b ? (shape.a + shape.b) * 0.5F : shape.a;
 }
 
-/// Of the first of these pieces that is alive.
+/// The place of the first of these pieces that is alive.
 std::optional<glm::vec3> place_of_pieces(const std::vector<PieceId>& pieces, const TickDelta& delta) {
   for (const PieceId id : pieces)
     if (const auto state = std::ranges::lower_bound(delta.pieces, id, {}, &PieceState::id);

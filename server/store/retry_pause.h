@@ -17,7 +17,7 @@ namespace scree {
 struct StoreHealth {
   std::optional<std::string> because;  ///< why the last try failed; nothing: all that was due is written
   uint64_t since_unix_ms = 0;          ///< the first failure since it was well, or 0
-  /// Given up for good since the start: ticks of a recording, lines of a log. Of a world nothing ever is
+  /// Given up for good since the start: ticks of a recording, or lines of a log. A world gives nothing up
   /// before the server ends.
   uint64_t lost = 0;
 
