@@ -32,7 +32,7 @@ sigset_t block_signals() {
 
 void reload(LiveServer& server) {
   if (const auto reloaded = server.reload(); reloaded)
-    spdlog::info("certificate, keys, revoked tokens and the page were read again (SIGHUP)");
+    spdlog::info("certificate, keys, revoked tokens, bans and the page were read again (SIGHUP)");
   else
     spdlog::error("nothing was read again (SIGHUP), the old values stay in force: {}",
                   reloaded.error().message);
