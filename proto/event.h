@@ -68,7 +68,10 @@ constexpr EventRow row_of(EventKind kind) {
     case EventKind::leave:
       return {kind, "leave", true, "a session's connection ended; text: the person's name"};
     case EventKind::slow:
-      return {kind, "slow", true, "the tick's simulation took longer than a tick's time; ms: how long"};
+      return {kind, "slow", true,
+              "the tick's simulation took longer than a tick's time; ms: how long; text: its longest stage; "
+              "place "
+              "and session: of the largest operation in that"};
   }
   return {};
 }
@@ -79,11 +82,21 @@ struct Event {
   std::optional<glm::vec3> place_m{};  ///< nothing where it has no place
   float volume_m3 = 0.0F;
   uint32_t pieces = 0;
-  uint64_t session = 0;  ///< 0: it is nobody's
+  uint64_t session = 0;  ///< who asked for it, or joined or left; 0: it is nobody's
   float ms = 0.0F;       ///< of the tick; of machine events alone, for a simulation knows no time
   std::string text{};
+  uint64_t token_id = 0;  ///< of the access token, by which a session joined or left; 0: none
 
   bool operator==(const Event&) const = default;
+};
+
+/// Who a session is.
+struct Participant {
+  uint64_t session = 0;
+  std::string name{};
+  uint64_t token_id = 0;  ///< of the access token; 0: none
+
+  bool operator==(const Participant&) const = default;
 };
 
 /// What a recording holds of the machine at one of its ticks: the durations of the ticks since the last such
@@ -93,6 +106,8 @@ struct RecordedMachine {
   std::vector<uint32_t> tick_us;
   std::vector<Event> events;
   std::vector<CursorSample> cursors{};  ///< ascending; the first has all persons
+  uint64_t unix_ms = 0;                 ///< when its tick was written, ms since 1970; 0: it is not known
+  std::vector<Participant> persons{};   ///< where a part of a recording begins: who joined before
 };
 
 }  // namespace scree

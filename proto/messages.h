@@ -266,6 +266,7 @@ struct ReplyMessage {
   std::string refusal_name{};  ///< for programs, as of RefusalMessage
   ServerLatency latency{};     ///< zeroes: no tick answered it
   Tick tick = 0;               ///< that answered it; 0: none. Saved once StatusMessage::saved_tick is as high
+  std::optional<uint32_t> painted{};  ///< bricks of 8 voxels a side that a paint changed
 };
 
 /// How long a stage of the tick took.
@@ -324,7 +325,7 @@ struct StatusMessage {
   std::vector<RefusalCount> refusals;  ///< since the start; reasons that were never given are left out
   LatencyStatus latency;
   std::string
-      saving{};  ///< "tick", "second" or "off": how a world file is kept; "failed"; empty: there is none
+      saving{};  ///< "tick", "second" or "off": how a world file is kept; "retrying"; empty: there is none
   Tick saved_tick = 0;  ///< what happened up to here outlives the server
   /// Edited chunks within this client's interest that it has not been sent as they are.
   uint32_t chunks_waiting = 0;

@@ -132,6 +132,7 @@ struct Writing {
     reply.set_tick_us(from.latency.tick_us);
     reply.set_sending_us(from.latency.sending_us);
     reply.set_tick(from.tick);
+    if (from.painted) reply.set_painted(*from.painted);
   }
   void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }
   void operator()(const PersonsMessage& from) const { write(*to.mutable_persons(), from); }
@@ -244,7 +245,8 @@ ReplyMessage read(const wire::Reply& from, FieldChecker& check) {
           check.text(from.refusal_name(), limits::refusal_name_bytes_max, "name of a reason"),
           {read_latency(from.waiting_us(), check), read_latency(from.tick_us(), check),
            read_latency(from.sending_us(), check)},
-          from.tick()};
+          from.tick(),
+          from.has_painted() ? std::optional(from.painted()) : std::nullopt};
 }
 
 StatusMessage read(const wire::Status& from, FieldChecker& check) {

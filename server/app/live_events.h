@@ -9,7 +9,9 @@
 
 #include "server/store/event_deriver.h"
 #include "server/store/event_log.h"
+#include "server/store/roster.h"
 #include "server/world/world_config.h"
+#include "shared/base/log_limit.h"
 
 namespace scree {
 
@@ -25,19 +27,28 @@ class LiveEvents {
   /// The machine's events up to this tick, the next one; logs these and the world's.
   std::vector<Event> drain(const TickDelta& delta);
 
+  /// Who joined; from the thread of drain().
+  std::vector<Participant> persons() const { return roster_.all(); }
   const std::string& path() const { return path_; }
+  /// EventLog::finish().
+  Result<void> finish() { return log_ ? log_->finish() : Result<void>(); }
   EventLog::Status status() const { return log_ ? log_->status() : EventLog::Status{}; }
 
  private:
   LiveEvents(std::string path, std::unique_ptr<EventLog> log, const WorldConfig& world,
              const SettingValues& settings);
+  Event slow(const TickDelta& delta, double ms) const;
+  void log(const Event& event, std::optional<float> tick_ms);
   void warn();
 
   std::string path_;
   std::unique_ptr<EventLog> log_;  ///< null: none
   EventDeriver deriver_;
   uint32_t tick_rate_hz_;
+  float voxel_size_m_;
+  Roster roster_;
   bool failing_ = false;
+  LogLimit log_limit_;
   std::mutex mutex_;
   std::vector<Event> noted_;  ///< guarded by mutex_
 };

@@ -7,6 +7,7 @@
 #include "server/app/limits.h"
 #include "server/app/live_server_state.h"
 #include "server/app/server_status.h"
+#include "server/store/limits.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -29,7 +30,7 @@ void LiveServer::State::tell() {
   const SaverStatus status = saved_world->status();
   const PagerStatus paged = pager->status();
   Saving now;
-  now.how = status.given_up ? "failed" : std::string(row_of(config.durability).name);
+  now.how = status.health.ok() ? std::string(row_of(config.durability).name) : "retrying";
   now.tick = status.saved_tick;
   if (saved_world->is_temporary()) now = {};
   if (feed->world()->tick() % config.world.tick_rate_hz == 0)
@@ -58,7 +59,7 @@ std::shared_ptr<const WorldMoment> LiveServer::State::begin_part(const TickDelta
   return std::make_shared<const WorldMoment>(world.moment());
 }
 
-/// When the recording cannot be written, it ends, and the server goes on.
+/// When the recording cannot be written, the server goes on, and the recording does so in another part.
 void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
                                std::vector<Event> noted) {
   auto part = begin_part(*delta);
@@ -66,16 +67,31 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
   if (delta->tick % ticks_per_physics == 0) cursors = net->cursors();
   recorder->push(std::move(delta), std::move(carried_out), std::move(noted), std::move(part),
                  std::move(cursors));
-  if (record_failed) return;
-  if (feed->world()->tick() % config.world.tick_rate_hz == 0 && !ring_told) {
-    const RecordingSize size = recorder->size();
-    ring_told = !size.over_limit.empty();
-    if (ring_told) spdlog::warn("{}: {}", config.record_path, size.over_limit);
+  World& world = *feed->world();
+  if (recorder->wants_start()) {
+    world.renew();
+    recorder->begin_again(
+        {world.moment(), world.keyframe(), late_chunk_reader(saved_world->path()), events->persons()});
   }
-  const auto error = recorder->error();
-  if (!error) return;
-  record_failed = true;
-  spdlog::error("the recording ends after {} ticks: {}", recorder->ticks_written(), *error);
+  tell_recording();
+  if (world.tick() % config.world.tick_rate_hz != 0 || ring_told) return;
+  const RecordingSize size = recorder->size();
+  ring_told = !size.over_limit.empty();
+  if (ring_told) spdlog::warn("{}: {}", recorder->path(), size.over_limit);
+}
+
+/// Each failure once, and its end.
+void LiveServer::State::tell_recording() {
+  const StoreHealth health = recorder->health();
+  if (health.because == record_complaint) return;
+  record_complaint = health.because;
+  const auto more = log_limit.admit(health.ok() ? "recorded again" : "not recorded", steady_now_s());
+  if (!more) return;
+  if (health.ok())
+    spdlog::info("the recording is written again, to {}; {} ticks are in no part of it{}", recorder->path(),
+                 health.lost, *more);
+  else
+    spdlog::warn("the recording is not written, and is tried again: {}{}", *health.because, *more);
 }
 
 namespace {
@@ -101,9 +117,12 @@ bool LiveServer::State::step() {
     // Steps by hand do not wait for a thread.
     TerrainAhead* const generator = config.pacing == Pacing::real_time ? ahead.get() : nullptr;
     admitted = admission.admit(std::move(admitted.commands),
-                               {*world, *pager, generator, !saved_world->status().error});
+                               {*world, *pager, generator, saved_world->status().health.ok()});
     if (config.hooks.before && !ask_host(*world, admitted)) return false;
   }
+  if (!limits_to_set.empty())  // a recording has them as any change of settings
+    admitted.commands.insert(admitted.commands.begin(),
+                             {0, 0, SettingsRequest{std::exchange(limits_to_set, {})}});
   const bool is_chosen = std::ranges::any_of(admitted.commands, sets_work_percent);
   if (work_percent_next && !is_chosen)
     admitted.commands.push_back(
@@ -190,8 +209,9 @@ void LiveServer::State::count(TickSchedule::Delay delay) {
   if (delay.lost_ticks == 0) return;
   report.overruns += delay.lost_ticks;
   // A replay may take its time for a jump.
-  spdlog::log(config.replay.path.empty() ? spdlog::level::warn : spdlog::level::debug,
-              "tick {} came {} ticks late: they are lost", report.last_tick, delay.lost_ticks);
+  if (const auto more = log_limit.admit("late", steady_now_s()))
+    spdlog::log(config.replay.path.empty() ? spdlog::level::warn : spdlog::level::debug,
+                "tick {} came {} ticks late: they are lost{}", report.last_tick, delay.lost_ticks, *more);
 }
 
 /// Governs by a tick that took `length` of a tick's length.
@@ -264,6 +284,7 @@ Result<void> LiveServer::stop() {
   if (state_->thread.joinable()) state_->thread.join();
   state_->end("");
   state_->net->stop();
+  const double until_s = steady_now_s() + limits::last_tries_s;  // for all together
   if (state_->saved_world && !state_->saved) {
     state_->saved = true;
     if (state_->broken)
@@ -272,7 +293,10 @@ Result<void> LiveServer::stop() {
       state_->end(finished.error().message);
   }
   if (state_->recorder)
-    if (const auto finished = state_->recorder->finish(); !finished) state_->end(finished.error().message);
+    if (const auto finished = state_->recorder->finish(std::max(0.0, until_s - steady_now_s())); !finished)
+      state_->end(finished.error().message);
+  if (state_->events)
+    if (const auto finished = state_->events->finish(); !finished) state_->end(finished.error().message);
   if (state_->trace)
     if (const auto written = state_->trace->write(state_->config.trace_path); !written)
       state_->end(written.error().message);
@@ -291,7 +315,8 @@ ServerReport LiveServer::State::report_now(const NetStats& stats, const LatencyC
     now.ticks_recorded = recorder->ticks_written();
     now.record_waits = recorder->waits();
     now.record_size = recorder->size();
-    if (!now.error) now.error = recorder->error();
+    now.record_path = recorder->path();
+    now.recording = recorder->health();
   }
   if (saved_world && !saved_world->is_temporary()) now.saving = saved_world->status();
   now.resident_mb = resident_bytes() / bytes_per_mb;

@@ -38,7 +38,10 @@ struct LiveConfig {
   size_t bricks_in_max = 0;  ///< edited bricks in memory; 0: as many as the setting memory-max allows
   Durability durability = Durability::second;
   double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
-  std::string trace_path;     ///< file of the trace (shared/base/trace.h); empty: none
+  /// Limits of the machine (Setting::of_machine) that the server was told: they win over what the world that
+  /// it continues has saved. `world` has them, too.
+  SettingValues machine_limits;
+  std::string trace_path;  ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
   double still_seconds = limits::still_seconds_max;  ///< without a tick: the simulation stands still
   bool governed = false;      ///< the setting work-percent follows how late ticks are (load_governor.h)

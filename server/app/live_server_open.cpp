@@ -71,12 +71,16 @@ Result<void> LiveServer::State::open_world() {
   const std::string& path = config.world_path;
   auto opened = path.empty() ? SavedWorld::open_temporary(config.world, config.sim_threads)
                              : SavedWorld::open(path, config.world, config.sim_threads,
-                                                ground_giver(path, config.world), config.bricks_in_max);
+                                                ground_giver(path, config.world), config.bricks_in_max,
+                                                config.machine_limits);
   TRY(opened);
   saved_world = std::move(*opened);
   feed = feed_of(saved_world->release_world());
   config.world = feed->world()->config();
-  config.net.service = config.world.service;
+  limits_to_set = differing(config.machine_limits, config.world);
+  WorldConfig from_first_tick = config.world;
+  TRY(set_all(from_first_tick, limits_to_set));
+  config.net.service = from_first_tick.service;
   config.net.world = saved_world->number();
   config.net.first_session = saved_world->first_session();
   config.net.chunks = for_clients;
@@ -109,10 +113,9 @@ Result<void> LiveServer::State::open_recorder() {
   const bool goes_on = world.tick() > 0 || (saved_world && !saved_world->is_new() &&
                                             std::filesystem::exists(config.record_path, ignored));
   // Its terrain comes chunk by chunk: it may be larger than memory.
-  auto recording =
-      goes_on ? Recorder::create(config.record_path, header,
-                                 {world.moment(), world.outline(), reader_of(world)}, config.record_ring)
-              : Recorder::create(config.record_path, header, config.record_ring);
+  std::optional<RecordingStart> from;
+  if (goes_on) from = RecordingStart{world.moment(), world.outline(), reader_of(world)};
+  auto recording = Recorder::open(config.record_path, header, from ? &*from : nullptr, config.record_ring);
   TRY(recording);
   recorder = std::move(*recording);
   report.record_path = config.record_path;

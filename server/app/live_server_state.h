@@ -22,6 +22,7 @@
 #include "server/app/tick_schedule.h"
 #include "server/app/tick_trace.h"
 #include "server/store/recorder.h"
+#include "shared/base/log_limit.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -58,6 +59,7 @@ struct LiveServer::State {
   std::shared_ptr<const WorldMoment> begin_part(const TickDelta& delta);
   void record(std::shared_ptr<const TickDelta> delta, std::vector<Command> carried_out,
               std::vector<Event> noted);
+  void tell_recording();
   /// Notes nothing where nobody wants to know.
   bool has_events() const { return !config.events_path.empty() || !config.record_path.empty(); }
   void count(TickSchedule::Delay delay);
@@ -77,6 +79,7 @@ struct LiveServer::State {
   Admission admission;
   std::unique_ptr<LoadGovernor> governor;     ///< null: a replay, or not wanted
   std::optional<uint32_t> work_percent_next;  ///< the governor's wish, for the next tick
+  SettingValues limits_to_set;  ///< in the first tick: the machine's, which win over a kept world's
   std::unique_ptr<NetServer> net;
   std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
   std::unique_ptr<Trace> trace;         ///< null: no trace
@@ -84,9 +87,10 @@ struct LiveServer::State {
   Heartbeat heartbeat;  ///< of the simulation's thread
   Clock::time_point started = Clock::now();
   Clock::duration period{};
-  bool record_failed = false;  ///< used by the simulation thread only
-  bool ring_told = false;      ///< that it is over its limit; likewise
-  bool saved = false;          ///< for good; used by the owner's thread only
+  LogLimit log_limit;                           ///< used by the simulation thread only, as the next two
+  std::optional<std::string> record_complaint;  ///< the last that was logged
+  bool ring_told = false;                       ///< that it is over its limit
+  bool saved = false;                           ///< for good; used by the owner's thread only
 
   const std::shared_ptr<ChunkFetcher> for_clients = std::make_shared<ChunkFetcher>();
   uint64_t read_before = 0;  ///< chunks, until the last second began; used by the simulation thread only

@@ -1,12 +1,15 @@
 #include "server/app/saved_world.h"
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <spdlog/spdlog.h>
+#include <thread>
 
 #include "crypto/signing_key.h"
 #include "server/app/temporary_world.h"
 #include "server/app/terrain_pager.h"
+#include "server/store/limits.h"
 #include "server/store/stored_field.h"
 #include "server/work/memory.h"
 #include "server/world/limits.h"
@@ -14,27 +17,45 @@
 #include "server/world/settings.h"
 #include "server/world/world_snapshot.h"
 #include "shared/base/check.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
 namespace {
 
-/// What was asked for, and the file says otherwise: the file has the last word.
-void tell_differences(const std::string& path, const WorldConfig& asked, const WorldConfig& saved_world) {
+/// What was asked for, and the file says otherwise: the file has the last word, but on limits of the machine.
+void tell_differences(const std::string& path, const WorldConfig& asked, const WorldConfig& saved_world,
+                      const SettingValues& told) {
   if (!is_same_terrain(asked, saved_world) || asked.tick_rate_hz != saved_world.tick_rate_hz)
     spdlog::info("{}: terrain and tick rate come from the file", path);
   const SettingValues wanted = print(asked), stand = print(saved_world);
-  for (size_t i = 0; i < stand.size(); ++i)
-    if (stand[i] != wanted[i])
+  for (size_t i = 0; i < stand.size(); ++i) {
+    if (stand[i] == wanted[i]) continue;
+    if (std::ranges::find(told, stand[i].name, &SettingValue::name) != told.end())
+      spdlog::info("{}: {} is {}, as this server was told, not {}, as it was saved", path, stand[i].name,
+                   wanted[i].value, stand[i].value);
+    else
       spdlog::info("{}: {} is {}, as it was saved, not {}", path, stand[i].name, stand[i].value,
                    wanted[i].value);
+  }
+}
+
+/// Another program may hold the file for a moment, as one that looks at databases does.
+Result<std::unique_ptr<World>> read_in_time(const std::function<Result<std::unique_ptr<World>>()>& read) {
+  const double until_s = steady_now_s() + limits::last_tries_s;
+  for (;;) {
+    auto world = read();
+    if (world || !may_pass(world.error()) || steady_now_s() > until_s) return world;
+    spdlog::warn("the world cannot be read, and is tried again: {}", world.error().message);
+    std::this_thread::sleep_for(std::chrono::duration<double>(limits::retry_held_max_s));
+  }
 }
 
 }  // namespace
 
 Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, const WorldConfig& config,
                                                      size_t threads, const GroundGiver& ground,
-                                                     size_t bricks_max) {
+                                                     size_t bricks_max, const SettingValues& told) {
   auto lock = TRY(WorldLock::acquire(path));
   std::unique_ptr<SavedWorld> saved_world(new SavedWorld(path, std::move(lock)));
   std::error_code ignored;
@@ -45,10 +66,14 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
     saved_world->number_ = std::max<uint64_t>(1, random_number());
     return saved_world;
   }
-  auto file = TRY(WorldFile::open(path));
+  std::unique_ptr<WorldFile> file;
   size_t chunks = 0;
-  auto world = TRY(restored(*file, threads, ground, bricks_max, *saved_world, chunks));
-  tell_differences(path, config, world->config());
+  const auto read = [&]() -> Result<std::unique_ptr<World>> {
+    file = TRY(WorldFile::open(path));
+    return restored(*file, threads, ground, bricks_max, told, *saved_world, chunks);
+  };
+  auto world = TRY(read_in_time(read));
+  tell_differences(path, config, world->config(), told);
   spdlog::info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path, world->tick(),
                chunks, world->field().chunks_in().size());
   saved_world->file_ = std::move(file);
@@ -59,7 +84,8 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
 /// The world of the file; of its terrain as much as there is memory for.
 Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t threads,
                                                     const GroundGiver& ground, size_t bricks_max,
-                                                    SavedWorld& saved_world, size_t& chunks) {
+                                                    const SettingValues& told, SavedWorld& saved_world,
+                                                    size_t& chunks) {
   const std::string& path = file.path();
   auto rows = TRY(file.read_moment());
   RecordedHeader& header = rows.world.moment.config;
@@ -67,7 +93,8 @@ Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t thre
     return fail(path + ": " + given.error().message);
   header.rules = rules::newest;  // the world goes on; what it was is in its recordings
   auto reader = TRY(chunk_reader(path));
-  const auto config = config_of(header);
+  auto config = config_of(header);
+  if (config) TRY(set_all(*config, told));
   const uint32_t max_mb = config ? config->memory_max_mb : limits::memory_max_min_mb;
   GroundMasses masses;
   const PagedTerrain terrain = terrain_of(file, std::move(reader), masses,
@@ -118,22 +145,23 @@ void SavedWorld::note(const TickDelta& delta, World& world, bool pressed) {
   complain(status);
 }
 
-/// Each failure once.
+/// Each failure once, in as many words as it has, and its end.
 void SavedWorld::complain(const SaverStatus& status) {
-  const std::string now = status.error.value_or("");
+  const std::string now = status.health.because.value_or("");
   if (now == complaint_) return;
   complaint_ = now;
+  const auto more = log_.admit(now.empty() ? "saved again" : "not saved", steady_now_s());
+  if (!more) return;
   if (temporary_ && !now.empty())
     spdlog::warn(
-        "terrain cannot leave memory{}: edits are refused once it is full (memory-max); give the server a "
-        "folder with room (XDG_CACHE_HOME), or a world to keep (--world): {}",
-        status.given_up ? " any more" : ", which is tried again", now);
+        "terrain cannot leave memory, which is tried again: edits are refused once it is full (memory-max); "
+        "give the server a folder with room (XDG_CACHE_HOME), or a world to keep (--world): {}{}",
+        now, *more);
   else if (now.empty())
-    spdlog::info("the world is saved again, up to tick {}", status.saved_tick);
-  else if (status.given_up)
-    spdlog::error("the world is not saved any more; the file holds tick {}: {}", status.saved_tick, now);
+    spdlog::info("the world is saved again, up to tick {}{}", status.saved_tick, *more);
   else
-    spdlog::warn("the world is not saved since tick {}, and is tried again: {}", status.saved_tick, now);
+    spdlog::warn("the world is not saved since tick {}, and is tried again: {}{}", status.saved_tick, now,
+                 *more);
 }
 
 void SavedWorld::abandon() {

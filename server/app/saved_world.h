@@ -8,6 +8,7 @@
 #include "server/store/world_lock.h"
 #include "server/store/world_saver.h"
 #include "server/world/world.h"
+#include "shared/base/log_limit.h"
 
 namespace scree {
 
@@ -16,10 +17,11 @@ class SavedWorld {
   /// Takes the file for this process; where it exists, reads it, checks it, and makes the world that it
   /// holds. Start and stop are one way with a crash: nothing is read but what was saved. `threads`: of the
   /// world (World::create). `ground` gives the one that the file names. `bricks_max`: edited bricks that it
-  /// takes into memory; 0: as memory-max says.
+  /// takes into memory; 0: as memory-max says. `told`: limits of this machine (LiveConfig::machine_limits),
+  /// which the caller gives the world in its first tick: the value in the file stays as it was recorded.
   static Result<std::unique_ptr<SavedWorld>> open(const std::string& path, const WorldConfig& config,
                                                   size_t threads, const GroundGiver& ground,
-                                                  size_t bricks_max = 0);
+                                                  size_t bricks_max = 0, const SettingValues& told = {});
   /// A new world in a file that is removed at the end, and after a crash by the next one that is opened.
   static Result<std::unique_ptr<SavedWorld>> open_temporary(const WorldConfig& config, size_t threads);
 
@@ -35,7 +37,8 @@ class SavedWorld {
   Result<void> start(World& world, SaverConfig config);
   /// After each tick of the world. `pressed`: memory is short until it is saved.
   void note(const TickDelta& delta, World& world, bool pressed = false);
-  /// Saves the world as it stands, and ends. Returns the last error. A temporary one is removed.
+  /// Saves the world as it stands, and ends. What fails is tried again for a while (WorldSaver::finish). A
+  /// temporary one is removed.
   Result<void> finish(World& world);
   /// Ends with what was saved: the world does not stand between two ticks.
   void abandon();
@@ -48,7 +51,8 @@ class SavedWorld {
  private:
   SavedWorld(std::string path, WorldLock lock) : path_(std::move(path)), lock_(std::move(lock)) {}
   static Result<std::unique_ptr<World>> restored(WorldFile& file, size_t threads, const GroundGiver& ground,
-                                                 size_t bricks_max, SavedWorld& saved_world, size_t& chunks);
+                                                 size_t bricks_max, const SettingValues& told,
+                                                 SavedWorld& saved_world, size_t& chunks);
   void complain(const SaverStatus& status);
 
   std::string path_;
@@ -61,6 +65,7 @@ class SavedWorld {
   uint64_t first_session_ = 1;
   std::unique_ptr<WorldSaver> saver_;
   std::string complaint_;  ///< the last that was logged
+  LogLimit log_;
 };
 
 }  // namespace scree

@@ -6,11 +6,13 @@
 #include <cctype>
 #include <cstdio>
 #include <limits>
+#include <unistd.h>
 
 #include "proto/messages.h"
 #include "server/app/config_file.h"
 #include "server/app/distinct_files.h"
 #include "server/app/door_options.h"
+#include "server/app/environment.h"
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
 #include "server/app/web_folder.h"
@@ -67,6 +69,8 @@ void add_network(CLI::App& app, Raw& raw) {
   app.add_option("--bind,--host", net.bind, "address to listen on; 0.0.0.0: all addresses of this machine")
       ->capture_default_str();
   app.add_option("--chat", net.chat, "let people chat: true or false")->capture_default_str();
+  app.add_option("--log-chat", net.log_chat, "write chat into the log, too: true or false")
+      ->capture_default_str();
   add_threads(app, "--net-threads", net.net_threads, "encode and send");
   app.add_option("--web", raw.web,
                  "folder of the page for browsers (./scree web builds it); off: no HTTP; default: the folder "
@@ -101,11 +105,12 @@ void add_world(CLI::App& app, Raw& raw) {
 
 /// Every row of the table of settings is an option.
 void add_settings(CLI::App& app, Raw& raw) {
-  WorldConfig& world = raw.options.live.world;
   for (const Setting& row : settings()) {
-    const auto set_value = [&world, name = std::string(row.name)](const std::string& value) {
-      if (Result<void> done = set(world, {name, value}); !done)
+    const auto set_value = [&live = raw.options.live, &row](const std::string& value) {
+      const SettingValue setting{std::string(row.name), value};
+      if (Result<void> done = set(live.world, setting); !done)
         throw CLI::ValidationError(done.error().message);
+      if (row.of_machine) live.machine_limits.push_back({setting.name, row.print(live.world)});
     };
     app.add_option_function<std::string>("--" + std::string(row.name), set_value,
                                          std::string(row.help) + ": " + row.may_be())
@@ -245,8 +250,9 @@ void refuse_shared_files(const Raw& raw, const std::string& config_path) {
     throw CLI::ValidationError(distinct.error().message);
 }
 
-/// --sessions-max is SCREE_SESSIONS_MAX.
-void name_environment(CLI::App& app) {
+/// --sessions-max is SCREE_SESSIONS_MAX. Returns all names.
+std::vector<std::string> name_environment(CLI::App& app) {
+  std::vector<std::string> names;
   for (CLI::Option* option : app.get_options()) {
     const std::string flag = option->get_lnames().empty() ? "help" : option->get_lnames().front();
     if (flag == "help" || flag == "version") continue;
@@ -254,7 +260,9 @@ void name_environment(CLI::App& app) {
     for (const char c : flag)
       name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
     option->envname(name);
+    names.push_back(std::move(name));
   }
+  return names;
 }
 
 void declare(CLI::App& app, Raw& raw) {
@@ -300,8 +308,10 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
       app.set_config("--config", "", "a TOML file with these options, under the same names");
   app.allow_config_extras(CLI::config_extras_mode::error);
   declare(app, raw);
-  name_environment(app);
+  const std::vector<std::string> variables = name_environment(app);
   try {
+    if (const std::string fault = fault_in_environment(variables, environ); !fault.empty())
+      throw CLI::ValidationError(fault);
     app.parse(argc, argv);
     if (const auto preset = kind_named<Preset>(raw.preset)) apply_preset(app, *preset, server_preset_options);
     refuse_shared_files(raw, named_file(*config));

@@ -32,7 +32,7 @@ sigset_t block_signals() {
 
 void reload(LiveServer& server) {
   if (const auto reloaded = server.reload(); reloaded)
-    spdlog::info("certificate, keys, revoked tokens and the page were read again (SIGHUP)");
+    spdlog::info("certificate, keys, revoked tokens, bans and the page were read again (SIGHUP)");
   else
     spdlog::error("nothing was read again (SIGHUP), the old values stay in force: {}",
                   reloaded.error().message);
@@ -66,6 +66,7 @@ int run(const ServerOptions& options) {
   const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("scree-server"));
   spdlog::set_level(spdlog::level::from_str(options.log_level));
+  spdlog::set_pattern("[%Y-%m-%dT%H:%M:%S.%e%z] [%n] [%^%l%$] %v");  // ISO 8601, with the zone
   auto server = LiveServer::start(options.live);
   if (!server) {
     spdlog::error("{}", server.error().message);

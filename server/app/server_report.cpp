@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "server/app/web_folder.h"
+#include "shared/base/wall_clock.h"
 
 namespace scree {
 
@@ -101,14 +102,21 @@ Json json_of(const WebStats& web) {
           {"bytes_sent", web.bytes_sent}, {"websockets", web.websockets}, {"connections", web.connections}};
 }
 
+/// What a program that watches asks: whether it is written, and if not, since when and why.
+void add_health(Json& json, const StoreHealth& health) {
+  json["state"] = health.ok() ? "ok" : "retrying";
+  if (health.ok()) return;
+  json["since"] = iso_time(health.since_unix_ms);
+  json["error"] = *health.because;
+}
+
 Json recording_json(const ServerReport& report) {
   const RecordingSize& size = report.record_size;
-  Json json{{"path", report.record_path},
-            {"ticks", report.ticks_recorded},
-            {"waits", report.record_waits},
-            {"bytes", size.file_bytes},
-            {"log_bytes", size.log_bytes}};
+  Json json{
+      {"path", report.record_path},   {"ticks", report.ticks_recorded}, {"ticks_lost", report.recording.lost},
+      {"waits", report.record_waits}, {"bytes", size.file_bytes},       {"log_bytes", size.log_bytes}};
   if (!size.over_limit.empty()) json["over_limit"] = size.over_limit;
+  add_health(json, report.recording);
   return json;
 }
 
@@ -120,7 +128,7 @@ Json json_of(const std::string& path, const SaverStatus& saving) {
             {"failures", saving.failures},
             {"bytes_written", saving.bytes_written},
             {"save_worst_ms", saving.save_worst_ms}};
-  if (saving.error) json["error"] = *saving.error;
+  add_health(json, saving.health);
   return json;
 }
 
@@ -208,9 +216,13 @@ std::string to_json(const ServerReport& report) {
   json["stages_ms"] = stages;
   json["resident_mb"] = report.resident_mb;
   if (!report.record_path.empty()) json["recording"] = recording_json(report);
-  if (!report.events_path.empty())
-    json["events"] = {
-        {"path", report.events_path}, {"written", report.events.written}, {"lost", report.events.lost}};
+  if (!report.events_path.empty()) {
+    Json events{{"path", report.events_path},
+                {"written", report.events.written},
+                {"lost", report.events.health.lost}};
+    add_health(events, report.events.health);
+    json["events"] = std::move(events);
+  }
   json["chunks"] = {{"in_memory", report.paging.chunks_in},
                     {"out", report.paging.chunks_out},
                     {"read", report.paging.chunks_read},

@@ -61,7 +61,8 @@ struct ServerReport {
   double resident_mb = 0.0;  ///< what the process has in RAM
   NetStats net;
   LatencyCounts latency;
-  std::string record_path;
+  std::string record_path;  ///< of the recording's last part
+  StoreHealth recording;
   uint64_t ticks_recorded = 0;
   uint64_t record_waits = 0;
   RecordingSize record_size;
@@ -77,7 +78,8 @@ struct ServerReport {
 };
 
 std::string to_json(const ServerReport& report);
-/// Tells programs where the server listens, as one line of JSON: port, addresses and, if it serves one, the page.
+/// Tells programs where the server listens, as one line of JSON: port, addresses and, if it serves one, the
+/// page.
 std::string listening_line(uint16_t port, const NetConfig& net);
 
 }  // namespace scree

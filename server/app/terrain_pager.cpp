@@ -1,18 +1,41 @@
 #include "server/app/terrain_pager.h"
 
 #include <algorithm>
+#include <chrono>
+#include <thread>
 
 #include "server/app/limits.h"
 #include "server/app/piece_forecast.h"
 #include "server/app/terrain_ahead.h"
+#include "server/store/limits.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
+/// The server ends when a tick cannot do without a chunk: so a file that is held, or a disk that fails for a
+/// moment, is tried again.
 Result<ReadChunk> chunk_reader(const std::string& path) {
   auto opened = TRY(WorldFile::open(path));
-  return [file = std::shared_ptr<WorldFile>(std::move(opened))](ChunkCoord chunk) {
-    return file->read_bricks(chunk);
+  return [file = std::make_shared<std::unique_ptr<WorldFile>>(std::move(opened))](ChunkCoord chunk) {
+    WorldFile::follow(*file);
+    auto bricks = (*file)->read_bricks(chunk);
+    for (const double pause_s : limits::needed_chunk_pauses_s) {
+      if (bricks || !may_pass(bricks.error())) break;
+      std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
+      bricks = (*file)->read_bricks(chunk);
+    }
+    return bricks;
+  };
+}
+
+ReadChunk late_chunk_reader(const std::string& path) {
+  return [path, file = std::make_shared<std::unique_ptr<WorldFile>>()](
+             ChunkCoord chunk) -> Result<std::vector<BrickPatch>> {
+    if (*file == nullptr) {
+      auto opened = TRY(WorldFile::open(path));
+      *file = std::move(opened);
+    }
+    return (*file)->read_bricks(chunk);
   };
 }
 

@@ -31,6 +31,8 @@ struct PagerStatus {
 
 /// Reads chunks of a world's file at once.
 Result<ReadChunk> chunk_reader(const std::string& path);
+/// The same by an own connection, which the first read opens: for one other thread.
+ReadChunk late_chunk_reader(const std::string& path);
 
 class TerrainPager {
  public:

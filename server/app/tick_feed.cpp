@@ -3,6 +3,8 @@
 #include <spdlog/spdlog.h>
 
 #include "server/replay/replay_source.h"
+#include "shared/base/log_limit.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -52,7 +54,10 @@ Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& 
                  source->last_tick());
   const PlayerOptions player{
       options.at_end, options.speed, ticks_per_transform,
-      [path = options.path](const std::string& what) { spdlog::warn("{}: {}", path, what); }};
+      [path = options.path, limit = std::make_shared<LogLimit>()](const std::string& what) {
+        if (const auto more = limit->admit("replay", steady_now_s()))
+          spdlog::warn("{}: {}{}", path, what, *more);
+      }};
   const Spawn spawn = source->spawn();
   return ReplayFeed{std::make_unique<RecordedFeed>(std::move(source), player), world, spawn};
 }

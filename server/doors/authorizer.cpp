@@ -36,10 +36,9 @@ tl::expected<Grant, Refused> Authorizer::grant_to(const Caller& caller, const st
   if (guesses) TRY(check_admin_token(caller.address, token, now_s));
   Grant grant = TRY(access_->grant(token, unix_s));
   if (grant.name.empty()) grant.name = name;
-  const Ban* ban = bans_.find(caller.ip, unix_s);
+  const auto found = bans_.find({caller.ip, grant.name, grant.token_id}, unix_s);
   // An administrator could not lift the ban of his own address.
-  if (ban != nullptr && grant.role != Role::admin)
-    return refuse(Refusal::banned, with_reason("this address is banned from the server", ban->reason));
+  if (found && grant.role != Role::admin) return refuse(Refusal::banned, words_of(*found));
   return grant;
 }
 
@@ -61,6 +60,10 @@ tl::expected<void, Refused> check_role(Role role, Role needed) {
   return refuse(Refusal::role,
                 fmt::format("that takes the role {}: this session is a {} (ask the operator for a token)",
                             name_of(needed), name_of(role)));
+}
+
+std::string words_of(const FoundBan& found) {
+  return with_reason(std::string(found.target.words()) + " is banned from the server", found.ban.reason);
 }
 
 std::string with_reason(const std::string& what, const std::string& reason) {

@@ -64,6 +64,9 @@ class Authorizer {
 /// Refuses a role that may not act as `needed`.
 tl::expected<void, Refused> check_role(Role role, Role needed);
 
+/// What somebody is told whom a ban refuses.
+std::string words_of(const FoundBan& found);
+
 /// `what`, and the reason behind it if there is one.
 std::string with_reason(const std::string& what, const std::string& reason);
 

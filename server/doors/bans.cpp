@@ -1,10 +1,11 @@
 #include "server/doors/bans.h"
 
-#include <asio/ip/address.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <optional>
+#include <set>
 #include <sstream>
 #include <unistd.h>
 
@@ -14,96 +15,141 @@ namespace scree {
 
 namespace {
 
-constexpr std::string_view network_bits = "/64";
-constexpr size_t network_bytes = 8;
-
 bool has_ended(const Ban& ban, uint64_t now_s) {
   return ban.until_s != 0 && ban.until_s <= now_s;
 }
 
-Result<void> parse_line(const std::string& line, std::map<std::string, Ban>& bans) {
-  std::istringstream words(line);
-  std::string address;
-  Ban ban;
-  if (!(words >> address >> ban.until_s)) return fail("a ban is written as ADDRESS UNTIL REASON");
-  std::getline(words >> std::ws, ban.reason);
-  const auto key = TRY(ban_key(address));
-  if (bans.size() >= limits::bans_max && !bans.contains(key))
-    return fail(fmt::format("there are more than {} bans (limits.bans_max)", limits::bans_max));
-  bans[key] = ban;
-  return {};
+std::string line_of(const std::string& key, const Ban& ban) {
+  const std::string line = fmt::format("{} {}", key, ban.until_s);
+  return ban.reason.empty() ? line : fmt::format("{} {}", line, ban.reason);
+}
+
+bool is_for_people(const std::string& line) {
+  const size_t first = line.find_first_not_of(" \t\r");
+  return first == std::string::npos || line[first] == '#';
 }
 
 }  // namespace
 
-Result<std::string> ban_key(const std::string& address) {
-  std::string bare = address;
-  if (bare.ends_with(network_bits)) bare.resize(bare.size() - network_bits.size());
-  asio::error_code error;
-  const auto parsed = asio::ip::make_address(bare, error);
-  if (error) return fail("'" + address + "' is not an IPv4 or IPv6 address");
-  if (parsed.is_v4()) return parsed.to_string();
-  const asio::ip::address_v6 v6 = parsed.to_v6();
-  if (v6.is_v4_mapped()) return asio::ip::make_address_v4(asio::ip::v4_mapped, v6).to_string();
-  if (v6.is_loopback()) return v6.to_string();
-  asio::ip::address_v6::bytes_type bytes = v6.to_bytes();
-  for (size_t i = network_bytes; i < bytes.size(); ++i) bytes[i] = 0;
-  return asio::ip::address_v6(bytes).to_string() + std::string(network_bits);
+/// Not strict: a line that is no ban stays as it is, so that nothing that somebody wrote is lost.
+Result<std::vector<Bans::Line>> Bans::read_file(bool is_strict) {
+  std::vector<Line> lines;
+  std::error_code error;
+  const bool there = !path_.empty() && std::filesystem::exists(path_, error);
+  if (!there && !error) return lines;
+  // Writing takes the place of what is there, so it has to be a file.
+  if (!error && !std::filesystem::is_regular_file(path_, error))
+    return fail(path_ + " is not a file (--bans)");
+  std::ifstream file(path_);
+  if (error || !file) return fail(fmt::format("the file of bans {} cannot be read (--bans)", path_));
+  const auto parse = [](Line& line) -> Result<void> {
+    std::istringstream words(line.text);
+    std::string target;
+    if (!(words >> target >> line.ban.until_s)) return fail("a ban is written as TARGET UNTIL REASON");
+    std::getline(words >> std::ws, line.ban.reason);
+    line.key = TRY(ban_key(target));
+    return {};
+  };
+  size_t bans = 0;
+  for (std::string text; std::getline(file, text);) {
+    Line& line = lines.emplace_back(Line{std::move(text)});
+    if (is_for_people(line.text)) continue;
+    Result<void> parsed = parse(line);
+    if (parsed && ++bans > limits::bans_max)
+      parsed = fail(fmt::format("there are more than {} bans (limits.bans_max)", limits::bans_max));
+    if (parsed) continue;
+    line.key.clear();
+    if (is_strict) return fail(fmt::format("{}, line {}: {}", path_, lines.size(), parsed.error().message));
+  }
+  return lines;
 }
 
 Result<Bans> Bans::open(const std::string& path) {
   Bans bans;
   bans.path_ = path;
-  std::error_code error;
-  const bool there = !path.empty() && std::filesystem::exists(path, error);
-  if (!there && !error) return bans;
-  // Writing takes the place of what is there, so it has to be a file.
-  if (!error && !std::filesystem::is_regular_file(path, error)) return fail(path + " is not a file (--bans)");
-  std::ifstream file(path);
-  if (error || !file) return fail(fmt::format("the file of bans {} cannot be read (--bans)", path));
-  size_t number = 0;
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    if (line.empty()) continue;
-    if (Result<void> taken = parse_line(line, bans.bans_); !taken)
-      return fail(fmt::format("{}, line {}: {}", path, number, taken.error().message));
-  }
+  const auto lines = TRY(bans.read_file(true));
+  bans.merge(lines);
   return bans;
 }
 
+/// What differs from what was read or written last was done by hand. A file that is gone was moved away, and
+/// lifts nothing.
+void Bans::merge(const std::vector<Line>& lines) {
+  List now;
+  for (const Line& line : lines)
+    if (!line.key.empty()) now[line.key] = line.ban;
+  for (const auto& [key, ban] : now) {
+    const auto known = in_file_.find(key);
+    if (known == in_file_.end() || !(known->second == ban)) bans_[key] = ban;
+  }
+  if (!lines.empty())
+    for (const auto& [key, ban] : in_file_)
+      if (!now.contains(key)) bans_.erase(key);
+  in_file_ = std::move(now);
+  std::erase_if(targets_, [&](const auto& entry) { return !bans_.contains(entry.first); });
+  for (const auto& [key, ban] : bans_)
+    if (auto target = BanTarget::read(key); target && !targets_.contains(key)) targets_.emplace(key, *target);
+}
+
+Result<void> Bans::read_again() {
+  if (path_.empty()) return {};
+  const auto lines = TRY(read_file(false));
+  merge(lines);
+  const auto strict = read_file(true);
+  return strict ? Result<void>() : tl::unexpected(strict.error());
+}
+
 Result<void> Bans::add(const std::string& key, const Ban& ban, uint64_t now_s) {
+  static_cast<void>(read_again());  // what is wrong with it, writing says again
   std::erase_if(bans_, [&](const auto& entry) { return has_ended(entry.second, now_s); });
   if (bans_.size() >= limits::bans_max && !bans_.contains(key))
     return fail(fmt::format("there are {} bans already (limits.bans_max): lift some", limits::bans_max));
   bans_[key] = ban;
+  if (auto target = BanTarget::read(key)) targets_.insert_or_assign(key, *target);
   return write();
 }
 
 Result<void> Bans::lift(const std::string& key) {
+  static_cast<void>(read_again());
   if (bans_.erase(key) == 0) return fail(key + " is not banned");
+  targets_.erase(key);
   return write();
 }
 
-const Ban* Bans::find(const std::string& address, uint64_t now_s) const {
-  if (bans_.empty()) return nullptr;
-  const auto key = ban_key(address);
-  const auto found = key ? bans_.find(*key) : bans_.end();
-  return found == bans_.end() || has_ended(found->second, now_s) ? nullptr : &found->second;
+std::optional<FoundBan> Bans::find(const BanSubject& subject, uint64_t now_s) const {
+  for (const auto& [key, target] : targets_) {
+    const auto ban = bans_.find(key);
+    if (ban != bans_.end() && !has_ended(ban->second, now_s) && target.fits(subject))
+      return FoundBan{ban->second, target};
+  }
+  return std::nullopt;
 }
 
 /// Beside the old one, on the disk, then in its place: whatever ends the server, or the machine, none is lost
 /// of before.
-Result<void> Bans::write() const {
+Result<void> Bans::write() {
   if (path_.empty()) return {};
-  std::ostringstream lines;
-  for (const auto& [key, ban] : bans_) lines << key << ' ' << ban.until_s << ' ' << ban.reason << '\n';
-  const std::string fresh = path_ + ".new", text = lines.str();
+  const auto failed =
+      fail(fmt::format("the bans cannot be written to {} (--bans): they hold until the server ends", path_));
+  const auto lines = read_file(false);
+  if (!lines) return failed;
+  std::string text;
+  std::set<std::string> written;
+  for (const Line& line : *lines) {
+    const auto ban = bans_.find(line.key);
+    if (!line.key.empty() && (ban == bans_.end() || !written.insert(line.key).second)) continue;
+    text += (line.key.empty() || ban->second == line.ban ? line.text : line_of(line.key, ban->second)) + "\n";
+  }
+  for (const auto& [key, ban] : bans_)
+    if (!written.contains(key)) text += line_of(key, ban) + "\n";
+  const std::string fresh = path_ + ".new";
   std::FILE* const file = std::fopen(fresh.c_str(), "wb");
-  bool written = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
-                 std::fflush(file) == 0 && fsync(fileno(file)) == 0;
-  if (file != nullptr) written = std::fclose(file) == 0 && written;
-  if (written && std::rename(fresh.c_str(), path_.c_str()) == 0) return {};
-  return fail("the bans cannot be written to " + path_ + " (--bans): they hold until the server ends");
+  bool done = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
+              std::fflush(file) == 0 && fsync(fileno(file)) == 0;
+  if (file != nullptr) done = std::fclose(file) == 0 && done;
+  if (!done || std::rename(fresh.c_str(), path_.c_str()) != 0) return failed;
+  in_file_ = bans_;
+  return {};
 }
 
 }  // namespace scree

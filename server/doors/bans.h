@@ -1,14 +1,18 @@
-// Addresses that are refused, for a time or until they are let in again; kept in a file if there is one.
-// Times are seconds since 1970. Not thread-safe.
+// Who is refused, for a time or until he is let in again: addresses, names and tokens (ban_target.h); kept in
+// a file if there is one. Times are seconds since 1970. Not thread-safe.
 //
-// The file has a line for each: ADDRESS UNTIL REASON, where UNTIL 0 is for ever. It is written anew at each
-// change.
+// The file has a line for each: TARGET UNTIL REASON, where UNTIL 0 is for ever. Empty lines and lines that
+// begin with # are for people. Each change reads the file again: lines that were added, changed or taken out
+// by hand since then count, and all others, with the order and the comments, stay as they are.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "server/doors/ban_target.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -16,12 +20,15 @@ namespace scree {
 struct Ban {
   uint64_t until_s = 0;  ///< 0: until it is lifted
   std::string reason;
+
+  bool operator==(const Ban&) const = default;
 };
 
-/// What is banned with an address: an IPv4 address itself, also where it is written as IPv6; an IPv6 address
-/// stands for its network of 64 bits, because who has one address has them all. As text; an error for what is
-/// neither.
-Result<std::string> ban_key(const std::string& address);
+/// A ban that refuses somebody.
+struct FoundBan {
+  Ban ban;
+  BanTarget target;
+};
 
 class Bans {
  public:
@@ -30,20 +37,34 @@ class Bans {
   static Result<Bans> open(const std::string& path);
 
   /// The error of these two: the file could not be written, and the ban holds until the server ends (is
-  /// lifted until then); or there are limits::bans_max already.
+  /// lifted until then); or there are limits::bans_max already. `key`: as of ban_key().
   Result<void> add(const std::string& key, const Ban& ban, uint64_t now_s);
   Result<void> lift(const std::string& key);
+  /// Takes what was changed in the file by hand. The error names a line that is no ban; all others count.
+  Result<void> read_again();
 
-  /// Null: not banned.
-  const Ban* find(const std::string& address, uint64_t now_s) const;
+  /// Nothing: nobody bans them.
+  std::optional<FoundBan> find(const BanSubject& subject, uint64_t now_s) const;
   /// By key; those that ended may still be among them.
   const std::map<std::string, Ban>& all() const { return bans_; }
 
  private:
-  Result<void> write() const;
+  /// A line of the file, and the ban in it; a line without one has no key.
+  struct Line {
+    std::string text;
+    std::string key{};
+    Ban ban{};
+  };
+  using List = std::map<std::string, Ban>;
+
+  Result<std::vector<Line>> read_file(bool is_strict);
+  void merge(const std::vector<Line>& lines);
+  Result<void> write();
 
   std::string path_;
-  std::map<std::string, Ban> bans_;
+  List bans_;
+  List in_file_;  ///< as it was read or written last
+  std::map<std::string, BanTarget> targets_;
 };
 
 }  // namespace scree

@@ -78,7 +78,11 @@ inline constexpr double places_kept_part = 0.25;
 /// Bytes from one client, per second and at once; refused and closed.
 inline constexpr double client_bytes_per_second_max = 128.0 * 1024.0;
 inline constexpr double client_bytes_burst_max = 512.0 * 1024.0;
-/// Addresses that are banned; above: an administrator is told so.
+/// Addresses, names and tokens that are banned; above: an administrator is told so.
 inline constexpr size_t bans_max = 2048;
+
+/// Bits of a network that is banned, at least: a slip of the hand is not to ban half the world. Fewer are
+/// refused.
+inline constexpr unsigned ban_bits_min_v4 = 8, ban_bits_min_v6 = 16;
 
 }  // namespace scree::limits

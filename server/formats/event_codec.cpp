@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <recording.pb.h>
 
+#include "proto/limits.h"
 #include "server/formats/cursor_samples.h"
 #include "server/formats/recording_values.h"
 #include "shared/base/check.h"
@@ -26,6 +27,7 @@ void write(RecordedEvents& to, std::span<const Event> events, Tick last) {
     made.set_session(event.session);
     made.set_ms(event.ms);
     made.set_text(showable(event.text, limits::event_text_bytes_max));
+    made.set_token_id(event.token_id);
   }
 }
 
@@ -48,6 +50,7 @@ std::vector<Event> read(const RecordedEvents& from, Tick last, bool of_machine, 
     made.session = event.session();
     made.ms = check.not_negative(event.ms(), "duration of an event");
     made.text = check.text(event.text(), limits::event_text_bytes_max, "text of an event");
+    made.token_id = event.token_id();
     events.push_back(std::move(made));
   }
   return events;
@@ -74,6 +77,14 @@ std::vector<uint8_t> encode(const RecordedMachine& machine) {
   write(*to.mutable_events(), machine.events, machine.tick);
   to.set_tick(machine.tick);
   CHECK(machine.tick_us.size() <= machine.tick);
+  to.set_unix_ms(machine.unix_ms);
+  for (const Participant& person :
+       std::span(machine.persons).first(std::min(machine.persons.size(), limits::persons_per_row_max))) {
+    recorded::Person& made = *to.add_persons();
+    made.set_session(person.session);
+    made.set_name(showable(person.name, limits::person_name_bytes_max));
+    made.set_token_id(person.token_id);
+  }
   to.set_cursors(to_string(pack(machine.cursors, machine.tick + 1 - machine.tick_us.size())));
   return bytes_of(to);
 }
@@ -89,6 +100,15 @@ Result<RecordedMachine> decode_recorded_machine(std::span<const uint8_t> bytes) 
                              machine.tick));
   machine.tick_us.assign(from.tick_us().begin(), from.tick_us().end());
   machine.events = read(from.events(), machine.tick, true, check);
+  machine.unix_ms = from.unix_ms();
+  if (static_cast<size_t>(from.persons_size()) > limits::persons_per_row_max)
+    check.refuse(fmt::format("{} persons (limits.persons_per_row_max)", from.persons_size()));
+  for (const recorded::Person& person : from.persons()) {
+    if (check.failed()) break;
+    machine.persons.push_back({person.session(),
+                               check.text(person.name(), limits::person_name_bytes_max, "name of a person"),
+                               person.token_id()});
+  }
   if (!check.failed())
     machine.cursors =
         unpack_cursors(from.cursors(), machine.tick + 1 - machine.tick_us.size(), machine.tick, check);

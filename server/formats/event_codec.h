@@ -25,6 +25,10 @@ inline constexpr size_t ticks_per_row_max = 1000;
 /// Entries of persons' cursors in one row: 64 persons who all move, ten times a second, take a sixth. Above:
 /// a writer leaves the row's later ones out, a reader refuses the row.
 inline constexpr size_t cursors_per_row_max = 4096;
+
+/// Persons of one row, where a part of a recording begins: as many as a server has places. Above: a writer
+/// leaves the rest out, a reader refuses the row.
+inline constexpr size_t persons_per_row_max = 4096;
 }  // namespace limits
 
 /// The world events of one tick.

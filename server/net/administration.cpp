@@ -5,16 +5,19 @@
 #include <spdlog/spdlog.h>
 #include <variant>
 
+#include "auth/access_token.h"
 #include "server/doors/unix_time.h"
 #include "server/world/settings.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
+#include "shared/base/wall_clock.h"
 
 namespace scree {
 
 namespace {
 
 constexpr uint64_t seconds_per_minute = 60;
+constexpr uint64_t ms_per_second = 1000;
 
 }  // namespace
 
@@ -52,8 +55,7 @@ void Administration::set(ClientSession& session, uint32_t request, SettingsReque
   std::string changes;
   for (const SettingValue& setting : asked.settings) changes += " " + setting.name + "=" + setting.value;
   if (requests_.pass(session, {session.id(), request, asked}))
-    settings_asked_[{session.id(), request}] =
-        fmt::format("session {}: {} sets{}", session.id(), session.peer(), changes);
+    settings_asked_[{session.id(), request}] = fmt::format("{} sets{}", author_of(session), changes);
 }
 
 Result<void> Administration::find_here(const ClientSession& session, SettingsRequest& asked) const {
@@ -109,9 +111,9 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
       Overloaded{[](const SettingsRequest&) {},  // set() hands them to the world
                  [&](const ListSessionsRequest&) { list({.sessions = sessions_.rows(steady_now_s())}); },
                  [&](const ListBansRequest&) { list({.bans = ban_rows()}); },
-                 [&](const KickRequest& kick) { reply(this->kick(kick)); },
-                 [&](const BanRequest& ban) { reply(this->ban(ban)); },
-                 [&](const LiftBanRequest& lift) { reply(this->lift(lift)); },
+                 [&](const KickRequest& kick) { reply(this->kick(kick, author_of(session))); },
+                 [&](const BanRequest& ban) { reply(this->ban(ban, author_of(session))); },
+                 [&](const LiftBanRequest& lift) { reply(this->lift(lift, author_of(session))); },
                  [&](const ControlReplayRequest& control) {
                    reply(control_ ? control_(control) : fail("this server plays no recording (--replay)"));
                  }},
@@ -127,16 +129,25 @@ std::vector<BanRow> Administration::ban_rows() const {
   return rows;
 }
 
-Result<void> Administration::kick(const KickRequest& kick) {
+std::string Administration::author_of(const ClientSession& session) const {
+  const SessionEntry& entry = sessions_.at(session.id());
+  const std::string token =
+      entry.grant.token_id == 0 ? std::string() : ", token " + id_text(entry.grant.token_id);
+  return fmt::format("session {} ({}{}) from {}", session.id(), entry.name.empty() ? "no name" : entry.name,
+                     token, session.peer());
+}
+
+Result<void> Administration::kick(const KickRequest& kick, const std::string& author) {
   const SessionEntry* const entry = sessions_.find(kick.session);
-  if (entry == nullptr && tickets_.departed(kick.session) != nullptr) {
+  const bool is_away = entry == nullptr && tickets_.departed(kick.session) != nullptr;
+  if (entry == nullptr && !is_away) return fail(fmt::format("there is no session {}", kick.session));
+  spdlog::info("session {} is kicked by {}{}", kick.session, author,
+               with_reason(is_away ? ", while its connection was lost" : "", kick.reason));
+  if (is_away) {
     tickets_.forget(kick.session);
-    spdlog::info("session {}: kicked by an administrator while its connection was lost", kick.session);
     return {};
   }
-  if (entry == nullptr) return fail(fmt::format("there is no session {}", kick.session));
   const auto session = entry->session;
-  spdlog::info("session {}: kicked by an administrator", kick.session);
   session->refuse({Refusal::kicked, with_reason("an administrator ended this session", kick.reason)});
   return {};
 }
@@ -147,28 +158,46 @@ Result<std::string> Administration::ip_of(uint64_t session) const {
   return fail(fmt::format("there is no session {}", session));
 }
 
-/// Ends the sessions that are there, administrators' excepted; the ban holds even when it cannot be written.
-Result<void> Administration::ban(const BanRequest& ban) {
-  const std::string address = ban.session != 0 ? TRY(ip_of(ban.session)) : ban.address;
-  const std::string key = TRY(ban_key(address));
+/// The ban holds even when it cannot be written.
+Result<void> Administration::ban(const BanRequest& ban, const std::string& author) {
+  const std::string target = ban.session != 0 ? TRY(ip_of(ban.session)) : ban.address;
+  const std::string key = TRY(ban_key(target));
   const uint64_t now_s = unix_now_s();
   const uint64_t until_s = ban.minutes == 0 ? 0 : now_s + ban.minutes * seconds_per_minute;
-  Bans& bans = authorizer_.bans();
-  Result<void> added = bans.add(key, {until_s, ban.reason}, now_s);
-  spdlog::info("{} is banned by an administrator", key);
-  tickets_.forget_departed(
-      [&](const Departed& departed) { return bans.find(departed.ip, now_s) != nullptr; });
-  SessionTable::Sessions there;
-  for (const auto& [id, entry] : sessions_.entries())
-    if (entry.grant.role != Role::admin && bans.find(entry.session->ip(), now_s) != nullptr)
-      there.push_back(entry.session);
-  for (const auto& session : there)
-    session->refuse({Refusal::banned, with_reason("this address is banned from the server", ban.reason)});
+  Result<void> added = authorizer_.bans().add(key, {until_s, ban.reason}, now_s);
+  const std::string until =
+      until_s == 0 ? "until that is lifted" : "until " + iso_time(until_s * ms_per_second);
+  spdlog::info("{} is banned {} by {}{}", key, until, author, with_reason("", ban.reason));
+  end_banned();
   return added;
 }
 
-Result<void> Administration::lift(const LiftBanRequest& lift) {
-  return authorizer_.bans().lift(TRY(ban_key(lift.address)));
+void Administration::end_banned() {
+  const uint64_t now_s = unix_now_s();
+  const Bans& bans = authorizer_.bans();
+  tickets_.forget_departed([&](const Departed& away) {
+    return bans.find({away.ip, away.grant.name, away.grant.token_id}, now_s).has_value();
+  });
+  std::vector<std::pair<std::shared_ptr<ClientSession>, std::string>> there;
+  for (const auto& [id, entry] : sessions_.entries()) {
+    if (entry.grant.role == Role::admin) continue;
+    if (const auto found = bans.find({entry.session->ip(), entry.name, entry.grant.token_id}, now_s))
+      there.emplace_back(entry.session, words_of(*found));
+  }
+  for (const auto& [session, words] : there) session->refuse({Refusal::banned, words});
+}
+
+void Administration::read_bans_again() {
+  if (const auto read = authorizer_.bans().read_again(); !read)
+    spdlog::warn("a line of the bans does not count: {}", read.error().message);
+  end_banned();
+}
+
+Result<void> Administration::lift(const LiftBanRequest& lift, const std::string& author) {
+  const std::string key = TRY(ban_key(lift.address));
+  Result<void> lifted = authorizer_.bans().lift(key);
+  if (lifted) spdlog::info("the ban of {} is lifted by {}", key, author);
+  return lifted;
 }
 
 }  // namespace scree

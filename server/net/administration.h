@@ -38,6 +38,8 @@ class Administration {
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
   /// Logs the settings that administrators asked for and that this tick made so.
   void log_settings(const TickDelta& delta);
+  /// Takes what was changed in the file of bans by hand, and ends the sessions that it refuses.
+  void read_bans_again();
 
  private:
   void set(ClientSession& session, uint32_t request, SettingsRequest asked);
@@ -47,9 +49,13 @@ class Administration {
   Result<const PlayerCursor*> person_at(const ClientSession& session, const std::string& number) const;
   void act(ClientSession& session, const AdminMessage& message);
   std::vector<BanRow> ban_rows() const;
-  Result<void> kick(const KickRequest& kick);
-  Result<void> ban(const BanRequest& ban);
-  Result<void> lift(const LiftBanRequest& lift);
+  Result<void> kick(const KickRequest& kick, const std::string& author);
+  Result<void> ban(const BanRequest& ban, const std::string& author);
+  Result<void> lift(const LiftBanRequest& lift, const std::string& author);
+  /// Ends the sessions that are banned, administrators' excepted.
+  void end_banned();
+  /// Who acts, for the log: the session, the person's name, the access token, the address.
+  std::string author_of(const ClientSession& session) const;
   /// The IP address of a session, which may have lost its connection.
   Result<std::string> ip_of(uint64_t session) const;
 

@@ -125,7 +125,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
       publisher_.set_control_refusal(session.id(), control.error().message);
   if (hello.meets && !hello.administers)
     talk_.join(session.id(), entry.party != 0 ? entry.party : session.id(), entry.name, grant.role);
-  note({.kind = EventKind::join, .place_m = hello.eye_m, .session = session.id(), .text = entry.name});
+  note(EventKind::join, entry, hello.eye_m);
   ++figures_.counts().sessions_joined;
   figures_.counts().sessions_resumed += before ? 1 : 0;
   update_stats();
@@ -174,7 +174,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return {};
           },
           [&](const SayMessage& said) -> Done {
-            pass_on(said, session, talk_, sessions_, steady_now_s(), config_.said);
+            pass_on(said, session, talk_, sessions_, steady_now_s(), {config_.said, config_.log_chat});
             return {};
           },
           [&](const PhysicsSubscriptionMessage& subscription) -> Done {
@@ -200,8 +200,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
 }
 
 /// A session that takes no place changes no terrain.
-tl::expected<void, Refused> NetHost::ask(ClientSession& session, uint32_t request,
-                                           const Request& body) {
+tl::expected<void, Refused> NetHost::ask(ClientSession& session, uint32_t request, const Request& body) {
   if (!sessions_.at(session.id()).administers) {
     requests_.ask(session, request, body);
     return {};
@@ -264,7 +263,7 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
              fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
   }
   const SessionEntry& entry = sessions_.at(session.id());
-  if (entry.joined_s > 0.0) note({.kind = EventKind::leave, .session = session.id(), .text = entry.name});
+  if (entry.joined_s > 0.0) note(EventKind::leave, entry);
   if (entry.at_door) door_.leave(session.address(), steady_now_s());
   forget(session.id());
   returns_.closed(entry, steady_now_s());
@@ -308,6 +307,7 @@ void NetHost::check_time() {
 void NetHost::set_access(std::shared_ptr<const Access> access) {
   CHECK(network_thread_.is_the_same());
   authorizer_.set_access(std::move(access));
+  administration_.read_bans_again();
   log_access(authorizer_.access());
   end_lapsed_grants(sessions_, authorizer_.access());
 }
@@ -340,10 +340,6 @@ void NetHost::shut_down() {
 }
 
 // ---- what others are told
-
-void NetHost::note(Event event) const {
-  if (config_.noted) config_.noted(std::move(event));
-}
 
 HealthMessage NetHost::health() {
   ServerHealth health = config_.health ? config_.health() : ServerHealth();

@@ -94,7 +94,11 @@ class NetHost final : public SessionHost, public WebHost {
   void grant(const ServiceLimits& service);
   void queue_frames(const TickDelta& delta);
   void answer(const TickDelta& delta, const TickSpan& span);
-  void note(Event event) const;
+  /// Tells who listens that a person came or went.
+  void note(EventKind kind, const SessionEntry& entry, std::optional<glm::vec3> place_m = {}) const {
+    const uint64_t session = entry.session->id(), token = entry.grant.token_id;
+    if (config_.noted) config_.noted({kind, 0, place_m, 0.0F, 0, session, 0.0F, entry.name, token});
+  }
   void update_stats();
 
   const NetConfig config_;

@@ -94,6 +94,7 @@ struct NetConfig {
   std::function<Result<void>(const ControlReplayRequest&)> control;
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
   bool chat = true;                     ///< whether persons' lines are passed on
+  bool log_chat = false;                ///< whether they are logged, too
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig
   size_t net_threads = 0;               ///< that encode and send; 0: as many as the machine has cores
   WebConfig web;

@@ -1,6 +1,7 @@
 #include "server/net/talk_delivery.h"
 
 #include <optional>
+#include <spdlog/spdlog.h>
 #include <vector>
 
 namespace scree {
@@ -18,10 +19,12 @@ void send_persons(Talk& talk, const SessionTable& sessions, double now_s) {
 }
 
 void pass_on(const SayMessage& said, ClientSession& speaker, Talk& talk, const SessionTable& sessions,
-             double now_s, const std::function<bool(const SaidMessage&)>& hook) {
+             double now_s, const LineListeners& listeners) {
   const std::optional<Talk::Heard> heard = talk.say(speaker.id(), said.text, now_s);
   if (!heard) return;
-  if (heard->by_all && hook && !hook(heard->line)) return;
+  if (heard->by_all && listeners.hook && !listeners.hook(heard->line)) return;
+  if (heard->by_all && listeners.log)
+    spdlog::info("session {} ({}) says: {}", speaker.id(), heard->line.name, heard->line.text);
   const SharedBytes line = share(heard->line);
   if (!heard->by_all) return speaker.send(line);
   for (const uint64_t id : talk.everybody()) {

@@ -12,9 +12,14 @@ namespace scree {
 /// Sends the list of persons to the sessions that do not know it; later to a session that reads slowly.
 void send_persons(Talk& talk, const SessionTable& sessions, double now_s);
 
-/// Passes a line on. Sessions that read slowly miss it. Nobody hears a line for which `hook` returns false;
-/// it may be empty.
+/// Who else hears lines.
+struct LineListeners {
+  const std::function<bool(const SaidMessage&)>& hook;  ///< false: nobody hears the line; may be empty
+  bool log = false;                                     ///< lines that all hear are logged
+};
+
+/// Passes a line on. Sessions that read slowly miss it.
 void pass_on(const SayMessage& said, ClientSession& speaker, Talk& talk, const SessionTable& sessions,
-             double now_s, const std::function<bool(const SaidMessage&)>& hook);
+             double now_s, const LineListeners& listeners);
 
 }  // namespace scree

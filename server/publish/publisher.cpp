@@ -208,7 +208,7 @@ std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
     ClientFeed* const client = find(reply.session);
     if (client == nullptr) continue;
     client->outlet().send(share(ReplyMessage{reply.request, reply.refusal, reply.pieces, refusal_name(reply),
-                                             latency(reply), delta.tick}),
+                                             latency(reply), delta.tick, reply.painted}),
                           replies);
   }
   add(std::move(replies));

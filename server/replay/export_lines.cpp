@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <map>
 
+#include "server/replay/recorded_people.h"
 #include "server/store/event_deriver.h"
 #include "server/store/event_lines.h"
 #include "server/world/settings.h"
@@ -24,10 +25,12 @@ struct Batch {
   Durations ms;
 };
 
-Result<Batch> read_batch(RecordingReader& recording, Tick from, Tick to) {
+/// `people` takes what the rows say; may be null.
+Result<Batch> read_batch(RecordingReader& recording, Tick from, Tick to, RecordedPeople* people = nullptr) {
   auto events = recording.events(from, to);
   TRY(events);
   const auto rows = TRY(recording.machine(from, to));
+  if (people != nullptr) people->add(rows);
   Batch batch{std::move(*events), {}};
   for (const RecordedMachine& row : rows) {
     const Tick first = row.tick + 1 - row.tick_us.size();
@@ -52,7 +55,7 @@ Result<void> derive_events(const std::string& path, const GroundGiver& ground, c
   for (;;) {
     const auto delta = TRY(source->next());
     if (delta == nullptr) return {};
-    for (const Event& event : deriver.events_of(*delta)) visit(event, std::nullopt);
+    for (const Event& event : deriver.events_of(*delta)) visit(event, {world.tick_rate_hz});
   }
 }
 
@@ -97,9 +100,13 @@ std::string tick_line(const RecordedFrame& frame, const WorldConfig& world, cons
 Result<void> each_event(RecordingReader& recording, const GroundGiver& ground, const EventVisitor& visit) {
   if (!recording.events_from()) return derive_events(recording.path(), ground, visit);
   const Tick last = recording.last_tick();
+  const uint32_t tick_rate_hz = recording.header().world.tick_rate_hz;
+  RecordedPeople people(tick_rate_hz);
   for (Tick from = recording.first_tick(); from <= last; from += batch_ticks) {
-    const auto batch = TRY(read_batch(recording, from, std::min(last, from + batch_ticks - 1)));
-    for (const Event& event : batch.events) visit(event, ms_of(batch.ms, event.tick));
+    const auto batch = TRY(read_batch(recording, from, std::min(last, from + batch_ticks - 1), &people));
+    for (const Event& event : batch.events)
+      visit(event, {tick_rate_hz, ms_of(batch.ms, event.tick), people.unix_ms(event.tick),
+                    event.session == 0 ? Participant() : people.find(event.session)});
   }
   return {};
 }
@@ -109,9 +116,7 @@ Result<void> export_events(const std::string& path, const GroundGiver& ground, L
   const auto recording = TRY(RecordingReader::open(path));
   const bool csv = format == LineFormat::csv;
   if (csv) write(std::string(event_csv_heads));
-  const uint32_t tick_rate_hz = recording->header().world.tick_rate_hz;
-  return each_event(*recording, ground, [&](const Event& event, std::optional<float> tick_ms) {
-    const EventContext context{tick_rate_hz, tick_ms};
+  return each_event(*recording, ground, [&](const Event& event, const EventContext& context) {
     write(csv ? csv_line(event, context) : json_line(event, context));
   });
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/replay/replay_source.h"
+#include "server/store/event_lines.h"
 #include "server/store/recording_reader.h"
 
 namespace scree {
@@ -16,8 +17,8 @@ enum class LineFormat : uint8_t { csv, jsonl };
 /// Takes a line without its end.
 using LineSink = std::function<void(const std::string& line)>;
 
-/// Takes an event, and its tick's duration in milliseconds, where that is recorded.
-using EventVisitor = std::function<void(const Event& event, std::optional<float> tick_ms)>;
+/// Takes an event, and what is recorded beside it: its tick's duration, when it was, and who did it.
+using EventVisitor = std::function<void(const Event& event, const EventContext& context)>;
 
 /// Every event, ordered by tick. A recording without a log of events is played, and its world's events are
 /// derived from that (event_deriver.h).

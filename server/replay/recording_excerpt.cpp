@@ -1,9 +1,11 @@
 #include "server/replay/recording_excerpt.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 
 #include "server/formats/world_codec.h"
+#include "server/replay/recorded_people.h"
 #include "server/replay/recorded_world.h"
 #include "server/replay/verify.h"
 #include "server/store/limits.h"
@@ -58,6 +60,9 @@ class MachineRows {
     return events;
   }
 
+  /// About the tick that was asked for last.
+  const std::vector<RecordedMachine>& rows() const { return rows_; }
+
  private:
   RecordingReader& recording_;
   std::vector<RecordedMachine> rows_;
@@ -68,7 +73,12 @@ class ExcerptWriter {
  public:
   ExcerptWriter(RecordingReader& recording, const GroundGiver& ground, Tick first, Tick last,
                 std::function<void(double)> progress)
-      : recording_(recording), ground_(ground), first_(first), last_(last), progress_(std::move(progress)) {}
+      : recording_(recording),
+        ground_(ground),
+        first_(first),
+        last_(last),
+        progress_(std::move(progress)),
+        people_(recording.header().world.tick_rate_hz) {}
 
   Tick state() const { return state_; }
 
@@ -91,6 +101,7 @@ class ExcerptWriter {
       TRY(writer->add_unseen(tick, *commands));
     }
     if (first_ > 1) TRY(writer->begin_at(world->outline(), reader_of(*world)));
+    TRY(tell_people(*writer));
     TRY(write_ticks(*writer, world, terrain));
     return writer->finish();
   }
@@ -104,6 +115,16 @@ class ExcerptWriter {
   }
 
  private:
+  /// Who joined before the first tick.
+  Result<void> tell_people(RecordingWriter& writer) {
+    for (Tick tick = recording_.first_tick(); tick < first_; tick += machine_batch_ticks) {
+      const auto rows = TRY(recording_.machine(tick, std::min(first_ - 1, tick + machine_batch_ticks - 1)));
+      people_.add(rows);
+    }
+    for (const Participant& person : people_.all()) writer.note(person);
+    return {};
+  }
+
   /// Progress of a step that takes a part of the whole.
   std::function<void(Tick, Tick)> show(double from, double to) const {
     return [this, from, to](Tick done, Tick all) {
@@ -127,6 +148,7 @@ class ExcerptWriter {
   /// As they were recorded: the simulation goes on from the states that they went on from.
   Result<void> write_ticks(RecordingWriter& writer, std::unique_ptr<World>& world, RecordedTerrain& terrain) {
     MachineRows machine(recording_);
+    writer.set_clock([this] { return people_.unix_ms(at_); });
     const auto shown = show(0.4, 0.7);
     for (Tick tick = first_; tick <= last_; ++tick) {
       const auto frame = recording_.frame(tick);
@@ -137,6 +159,8 @@ class ExcerptWriter {
       if (const std::string differs = difference_of(delta, *frame); !differs.empty())
         return fail(fmt::format("{}: at tick {}, {}", recording_.path(), tick, differs));
       const auto noted = TRY(machine.at(tick, delta.times));
+      people_.add(machine.rows());
+      at_ = tick;
       terrain.make_room(*world);
       auto state = recording_.state(tick);
       TRY(state);
@@ -159,6 +183,8 @@ class ExcerptWriter {
   const GroundGiver& ground_;
   const Tick first_, last_;
   const std::function<void(double)> progress_;
+  RecordedPeople people_;
+  Tick at_ = 0;  ///< that is written
   Tick state_ = 0;
 };
 

@@ -52,6 +52,7 @@ void ChunkFetcher::State::run(std::atomic<uint64_t>& read) {
       queue.pop_front();
     }
     Came one{{next, {}}, {}};
+    WorldFile::follow(file);
     if (auto chunk = file->read_chunk(next); !chunk)
       one.error = chunk.error().message;
     else if (!chunk->has_value())

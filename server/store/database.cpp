@@ -1,5 +1,7 @@
 #include "server/store/database.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -22,7 +24,10 @@ int64_t checksum_of(std::span<const uint8_t> data) {
 }
 
 constexpr std::string_view refusal_words = ", the system refused: ";
-constexpr std::string_view full_words = "database or disk is full";  // SQLite's own
+constexpr std::string_view full_words = "database or disk is full";  // SQLite's own, as all that follow
+constexpr std::string_view held_words = "database is locked";
+constexpr std::array<std::string_view, 3> passing_words{
+    "disk I/O error", "attempt to write a readonly database", "unable to open database file"};
 
 /// What the system said to the call that failed last, if it is one of the reasons that somebody can act on:
 /// SQLite's own words do not say. 0: another.
@@ -59,6 +64,7 @@ Result<Database> Database::create(const std::string& path) {
   const int code = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);
   Database database(path, raw);
   if (code != SQLITE_OK) return database.failure("cannot be created");
+  sqlite3_busy_timeout(raw, busy_timeout_ms);
   return database;
 }
 
@@ -198,14 +204,17 @@ Result<void> Database::copy_to(const std::string& path) {
   return {};
 }
 
-bool Database::is_full() const {
-  const int refused = refused_by_system(database_.get());  // EFBIG: ulimit -f
-  return sqlite3_errcode(database_.get()) == SQLITE_FULL || refused == ENOSPC || refused == EFBIG ||
-         refused == EDQUOT;
-}
-
 bool Database::is_refusal(const Error& error) {
   return error.message.find(refusal_words) != std::string::npos || error.message.ends_with(full_words);
+}
+
+bool Database::may_pass(const Error& error) {
+  const auto is_said = [&](std::string_view words) { return error.message.find(words) != std::string::npos; };
+  return is_refusal(error) || is_held(error) || std::ranges::any_of(passing_words, is_said);
+}
+
+bool Database::is_held(const Error& error) {
+  return error.message.find(held_words) != std::string::npos;
 }
 
 bool Database::has_moved() const {

@@ -59,12 +59,15 @@ class Database {
   Result<void> each_number(const std::string& select, const NumbersVisitor& visit);
   /// Copies the whole database, as of one moment, into a new file.
   Result<void> copy_to(const std::string& path);
-  /// Whether the last failure was that the disk, or the limit of a file's size, has no room.
-  bool is_full() const;
   /// Whether the last call failed because another program has the file open.
   bool is_busy() const;
   /// Whether an error of a database says that the system refused, as on a full disk: nothing of the file.
   static bool is_refusal(const Error& error);
+  /// The same, and all else that may pass by itself: another program that holds the file, a failing disk, a
+  /// file or a disk that may not be written just now.
+  static bool may_pass(const Error& error);
+  /// Whether an error says that another program holds the file.
+  static bool is_held(const Error& error);
   /// Whether the file is not there any more under its name.
   bool has_moved() const;
   /// Runs a select with the parameter (tick) and the columns (data, checksum). Data that does not match its

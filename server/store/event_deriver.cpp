@@ -10,6 +10,23 @@ namespace scree {
 
 namespace {
 
+glm::vec3 middle_of(const Shape& shape) {
+  return row_of(shape.kind).has_b ? (shape.a + shape.b) * 0.5F : shape.a;
+}
+
+/// The place of the first of these pieces that is alive.
+std::optional<glm::vec3> place_of_pieces(const std::vector<PieceId>& pieces, const TickDelta& delta) {
+  for (const PieceId id : pieces)
+    if (const auto state = std::ranges::lower_bound(delta.pieces, id, {}, &PieceState::id);
+        state != delta.pieces.end() && state->id == id)
+      return dequantise(state->pose).position_m;
+  return std::nullopt;
+}
+
+glm::vec3 middle_of(const VoxelBox& box, float voxel_size_m) {
+  return glm::vec3(box.lo.x + box.hi.x, box.lo.y + box.hi.y, box.lo.z + box.hi.z) * (0.5F * voxel_size_m);
+}
+
 /// What an operation of a tick is as an event; nothing for what is a part of another event.
 class Telling {
  public:
@@ -30,30 +47,20 @@ class Telling {
   }
   std::optional<Event> operator()(const ShatterOperation&) const {
     if (applied_.stage == TickStage::refracture) return std::nullopt;
-    Event broke{.kind = EventKind::broke, .tick = delta_.tick};
-    for (const PieceId id : applied_.created)
-      if (const auto state = std::ranges::lower_bound(delta_.pieces, id, {}, &PieceState::id);
-          state != delta_.pieces.end() && state->id == id) {
-        broke.place_m = dequantise(state->pose).position_m;
-        break;
-      }
-    return with_pieces(broke);
+    return with_pieces({.kind = EventKind::broke,
+                        .tick = delta_.tick,
+                        .place_m = place_of_pieces(applied_.created, delta_)});
   }
   std::optional<Event> operator()(const IslandOperation& island) const {
-    const glm::vec3 corners = glm::vec3(island.box.lo.x + island.box.hi.x, island.box.lo.y + island.box.hi.y,
-                                        island.box.lo.z + island.box.hi.z);
-    return with_pieces(at(EventKind::fall, corners * (0.5F * voxel_size_m_)));
+    return with_pieces(at(EventKind::fall, middle_of(island.box, voxel_size_m_)));
   }
   // Bursts of merges are the tick's as a whole; what leaves the world is nobody's to see.
   std::optional<Event> operator()(const StampOperation&) const { return std::nullopt; }
   std::optional<Event> operator()(const DiscardOperation&) const { return std::nullopt; }
 
  private:
-  static glm::vec3 middle_of(const Shape& shape) {
-    return row_of(shape.kind).has_b ? (shape.a + shape.b) * 0.5F : shape.a;
-  }
   Event at(EventKind kind, glm::vec3 place_m) const {
-    return {.kind = kind, .tick = delta_.tick, .place_m = place_m};
+    return {.kind = kind, .tick = delta_.tick, .place_m = place_m, .session = applied_.session};
   }
   Event with_pieces(Event event) const {
     MassUnits mass = 0;
@@ -85,12 +92,28 @@ float distance_squared(glm::vec3 a, glm::vec3 b) {
 
 }  // namespace
 
+std::optional<glm::vec3> place_of(const AppliedOperation& applied, const TickDelta& delta,
+                                  float voxel_size_m) {
+  using Place = std::optional<glm::vec3>;
+  const auto of_shape = [](const auto& operation) -> Place { return middle_of(operation.shape); };
+  return std::visit(
+      Overloaded{[&](const CarveOperation& carve) { return of_shape(carve); },
+                 [&](const FillOperation& fill) { return of_shape(fill); },
+                 [&](const PaintOperation& paint) { return of_shape(paint); },
+                 [&](const ShatterOperation&) { return place_of_pieces(applied.created, delta); },
+                 [&](const IslandOperation& island) -> Place { return middle_of(island.box, voxel_size_m); },
+                 [](const StampOperation& stamp) -> Place { return dequantise(stamp.pose).position_m; },
+                 [](const DiscardOperation&) -> Place { return std::nullopt; }},
+      applied.operation);
+}
+
 void EventDeriver::add_settings(const TickDelta& delta, std::vector<Event>& events) {
   if (delta.settings.empty()) return;
   for (const SettingValue& setting : delta.settings)
     if (std::ranges::find(settings_, setting) == settings_.end())
       events.push_back({.kind = EventKind::setting,
                         .tick = delta.tick,
+                        .session = delta.settings_by,
                         .text = fmt::format("{}={}", setting.name, setting.value)});
   settings_ = delta.settings;
 }

@@ -4,6 +4,7 @@
 // when a process ends, or goes on from a saved value, are nobody's. One thread at a time.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "proto/event.h"
@@ -17,6 +18,10 @@ inline constexpr uint32_t merge_burst_min = 4;
 
 /// Ticks from a burst's first merge to its event: 1 s at 60 Hz.
 inline constexpr Tick merge_burst_ticks = 60;
+
+/// Where an operation of a tick acts; nothing of one that has no place.
+std::optional<glm::vec3> place_of(const AppliedOperation& applied, const TickDelta& delta,
+                                  float voxel_size_m);
 
 class EventDeriver {
  public:

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "shared/base/wall_clock.h"
+
 namespace scree {
 
 namespace {
@@ -21,18 +23,25 @@ std::optional<float> ms_of(const Event& event, const EventContext& context) {
   return event.ms > 0.0F ? std::optional(event.ms) : context.tick_ms;
 }
 
-std::string quoted(const std::string& text) {
+/// As scree token shows it.
+std::string token_text(const Event& event, const EventContext& context) {
+  const uint64_t id = event.token_id != 0 ? event.token_id : context.who.token_id;
+  return id == 0 ? std::string() : fmt::format("{:016x}", id);
+}
+
+}  // namespace
+
+std::string csv_field(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string out = "\"";
   for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
   return out + "\"";
 }
 
-}  // namespace
-
 std::string json_line(const Event& event, const EventContext& context) {
   nlohmann::ordered_json line{
       {"event", name_of(event.kind)}, {"tick", event.tick}, {"time_s", rounded(seconds_of(event, context))}};
+  if (context.unix_ms != 0) line["at"] = iso_time(context.unix_ms);
   if (event.place_m) {
     line["x_m"] = rounded(event.place_m->x);
     line["y_m"] = rounded(event.place_m->y);
@@ -41,6 +50,8 @@ std::string json_line(const Event& event, const EventContext& context) {
   if (event.volume_m3 > 0.0F) line["volume_m3"] = rounded(event.volume_m3);
   if (event.pieces > 0) line["pieces"] = event.pieces;
   if (event.session != 0) line["session"] = event.session;
+  if (!context.who.name.empty()) line["name"] = context.who.name;
+  if (const std::string token = token_text(event, context); !token.empty()) line["token"] = token;
   if (const auto ms = ms_of(event, context)) line["ms"] = rounded(*ms);
   if (!event.text.empty()) line["text"] = event.text;
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
@@ -56,7 +67,9 @@ std::string csv_line(const Event& event, const EventContext& context) {
   line += event.session != 0 ? fmt::format(",{}", event.session) : std::string(",");
   const auto ms = ms_of(event, context);
   line += ms ? fmt::format(",{:.3f}", *ms) : std::string(",");
-  return fmt::format("{},{}", line, quoted(event.text));
+  return fmt::format("{},{},{},{},{}", line, csv_field(event.text),
+                     context.unix_ms == 0 ? std::string() : iso_time(context.unix_ms),
+                     csv_field(context.who.name), token_text(event, context));
 }
 
 }  // namespace scree

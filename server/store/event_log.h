@@ -1,23 +1,24 @@
-// A file of events as JSON Lines, appended to by a thread of its own, so that nobody waits for the disk. What
-// does not fit into the queue, and what cannot be written, is lost and counted; the next lines are tried
-// anew, so that a disk that has room again gets them.
+// A file of events as JSON Lines, appended to by a thread of its own, so that nobody waits for the disk. It
+// consists of whole lines: what a crash or a full disk left of one is cut off. A write that fails is tried
+// again after growing pauses; what does not fit into the queue meanwhile is lost and counted. A file that was
+// moved or removed is made anew under its name, as programs expect that rotate logs.
 #pragma once
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "server/store/retry_pause.h"
 #include "shared/base/result.h"
 
 namespace scree {
 
 class EventLog {
  public:
-  /// Opens the file, or makes it: what it has stays.
+  /// Opens the file, or makes it: what it has stays, but for half a line of ours at its end.
   static Result<std::unique_ptr<EventLog>> open(const std::string& path);
-  /// Writes what waits.
+  /// Calls finish().
   ~EventLog();
   EventLog(const EventLog&) = delete;
   EventLog& operator=(const EventLog&) = delete;
@@ -26,14 +27,16 @@ class EventLog {
   void push(std::string line);
 
   struct Status {
-    uint64_t written = 0;                ///< lines
-    uint64_t lost = 0;                   ///< lines
-    std::optional<std::string> error{};  ///< of the last write, when that failed
+    uint64_t written = 0;  ///< lines
+    StoreHealth health;    ///< lost are lines
   };
   /// From any thread.
   Status status() const;
-  /// Waits until all that was pushed is written or lost.
+  /// Waits until all that was pushed is written, or a write failed.
   void flush();
+  /// Writes what waits, and tries once more where that fails; then the error says how many lines are lost.
+  /// The owner's last call.
+  Result<void> finish();
 
  private:
   struct State;

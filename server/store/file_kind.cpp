@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <optional>
+#include <utility>
 
 #include "shared/base/check.h"
 
@@ -25,6 +27,25 @@ Result<void> check_whole_pages(const std::string& path, const std::string& start
   return fail(fmt::format("{}: damaged or cut short: {} bytes are no whole pages", path, bytes));
 }
 
+/// The first bytes of a file that has as many (SQLite file format, 1.3).
+std::optional<std::string> sqlite_header(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;  // a pipe would be waited for
+  constexpr size_t header_bytes = 100;
+  std::string start(header_bytes, '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return file ? std::optional(std::move(start)) : std::nullopt;
+}
+
+int64_t application_id(const std::string& header) {
+  constexpr size_t id_at = 68;  // SQLite file format, 1.3
+  int64_t id = 0;
+  for (size_t i = 0; i < 4; ++i)
+    id = id * 256 + static_cast<int64_t>(static_cast<unsigned char>(header[id_at + i]));
+  return id;
+}
+
 }  // namespace
 
 Result<void> check_file(const std::string& path, const FileKind& kind) {
@@ -44,18 +65,23 @@ Result<void> check_file(const std::string& path, const FileKind& kind) {
 
 bool lacks_log(const std::string& path, const FileKind& kind) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return false;  // a pipe would be waited for
-  constexpr size_t header_bytes = 100, id_at = 68;                   // SQLite file format, 1.3
-  std::string start(header_bytes, '\0');
-  std::ifstream file(path, std::ios::binary);
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  int64_t id = 0;
-  for (size_t i = 0; i < 4; ++i)
-    id = id * 256 + static_cast<int64_t>(static_cast<unsigned char>(start[id_at + i]));
+  const auto start = sqlite_header(path);
+  if (!start) return false;
+  const int64_t id = application_id(*start);
   const bool another = id != 0 && id != kind.application_id;  // 0: it says so in its log yet
   constexpr char by_log = 2;                                  // SQLite file format, 1.3.3
-  return file && !another && start[18] == by_log && start[19] == by_log &&
+  return !another && (*start)[18] == by_log && (*start)[19] == by_log &&
          !std::filesystem::exists(path + "-wal", error);
+}
+
+bool is_foreign(const std::string& path, const FileKind& kind) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error)) return false;
+  if (!std::filesystem::is_regular_file(path, error)) return true;
+  const auto start = sqlite_header(path);
+  if (!start) return std::filesystem::file_size(path, error) > 0;
+  const int64_t id = application_id(*start);
+  return !start->starts_with(sqlite_magic) || (id != 0 && id != kind.application_id);
 }
 
 std::string missing_log_hint(const std::string& path) {

@@ -18,6 +18,9 @@ struct FileKind {
 
 /// Refuses, before SQLite opens it, what is no SQLite file, or is cut short.
 Result<void> check_file(const std::string& path, const FileKind& kind);
+/// Whether something is there that no program of ours has made under such a name: a folder, or a file of
+/// another kind. A file that a crash left without content is none.
+bool is_foreign(const std::string& path, const FileKind& kind);
 /// Whether what was written last may be missing: the file was in use when it was copied, or its program
 /// ended, and the log that belongs beside it is not there. Not of a file that says that it is of another
 /// kind. To be asked before SQLite opens it.

@@ -65,6 +65,24 @@ inline constexpr int page_cache_kib = 1024;
 /// Ticks until a chunk that could not be read is tried again; until then nobody waits for it.
 inline constexpr double unreadable_retry_s = 2.0;
 
+/// Seconds from a failed write to the next try, at first and at most; each pause is twice the one before.
+/// More would leave a disk that works again unused, less would burden one in trouble.
+inline constexpr double retry_pause_min_s = 0.25, retry_pause_max_s = 30.0;
+/// The most where another program holds the file: it mostly does for seconds, and a recording waits for
+/// recorder_queue_max ticks.
+inline constexpr double retry_held_max_s = 1.0;
+
+/// Seconds that the end of a server waits for a disk that fails: less than the 10 s after which `docker stop`
+/// kills. Above: what was not written is lost, and the program says so.
+inline constexpr double last_tries_s = 6.0;
+
+/// Pauses between the tries of a tick that needs a chunk which cannot be read, seconds. After the last one
+/// the server ends.
+inline constexpr double needed_chunk_pauses_s[] = {0.05, 0.2, 1.0};
+
+/// Parts of one recording, each a file. Above: it is refused, or does not go on.
+inline constexpr uint32_t recording_parts_max = 9999;
+
 /// Pages in SQLite's write-ahead log, a file beside a world's. Above: SQLite merges them into the file.
 inline constexpr int wal_pages_max = 4096;
 

@@ -27,8 +27,9 @@ struct RecordingHeader {
 /// A world from which a recording begins, or goes on in another process.
 struct RecordingStart {
   WorldMoment moment;
-  TickDelta keyframe;  ///< World::keyframe() or outline() of that world
-  ReadChunk read{};    ///< gives the bricks of chunks of which the keyframe has none
+  TickDelta keyframe;                  ///< World::keyframe() or outline() of that world
+  ReadChunk read{};                    ///< gives the bricks of chunks of which the keyframe has none
+  std::vector<Participant> persons{};  ///< who is there, and joined before
 };
 
 RecordedHeader to_recorded(const RecordingHeader& header);

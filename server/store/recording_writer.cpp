@@ -2,18 +2,17 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <filesystem>
 #include <fmt/format.h>
 #include <utility>
 
 #include "server/formats/event_codec.h"
 #include "server/formats/world_codec.h"
-#include "server/store/cursor_track.h"
 #include "server/store/database.h"
 #include "server/store/event_deriver.h"
 #include "server/store/keyframe_writer.h"
 #include "server/store/limits.h"
+#include "server/store/machine_writer.h"
 #include "server/store/resumed_recording.h"
 #include "server/store/schema.h"
 #include "server/world/settings.h"
@@ -22,17 +21,6 @@
 
 namespace scree {
 
-namespace {
-
-/// Ticks of one row of durations: a second of them at 60 Hz. Each begins with a tick in which cursors are
-/// sampled.
-constexpr Tick ticks_per_machine_row = 60;
-static_assert(ticks_per_machine_row % ticks_per_physics == 0);
-static_assert(ticks_per_machine_row <= limits::ticks_per_row_max);
-constexpr double us_per_ms = 1000.0;
-
-}  // namespace
-
 struct RecordingWriter::State {
   State(Database d, RecordingHeader h, RingLimit l)
       : database(std::move(d)), header(std::move(h)), ring(l, header.world.tick_rate_hz), limit(l) {}
@@ -40,12 +28,14 @@ struct RecordingWriter::State {
   Result<void> found();
   Result<void> prepare();
   Result<void> put_start(const RecordingStart& start);
+  Result<void> put_tick(const TickDelta& delta, std::span<const Command> commands,
+                        std::span<const Event> noted, const WorldMoment* part,
+                        const std::optional<std::vector<PlayerCursor>>& cursors);
+  void abandon();
   Result<void> put_commands(Tick tick, std::span<const Command> commands);
   Result<void> put_part(const WorldMoment& moment);
-  Result<void> put_events(const TickDelta& delta, std::span<const Event> noted);
-  void add_cursors(Tick tick);
+  Result<void> put_events(const TickDelta& delta);
   Result<void> put_end();
-  Result<void> put_machine();
   Result<void> drop_parts();
   Result<void> drop_before(RecordingRing::Part part);
   Result<void> count_bytes();
@@ -59,21 +49,18 @@ struct RecordingWriter::State {
   Statement insert_frame;
   Statement insert_commands;
   Statement insert_events;
-  Statement put_machine_row;
   Statement put_moment;
   std::optional<KeyframeWriter> keyframes;
   std::optional<EventDeriver> deriver;
-  RecordedMachine machine;  ///< since its last row
-  CursorTrack cursors;      ///< in that row
-  std::vector<PlayerCursor> last_cursors;
-  size_t cursor_entries = 0;  ///< likewise
-  bool logs = false;          ///< it has a row of the machine from this process
-  PublishedState published;   ///< after the last tick that was added
+  std::optional<MachineWriter> machine;
+  PublishedState published;  ///< after the last tick that was added
   RecordingRing ring;
   const RingLimit limit;
   uint64_t bytes = 0;  ///< of the pages of the file that are in use, at the last commit; of a ring alone
   RecordingSize size;
   bool in_transaction = false;
+  bool spoiled = false;
+  bool dropped = false;  ///< a part
   ThreadCheck storage_thread;
 };
 
@@ -112,42 +99,18 @@ Result<void> RecordingWriter::State::prepare() {
   TRY(prepare(insert_frame, schema::insert_into("frames")));
   TRY(prepare(insert_commands, schema::insert_into("commands")));
   TRY(prepare(insert_events, schema::insert_into("events")));
-  TRY(prepare(put_machine_row, schema::put_into("machine")));
   TRY(prepare(put_moment, schema::put_into("state_moments")));
   auto writer = TRY(KeyframeWriter::create(database, print(header.world)));
   keyframes = std::move(writer);
+  auto rows = TRY(MachineWriter::create(database));
+  machine = std::move(rows);
   return {};
 }
 
-/// A row of the machine's is not written at each tick: it would be most of a quiet recording.
-Result<void> RecordingWriter::State::put_events(const TickDelta& delta, std::span<const Event> noted) {
+Result<void> RecordingWriter::State::put_events(const TickDelta& delta) {
   CHECK(deriver.has_value());
-  if (const std::vector<Event> events = deriver->events_of(delta); !events.empty())
-    TRY(database.put(insert_events, delta.tick, encode(std::span(events))));
-  machine.tick = delta.tick;
-  machine.tick_us.push_back(static_cast<uint32_t>(std::lround(delta.times.total_ms() * us_per_ms)));
-  for (const Event& event : noted)
-    if (machine.events.size() < limits::events_per_row_max) machine.events.push_back(event);
-  // The first one says at once where the log of events begins.
-  const bool due = !logs || (delta.tick + 1) % ticks_per_machine_row == 0;
-  logs = true;
-  return due ? put_machine() : Result<void>();
-}
-
-/// Each row stands for itself, so that any moment has its cursors without the rows before.
-void RecordingWriter::State::add_cursors(Tick tick) {
-  auto sample = cursors.changes(tick, last_cursors);
-  if (!sample) return;
-  cursor_entries += sample->moved.size() + sample->gone.size();
-  if (cursor_entries <= limits::cursors_per_row_max) machine.cursors.push_back(std::move(*sample));
-}
-
-Result<void> RecordingWriter::State::put_machine() {
-  if (machine.tick_us.empty()) return {};
-  const RecordedMachine row = std::exchange(machine, {});
-  cursors.forget();
-  cursor_entries = 0;
-  return database.put(put_machine_row, row.tick, encode(row));
+  const std::vector<Event> events = deriver->events_of(delta);
+  return events.empty() ? Result<void>() : database.put(insert_events, delta.tick, encode(std::span(events)));
 }
 
 Result<void> RecordingWriter::State::put_commands(Tick tick, std::span<const Command> commands) {
@@ -167,12 +130,14 @@ Result<void> RecordingWriter::State::put_part(const WorldMoment& moment) {
   TRY(keyframes->put(published));
   TRY(database.put(put_moment, moment.tick, value));
   begin_events(published.settings());
+  machine->tell_persons();
   ring.begin({moment.tick, moment.next_piece}, bytes);
   return {};
 }
 
 Result<void> RecordingWriter::State::put_start(const RecordingStart& start) {
   TRY(begin());
+  for (const Participant& person : start.persons) machine->note(person);
   keyframes->begin(start.keyframe, published, start.read);
   return put_part(start.moment);
 }
@@ -193,8 +158,7 @@ Result<void> RecordingWriter::State::count_bytes() {
 /// After a commit, when the log has been merged if it is long.
 Result<void> RecordingWriter::State::measure() {
   if (database.has_moved())
-    return fail(database.path() +
-                " was moved or removed while it was recorded: later ticks are not recorded (--record)");
+    return fail(database.path() + " was moved or removed while it was recorded (--record)");
   const auto bytes_of = [](const std::string& path) {
     std::error_code none;
     const uint64_t found = std::filesystem::file_size(path, none);
@@ -224,18 +188,42 @@ Result<void> RecordingWriter::State::drop_before(const RecordingRing::Part part)
   TRY(keyframes->drop_before(part.tick, part.next_piece));
   TRY(count_bytes());
   ring.drop_before(part.tick, bytes);
+  dropped = true;
   return {};
 }
 
-void remove_recording(const std::string& path) {
-  std::error_code ignored;
-  for (const char* end : {"", "-wal", "-shm", "-journal"}) std::filesystem::remove(path + end, ignored);
+/// What the file has not of this object's state is not known any more.
+void RecordingWriter::State::abandon() {
+  spoiled = true;
+  in_transaction = false;
+  static_cast<void>(database.execute("ROLLBACK"));  // SQLite may have done so
 }
 
 RecordingWriter::RecordingWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
 RecordingWriter::~RecordingWriter() {
   static_cast<void>(commit());
+}
+
+bool RecordingWriter::is_spoiled() const {
+  return state_->spoiled;
+}
+
+void RecordingWriter::set_clock(std::function<uint64_t()> unix_ms) {
+  state_->machine->set_clock(std::move(unix_ms));
+}
+
+void RecordingWriter::note(const Participant& person) {
+  state_->machine->note(person);
+  state_->machine->tell_persons();
+}
+
+bool RecordingWriter::has_dropped() const {
+  return state_->dropped;
+}
+
+const std::string& RecordingWriter::path() const {
+  return state_->database.path();
 }
 
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::string& path,
@@ -261,14 +249,18 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::create(const std::stri
                                                                  RingLimit limit) {
   auto writer = create(path, header, limit);
   if (!writer) return writer;
-  (*writer)->state_->ring.drop_before(start.keyframe.tick, 0);
-  const auto put = (*writer)->state_->put_start(start);
-  if (put) return writer;
-  static_cast<void>((*writer)->state_->database.execute("ROLLBACK"));
-  (*writer)->state_->in_transaction = false;
+  const auto begun = (*writer)->begin_with(start);
+  if (begun) return writer;
   writer->reset();
   remove_recording(path);
-  return tl::unexpected(put.error());
+  return tl::unexpected(begun.error());
+}
+
+Result<void> RecordingWriter::begin_with(const RecordingStart& start) {
+  state_->ring.drop_before(start.keyframe.tick, 0);
+  auto put = state_->put_start(start);
+  if (!put) state_->abandon();
+  return put;
 }
 
 Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::string& path,
@@ -307,23 +299,30 @@ Result<void> RecordingWriter::begin_at(const TickDelta& keyframe, ReadChunk read
   return state.keyframes->put(state.published);
 }
 
+Result<void> RecordingWriter::State::put_tick(const TickDelta& delta, std::span<const Command> commands,
+                                              std::span<const Event> noted, const WorldMoment* part,
+                                              const std::optional<std::vector<PlayerCursor>>& at) {
+  TRY(put_commands(delta.tick, commands));
+  // After its commands: by the frames a recording says how far it goes, also after an error.
+  const std::vector<uint8_t> frame = encode(to_recorded(delta, published));
+  CHECK_DEBUG(decode_recorded_frame(frame).has_value());
+  TRY(database.put(insert_frame, delta.tick, frame));
+  TRY(put_events(delta));
+  TRY(machine->add(delta, noted, at));
+  TRY(keyframes->apply(delta, published));
+  if (part != nullptr) return put_part(*part);
+  return keyframes->is_due(published) ? keyframes->put(published) : Result<void>();
+}
+
 Result<void> RecordingWriter::add(const TickDelta& delta, std::span<const Command> commands,
                                   std::span<const Event> noted, const WorldMoment* part,
                                   const std::optional<std::vector<PlayerCursor>>& cursors) {
   State& state = *state_;
   CHECK(state.storage_thread.is_the_same());
-  TRY(state.begin());
-  TRY(state.put_commands(delta.tick, commands));
-  // After its commands: by the frames a recording says how far it goes, also after an error.
-  const std::vector<uint8_t> frame = encode(to_recorded(delta, state.published));
-  CHECK_DEBUG(decode_recorded_frame(frame).has_value());
-  TRY(state.database.put(state.insert_frame, delta.tick, frame));
-  if (cursors) state.last_cursors = *cursors;
-  if (cursors || state.machine.tick_us.empty()) state.add_cursors(delta.tick);
-  TRY(state.put_events(delta, noted));
-  TRY(state.keyframes->apply(delta, state.published));
-  if (part != nullptr) return state.put_part(*part);
-  return state.keyframes->is_due(state.published) ? state.keyframes->put(state.published) : Result<void>();
+  TRY(state.begin());  // while somebody else holds the file, nothing has changed here
+  auto put = state.put_tick(delta, commands, noted, part, cursors);
+  if (!put) state.abandon();
+  return put;
 }
 
 PartWish RecordingWriter::wants_part() const {
@@ -331,11 +330,16 @@ PartWish RecordingWriter::wants_part() const {
 }
 
 Result<void> RecordingWriter::commit() {
-  if (!state_->in_transaction) return {};
-  if (state_->limit.is_on()) TRY(state_->drop_parts());
-  state_->in_transaction = false;
-  TRY(state_->database.execute("COMMIT"));
-  return state_->measure();
+  State& state = *state_;
+  if (!state.in_transaction) return {};
+  const auto done = [&]() -> Result<void> {
+    if (state.limit.is_on()) TRY(state.drop_parts());
+    TRY(state.database.execute("COMMIT"));
+    state.in_transaction = false;
+    return state.measure();
+  }();
+  if (!done) state.abandon();
+  return done;
 }
 
 const RecordingSize& RecordingWriter::size() const {
@@ -350,8 +354,12 @@ Result<void> RecordingWriter::State::put_end() {
 
 Result<void> RecordingWriter::finish() {
   TRY(state_->begin());
-  TRY(state_->put_machine());
-  TRY(state_->put_end());
+  auto put = state_->machine->put();
+  if (put) put = state_->put_end();
+  if (!put) {
+    state_->abandon();
+    return put;
+  }
   TRY(commit());
   CHECK(!state_->in_transaction);
   auto merged = state_->database.execute("PRAGMA journal_mode = DELETE");

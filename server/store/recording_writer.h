@@ -2,6 +2,7 @@
 // crash. All calls after create() come from one thread.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,13 +11,11 @@
 
 #include "proto/event.h"
 #include "server/store/recording.h"
+#include "server/store/recording_parts.h"
 #include "server/store/recording_ring.h"
 #include "shared/base/result.h"
 
 namespace scree {
-
-/// Removes a recording's file, and those beside it.
-void remove_recording(const std::string& path);
 
 /// What cannot be begun leaves no file behind.
 class RecordingWriter {
@@ -33,8 +32,18 @@ class RecordingWriter {
   static Result<std::unique_ptr<RecordingWriter>> resume(const std::string& path,
                                                          const RecordingHeader& header,
                                                          const RecordingStart& start, RingLimit limit = {});
-  /// Commits, and ignores errors.
+  /// Commits, unless is_spoiled(), and ignores errors.
   ~RecordingWriter();
+
+  /// Whether an error left this object and the file apart, so that nothing more can be added: all that was
+  /// committed is in the file. Another error, as of a file that somebody else holds, lets the same call be
+  /// tried again.
+  bool is_spoiled() const;
+  /// For a recording of create() without a start, and without a tick: begins with a world of some tick.
+  Result<void> begin_with(const RecordingStart& start);
+  /// Whether the limit has dropped any part.
+  bool has_dropped() const;
+  const std::string& path() const;
 
   /// For a recording that has a start, but no tick yet: adds the commands of the next tick, which is recorded
   /// by them alone. After the last such tick begin_at() takes the state.
@@ -45,11 +54,15 @@ class RecordingWriter {
   /// Adds the next tick, without a gap from 1 or from the start on, and the commands that it carried out. Its
   /// events are derived; `noted`: those of the machine. `state`: the world after the tick, where the next one
   /// begins as from a restored value (World::renew): a part begins there, and parts that the limit has no
-  /// room for are dropped. `cursors`: all persons, where it is time to sample them. The caller stops adding
-  /// after an error.
+  /// room for are dropped. `cursors`: all persons, where it is time to sample them. After an error the same
+  /// tick may be added again, unless is_spoiled().
   Result<void> add(const TickDelta& delta, std::span<const Command> commands,
                    std::span<const Event> noted = {}, const WorldMoment* state = nullptr,
                    const std::optional<std::vector<PlayerCursor>>& cursors = std::nullopt);
+  /// Where the rows of the machine have their time from, ms since 1970; else from the system's clock.
+  void set_clock(std::function<uint64_t()> unix_ms);
+  /// Notes who joined before the first tick.
+  void note(const Participant& person);
   /// Whether a part should begin, so that the limit can be kept.
   PartWish wants_part() const;
   /// As of the last commit.

@@ -70,13 +70,13 @@ struct WorldFile::State {
   Result<void> write(const WorldChunk& chunk);  ///< the rows alone, within a transaction
   Result<void> write(const WorldMoment& moment);
   Result<void> put(const Statement& statement, uint64_t key, const std::vector<uint8_t>& data);
+  Result<void> put_back();
 
   Database database;
   Statement put_header, put_moment, put_chunk, put_piece, delete_piece, get_chunk;
   std::set<PieceId> pieces;  ///< that have rows
   uint64_t bytes_written = 0;
-  bool is_full = false;  ///< the last save found no room
-  bool durable = true;   ///< saves are synced
+  bool durable = true;  ///< saves are synced
 };
 
 Result<void> WorldFile::State::prepare() {
@@ -120,6 +120,12 @@ Result<void> WorldFile::State::write(const WorldMoment& moment) {
 
 bool refused_by_system(const Error& error) {
   return Database::is_refusal(error);
+}
+bool is_held(const Error& error) {
+  return Database::is_held(error);
+}
+bool may_pass(const Error& error) {
+  return Database::may_pass(error);
 }
 
 WorldFile::WorldFile(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -257,19 +263,45 @@ Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldC
     if (saved) saved = state_->write(chunk);
   if (saved) saved = state_->write(moment);
   if (saved) saved = file.execute("COMMIT");
-  state_->is_full = !saved && file.is_full();
   if (!saved) {
     static_cast<void>(file.execute("ROLLBACK"));  // there may be none, or none any more
     return saved;
   }
+  if (file.has_moved()) return fail(path() + " was moved or removed while the server kept its world there");
   state_->pieces.clear();
   for (const PieceRecord& piece : moment.pieces) state_->pieces.insert(piece.id);
   return {};
 }
 
-bool WorldFile::is_full() const {
-  return state_->is_full;
+/// Its log and what SQLite shares in memory belong to the file that is gone.
+Result<void> WorldFile::State::put_back() {
+  const std::string& path = database.path();
+  std::error_code error;
+  if (std::filesystem::exists(path, error))
+    return fail(path + " is another file than the one in which the server kept its world: move it away");
+  const std::string unfinished = path + "-new";
+  std::filesystem::remove(unfinished, error);
+  TRY(database.copy_to(unfinished));
+  for (const char* end : {"-wal", "-shm"}) std::filesystem::remove(path + end, error);
+  std::filesystem::rename(unfinished, path, error);
+  if (error) return fail(fmt::format("{} cannot be made: {}", path, error.message()));
+  if (durable) sync_folder_of(path);
+  return {};
 }
+
+Result<std::unique_ptr<WorldFile>> WorldFile::opened_anew() {
+  if (state_->database.has_moved()) TRY(state_->put_back());
+  auto file = TRY(open(path()));
+  file->state_->durable = state_->durable;
+  file->state_->bytes_written = bytes_written();
+  return file;
+}
+
+void WorldFile::follow(std::unique_ptr<WorldFile>& file) {
+  if (!file->state_->database.has_moved()) return;
+  if (auto put_back = open(file->path())) file = std::move(*put_back);
+}
+
 uint64_t WorldFile::bytes_written() const {
   return state_->bytes_written;
 }

@@ -33,6 +33,10 @@ struct LostRows {
 /// Whether a file could not be read for the system's reasons, as on a full disk, where SQLite lacks what it
 /// keeps beside the file: the error says nothing of the file itself.
 bool refused_by_system(const Error& error);
+/// Whether an error says that another program holds the file; whether it may pass by itself, as that does,
+/// and a full or failing disk (Database::may_pass).
+bool is_held(const Error& error);
+bool may_pass(const Error& error);
 
 class WorldFile {
  public:
@@ -73,10 +77,14 @@ class WorldFile {
   Result<std::vector<BrickPatch>> read_bricks(ChunkCoord chunk);
 
   /// Replaces the chunks and pieces that changed, and the moment, in one transaction, on the disk when this
-  /// returns. After an error the file is as it was.
+  /// returns. After an error the file is as it was; where it was moved or removed, that is an error, too.
   Result<void> save(const WorldMoment& moment, const std::vector<WorldChunk>& changed);
-  /// Whether the last save failed because the disk has no room: another one may succeed.
-  bool is_full() const;
+  /// The same file opened anew, for another try after an error. Where it was moved or removed, it is put back
+  /// under its name as it was saved last; an error if another file has the name meanwhile.
+  Result<std::unique_ptr<WorldFile>> opened_anew();
+  /// For who reads a file that another object saves: opens the one that was put back. Leaves `file` alone
+  /// where there is none.
+  static void follow(std::unique_ptr<WorldFile>& file);
   uint64_t bytes_written() const;  ///< in rows, since it was opened
 
   /// Copies the file, as of one moment, into a new one, which is whole before this returns.

@@ -1,6 +1,7 @@
 #include "server/store/world_saver.h"
 
 #include <algorithm>
+#include <chrono>
 #include <condition_variable>
 #include <fmt/format.h>
 #include <map>
@@ -14,6 +15,7 @@
 #include "server/world/shared_brick.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
+#include "shared/base/wall_clock.h"
 
 namespace scree {
 
@@ -68,6 +70,9 @@ struct WorldSaver::State {
         terrain(ground, [this](ChunkCoord chunk) { return file->read_chunk(chunk); }) {}
   void run();
   void write(Due due);
+  Result<void> open_anew();
+  void note(Tick tick, double ms, const Result<void>& saved);
+  void try_last(const WorldMoment& moment, const ChunkNow& now);
   std::map<ChunkCoord, std::vector<BrickState>> whole_chunks(const ChunkNow& now) const;
 
   SaverConfig config;
@@ -77,45 +82,61 @@ struct WorldSaver::State {
   ChangedBricks gathered;
   std::unordered_set<ChunkCoord, CoordHash> gathered_chunks;  ///< of those bricks
   Tick next_due = 0;                                          ///< 0: none by the clock
-  bool over = false;                                          ///< nothing is saved any more, nor gathered
 
   // Members of the storage thread.
   std::unique_ptr<WorldFile> file;
   UnsavedTerrain terrain;  ///< what the next save has to write; reads `file`
+  bool is_shaken = false;  ///< the last save failed: the file is opened anew
   std::thread thread;
 
   mutable std::mutex mutex;  ///< guards the members below
   std::condition_variable changed;
   std::optional<Due> waiting;
   bool stopping = false;
+  RetryPause pause;
   SaverStatus status;
 };
+
+/// A connection may hold what is not so any more once its file failed.
+Result<void> WorldSaver::State::open_anew() {
+  if (!is_shaken) return {};
+  auto anew = TRY(file->opened_anew());
+  file = std::move(anew);
+  return {};
+}
 
 void WorldSaver::State::write(Due due) {
   const Tick tick = due.moment.tick;
   if (config.before_save) config.before_save(tick);
   Stopwatch stopwatch;
+  Result<void> saved = open_anew();
   terrain.change(due.bricks);
   for (const auto& [chunk, bricks] : due.whole) terrain.replace_chunk(chunk, bricks);
-  const bool lacks = !terrain.lacking().empty();
-  const Result<void> saved =
-      lacks ? fail(reason_of(terrain.lacking())) : file->save(due.moment, terrain.unsaved(tick));
-  const double ms = stopwatch.lap_ms();
+  if (saved && !terrain.lacking().empty()) saved = fail(reason_of(terrain.lacking()));
+  if (saved) saved = file->save(due.moment, terrain.unsaved(tick));
   if (saved) terrain.saved();
+  is_shaken = !saved;
+  note(tick, stopwatch.lap_ms(), saved);
+}
+
+void WorldSaver::State::note(Tick tick, double ms, const Result<void>& saved) {
   const std::scoped_lock lock(mutex);
   status.bytes_written = file->bytes_written();
   status.save_worst_ms = std::max(status.save_worst_ms, ms);
-  status.error = saved ? std::nullopt : std::optional(saved.error().message);
   status.lacking.clear();
   for (const auto& [chunk, reason] : terrain.lacking()) status.lacking.push_back(chunk);
   if (saved) {
     CHECK(tick >= status.saved_tick);
+    status.health = {};
     status.saved_tick = tick;
     ++status.saves;
     return;
   }
   ++status.failures;
-  status.given_up = !lacks && !file->is_full();
+  if (status.health.ok()) status.health.since_unix_ms = unix_now_ms();
+  status.health.because = saved.error().message;
+  // A chunk that is lacking comes with the next save, which need not wait.
+  if (status.lacking.empty()) pause.failed(steady_now_s(), is_held(saved.error()));
 }
 
 void WorldSaver::State::run() {
@@ -126,7 +147,6 @@ void WorldSaver::State::run() {
       changed.wait(lock, [this] { return stopping || waiting; });
       due = std::exchange(waiting, std::nullopt);
       if (!due) return;
-      if (status.given_up) continue;
     }
     write(std::move(*due));
   }
@@ -153,23 +173,19 @@ WorldSaver::~WorldSaver() {
 
 bool WorldSaver::note(const TickDelta& delta, bool pressed) {
   State& s = *state_;
-  if (s.over) return false;
   for (const BrickState& state : delta.bricks) {
     s.gathered[state.coord] = state;
     s.gathered_chunks.insert(chunk_of(state.coord));
   }
+  const std::scoped_lock lock(s.mutex);
+  const bool fails = !s.status.health.ok();
+  // While it fails, the pauses alone say when.
+  if (fails && !s.pause.is_over(steady_now_s())) return false;
   const bool by_clock = s.next_due != 0 && delta.tick >= s.next_due;
   const bool much = s.gathered_chunks.size() >= limits::unsaved_chunks_max;
-  if (!by_clock && !pressed && !much &&
+  if (!by_clock && !pressed && !much && !fails &&
       !(s.config.durability == Durability::tick && something_happened(delta)))
     return false;
-  const std::scoped_lock lock(s.mutex);
-  if (s.status.given_up) {
-    s.over = true;
-    s.gathered.clear();
-    s.gathered_chunks.clear();
-    return false;
-  }
   if (s.waiting) {
     ++s.status.skipped;  // due again in the next tick
     if (s.next_due != 0) s.next_due = delta.tick + 1;
@@ -212,11 +228,27 @@ Result<void> WorldSaver::finish(WorldMoment moment, const ChunkNow& now) {
   }
   s.changed.notify_all();
   if (s.thread.joinable()) s.thread.join();
-  if (auto whole = s.whole_chunks(now); !whole.empty()) s.write({std::move(moment), {}, std::move(whole)});
+  s.try_last(moment, now);
   s.file.reset();
-  const std::scoped_lock lock(s.mutex);
-  if (s.status.error) return fail(*s.status.error);
-  return {};
+  if (s.status.health.ok()) return {};
+  return fail(fmt::format(
+      "the world's last ticks are not saved: its file holds tick {}, and the world stood at {}: {}",
+      s.status.saved_tick, moment.tick, *s.status.health.because));
+}
+
+/// Once the thread has ended: chunks that are lacking, and what fails, until the time for that is over.
+void WorldSaver::State::try_last(const WorldMoment& moment, const ChunkNow& now) {
+  const double until_s = steady_now_s() + config.last_tries_s;
+  bool was_whole = false;
+  while (!status.health.ok()) {
+    auto whole = whole_chunks(now);
+    if (whole.empty() || std::exchange(was_whole, true)) {
+      const double pause_s = std::clamp(pause.next_s() - steady_now_s(), 0.0, limits::retry_held_max_s);
+      if (steady_now_s() + pause_s > until_s) return;
+      std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
+    }
+    write({moment, {}, std::move(whole)});
+  }
 }
 
 SaverStatus WorldSaver::status() const {

@@ -3,10 +3,12 @@
 //
 // At most one save waits while another is written; while one waits, what changes is gathered for the next
 // (skipped saves are counted). Each is one transaction of one tick, and told as saved when it is on the disk.
-// When the disk has no room, the next save writes all that is missing. Where the row of a chunk that changed
-// cannot be read, the next save writes the chunk anew, as the world has it. After any other error nothing is
-// saved any more: what the disk holds is not known then, and the file is looked at by the next start. The
-// simulation goes on in all cases.
+// No error is the end of saving: another program that holds the file, a full or failing disk and a file that
+// was removed are tried again after growing pauses (retry_pause.h), with the file opened anew, or put back.
+// The next save that succeeds writes all that is missing. That is bounded: of each changed brick only the
+// latest state waits, and none of them leaves memory, so that memory-max refuses edits before there is too
+// much. Where the row of a chunk that changed cannot be read, the next save writes the chunk anew, as the
+// world has it. The simulation goes on in all cases.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/store/retry_pause.h"
 #include "server/store/world_file.h"
 #include "server/world/tick_delta.h"
 
@@ -49,6 +52,8 @@ struct SaverConfig {
   /// Called on the storage thread before a tick is saved; may be empty. A recording of the world must not end
   /// before the world does.
   std::function<void(Tick)> before_save;
+  /// How long finish() tries again what fails.
+  double last_tries_s = limits::last_tries_s;
 };
 
 struct SaverStatus {
@@ -58,9 +63,8 @@ struct SaverStatus {
   uint64_t failures = 0;
   uint64_t bytes_written = 0;  ///< in rows
   double save_worst_ms = 0.0;
-  bool given_up = false;
-  std::optional<std::string> error;  ///< of the last save, if it failed
-  std::vector<ChunkCoord> lacking;   ///< chunks whose rows cannot be read, which the next save needs whole
+  StoreHealth health;
+  std::vector<ChunkCoord> lacking;  ///< chunks whose rows cannot be read, which the next save needs whole
 };
 
 /// The edited bricks of a chunk as the world has them now; empty: it does not have them.
@@ -83,7 +87,8 @@ class WorldSaver {
   bool note(const TickDelta& delta, bool pressed = false);
   /// `now` is asked for chunks that are lacking.
   void save(WorldMoment moment, const ChunkNow& now = {});
-  /// Saves the last tick, waits until it is written, and ends. Returns the last error.
+  /// Saves the last tick, waits until it is written, and ends. What fails is tried again for a while; then
+  /// the last error is returned, and says which tick the file holds.
   Result<void> finish(WorldMoment moment, const ChunkNow& now = {});
 
   /// From any thread.

@@ -190,9 +190,11 @@ Outcome fill(World::State& state, const FillRequest& request, uint64_t party, Ti
   return enclosed;
 }
 
+/// Returns how many bricks it painted: a small shape may reach none.
 Outcome paint(World::State& state, const PaintRequest& request, uint64_t party, TickDelta& delta) {
-  state.apply_and_record(PaintOperation{request.shape, request.material}, party, delta);
-  return 0U;
+  const Applied applied =
+      state.apply_and_record(PaintOperation{request.shape, request.material}, party, delta);
+  return static_cast<uint32_t>(applied.changed.size());
 }
 
 Outcome change(World::State& state, const SettingsRequest& request, TickDelta& delta) {
@@ -268,7 +270,9 @@ bool may_wait(const World::State& state, const WaitingRequest& request, const Pi
 
 void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
   Reply reply{command.session, command.request, {}, 0};
-  if (outcome) {
+  if (outcome && std::holds_alternative<PaintRequest>(command.body)) {
+    reply.painted = *outcome;
+  } else if (outcome) {
     reply.pieces = *outcome;
   } else {
     reply.refusal = outcome.error().message;
@@ -284,7 +288,14 @@ Checked check(const World::State& state, const Command& command) {
 /// Carries out one request, or refuses it: what was valid when it came may not be any more.
 Outcome execute(World::State& state, const Command& command, const PieceGrant& grant, TickDelta& delta) {
   if (Checked valid = check(state, command); !valid) return tl::unexpected(valid.error());
-  return std::visit(Executing{state, party_of(command), grant, delta}, command.body);
+  const size_t before = delta.operations.size();
+  Outcome done = std::visit(Executing{state, party_of(command), grant, delta}, command.body);
+  for (size_t i = before; i < delta.operations.size(); ++i) {
+    delta.operations[i].session = command.session;
+    delta.operations[i].party = party_of(command);
+  }
+  if (std::holds_alternative<SettingsRequest>(command.body)) delta.settings_by = command.session;
+  return done;
 }
 
 /// Whether terrain may fall because of it.

@@ -86,6 +86,15 @@ std::string print_spawn_choice(const WorldConfig& config) {
   return config.spawn ? text_of(*config.spawn) : std::string(auto_spawn);
 }
 
+/// The same of a limit of the machine.
+template <auto Member>
+constexpr Setting machine_limit(std::string_view name, std::string_view help, NumberBounds bounds,
+                                std::span<const std::string_view> tried = {}) {
+  Setting row = number<Member>(name, help, bounds, tried);
+  row.of_machine = true;
+  return row;
+}
+
 constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
 constexpr std::array<std::string_view, 1> little_work{"20"};
 
@@ -100,19 +109,21 @@ constexpr std::array table{
                                    "whether pieces that rest together become terrain in one pass"),
     choice<&Methods::cutter>("cutter", "how broken rock is divided into pieces"),
     choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
-    number<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; further carves are refused",
-                                     {limits::pieces_max_min, limits::pieces_max_max, "pieces"}, few_pieces),
-    number<&WorldConfig::memory_max_mb>("memory-max",
-                                        "memory of the terrain and the program; further edits are refused",
-                                        {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}),
-    number<&WorldConfig::work_percent>(
+    machine_limit<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; further carves are refused",
+                                            {limits::pieces_max_min, limits::pieces_max_max, "pieces"},
+                                            few_pieces),
+    machine_limit<&WorldConfig::memory_max_mb>(
+        "memory-max", "memory of the terrain and the program; further edits are refused",
+        {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}),
+    machine_limit<&WorldConfig::work_percent>(
         "work-percent", "the part of a tick's length that its work may take; lowered while ticks are late",
         {limits::work_percent_min, limits::work_percent_max, "percent"}, little_work),
-    number<&ServiceLimits::sessions_max>("sessions-max",
-                                         "clients at once; when full, the server drops an idle client, or "
-                                         "one without a token if the newcomer has one",
-                                         {1, limits::sessions_max_max, "clients"}),
-    number<&ServiceLimits::requests_per_second>(
+    machine_limit<&ServiceLimits::sessions_max>(
+        "sessions-max",
+        "clients at once; when full, the server drops an idle client, or "
+        "one without a token if the newcomer has one",
+        {1, limits::sessions_max_max, "clients"}),
+    machine_limit<&ServiceLimits::requests_per_second>(
         "requests-per-second", "carves, fills and paints of one client; more are refused",
         {limits::requests_per_second_min, limits::requests_per_second_max, "requests a second", false}),
     text(spawn_setting, "where visitors begin, and which way they look; auto: where the ground suggests",
@@ -126,7 +137,7 @@ constexpr std::array table{
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
   const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent, methods,
-                service, spawn, ground, rules] = world;
+               service, spawn, ground, rules] = world;
   static_cast<void>(ground);  // names the terrain's
   static_cast<void>(rules);   // fixed from the start, as these three
   const auto& [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
@@ -238,6 +249,14 @@ SettingValues print(const WorldConfig& config) {
   SettingValues values;
   for (const Setting& setting : table) values.push_back({std::string(setting.name), setting.print(config)});
   return values;
+}
+
+SettingValues differing(const SettingValues& values, const WorldConfig& config) {
+  const SettingValues now = print(config);
+  SettingValues others;
+  for (const SettingValue& value : values)
+    if (std::ranges::find(now, value) == now.end()) others.push_back(value);
+  return others;
 }
 
 }  // namespace scree

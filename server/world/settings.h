@@ -48,6 +48,9 @@ struct Setting {
   double (*get)(const WorldConfig& config);  ///< the number, or the index in `choices`
   void (*put)(WorldConfig& config, double value);
   TextForm text{};  ///< of a text; then `bounds`, `get` and `put` mean nothing
+  /// A limit of the machine that a server runs on, not a part of the world: where a server is told it at its
+  /// start, that wins over what a kept world has saved.
+  bool of_machine = false;
 
   bool is_text() const { return text.parse != nullptr; }
   /// The possible values in words: "field, mesh or rays"; "1 to 20000 pieces, whole".
@@ -69,5 +72,7 @@ Result<void> set_all(WorldConfig& config, const SettingValues& values);
 Result<void> check_together(const WorldConfig& config);
 /// Every setting, in the table's order.
 SettingValues print(const WorldConfig& config);
+/// Those of `values` that the configuration does not have so.
+SettingValues differing(const SettingValues& values, const WorldConfig& config);
 
 }  // namespace scree

@@ -28,6 +28,8 @@ struct AppliedOperation {
   std::vector<ChunkCoord> writes;  ///< chunks that it changed
   std::vector<PieceId> created;
   std::optional<TickStage> stage = std::nullopt;  ///< that applied it; nothing in a replay
+  /// Whose request it carries out, and the party (Command::party). 0: nobody's, and in a replay.
+  uint64_t session = 0, party = 0;
 };
 
 /// A brick's state after the tick.
@@ -62,6 +64,7 @@ struct TickDelta {
   std::vector<PieceState> pieces;     ///< every piece alive after the tick, ordered by id
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
+  uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay
   std::optional<Spawn> spawn;  ///< where visitors begin, when that is another place than before (SpawnPlace)
   std::optional<ServiceLimits> service;       ///< those of them that are the network's; never in a recording
   std::optional<PlaybackMessage> playback;    ///< where a replay stands; of a replay alone, as the next two

@@ -307,7 +307,7 @@ TEST_F(RoleTest, who_is_banned_stays_out_over_a_restart_until_it_is_lifted) {
   EXPECT_TRUE(holds(refusal(hello(token(Role::builder))), "banned"));
   ASSERT_TRUE(ban_address(admin(the_admin_token), {0, "2001:db8:1:2:3:4:5:6", 90, ""}));
   EXPECT_TRUE(
-      holds(ban_address(admin(the_admin_token), {0, "nowhere", 0, ""}).error().message, "no IPv4 or IPv6"));
+      holds(ban_address(admin(the_admin_token), {0, "nowhere", 0, ""}).error().message, "an IPv4 or IPv6"));
   server->stop();
   start();
   EXPECT_TRUE(holds(refusal(hello("")), "banned from the server: griefing"));
@@ -325,21 +325,40 @@ TEST_F(RoleTest, who_is_banned_stays_out_over_a_restart_until_it_is_lifted) {
   EXPECT_TRUE(list_bans(admin(the_admin_token))->empty());
 }
 
+TEST_F(RoleTest, networks_names_and_tokens_are_banned_apart) {
+  start();
+  const std::string one = token(Role::builder, 0x15), other = token(Role::builder, 0x16);
+  const auto client = join(one, Role::builder);
+  ASSERT_TRUE(ban_address(admin(the_admin_token), {0, "token:0000000000000015", 0, "griefing"}));
+  const auto refused = client->receive_as<RefusalMessage>();
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->reason, "this token is banned from the server: griefing");
+  EXPECT_TRUE(holds(refusal(hello(one)), "this token is banned"));
+  join(other, Role::builder);
+  for (const auto& [target, words] :
+       {std::pair{"127.0.0.0/8", "this address is banned"}, {"name:Ben", "this name is banned"}}) {
+    ASSERT_TRUE(ban_address(admin(the_admin_token), {0, target, 0, ""}));
+    EXPECT_TRUE(holds(refusal(hello(other)), words));
+    ASSERT_TRUE(lift_ban(admin(the_admin_token), {target}));
+    join(other, Role::builder);
+  }
+}
+
 TEST(BanList, keeps_time_and_its_limits) {
   const TestFolder folder;
   auto bans = Bans::open(folder / "bans");
   ASSERT_TRUE(bans);
   ASSERT_TRUE(bans->add(ban_key("10.0.0.1").value(), {100, "two words"}, 50));
-  EXPECT_NE(bans->find("10.0.0.1", 99), nullptr);
-  EXPECT_EQ(bans->find("10.0.0.1", 100), nullptr);
-  EXPECT_EQ(bans->find("10.0.0.2", 99), nullptr);
-  EXPECT_NE(bans->find("::ffff:10.0.0.1", 99), nullptr) << "the same address, written as IPv6";
+  EXPECT_TRUE(bans->find({"10.0.0.1"}, 99));
+  EXPECT_FALSE(bans->find({"10.0.0.1"}, 100));
+  EXPECT_FALSE(bans->find({"10.0.0.2"}, 99));
+  EXPECT_TRUE(bans->find({"::ffff:10.0.0.1"}, 99)) << "the same address, written as IPv6";
   ASSERT_TRUE(bans->add(ban_key("fe80::1:2:3:4").value(), {0, ""}, 50));
-  EXPECT_NE(bans->find("fe80::ffff", 1'000'000), nullptr) << "the same network of 64 bits";
+  EXPECT_TRUE(bans->find({"fe80::ffff"}, 1'000'000)) << "the same network of 64 bits";
   const auto again = Bans::open(folder / "bans");
   ASSERT_TRUE(again);
   EXPECT_EQ(again->all().size(), 2U);
-  EXPECT_EQ(again->find("10.0.0.1", 99)->reason, "two words");
+  EXPECT_EQ(again->find({"10.0.0.1"}, 99)->ban.reason, "two words");
   Bans full = *Bans::open("");
   for (size_t i = 0; i < limits::bans_max; ++i) ASSERT_TRUE(full.add("key" + std::to_string(i), {0, ""}, 50));
   EXPECT_TRUE(holds(full.add("one more", {0, ""}, 50).error().message, "limits.bans_max"));
@@ -356,7 +375,7 @@ TEST(BanList, keeps_time_and_its_limits) {
   ASSERT_TRUE(nowhere);
   Bans unkept = *nowhere;
   EXPECT_TRUE(holds(unkept.add("10.0.0.1", {0, ""}, 50).error().message, "cannot be written"));
-  EXPECT_NE(unkept.find("10.0.0.1", 50), nullptr) << "it holds all the same";
+  EXPECT_TRUE(unkept.find({"10.0.0.1"}, 50)) << "it holds all the same";
 }
 
 }  // namespace

@@ -229,7 +229,7 @@ TEST_F(ReplayControlTest, a_live_server_logs_its_events_and_records_them) {
   }
   ASSERT_TRUE(server->stop().has_value());
   EXPECT_GE(server->report().events.written, 1U);
-  EXPECT_EQ(server->report().events.lost, 0U);
+  EXPECT_EQ(server->report().events.health.lost, 0U);
   const auto bytes = read_file(config.events_path);
   EXPECT_TRUE(holds({bytes.data(), bytes.size()}, R"({"event":"join","tick":)")) << bytes.data();
   const auto reader = RecordingReader::open(path);

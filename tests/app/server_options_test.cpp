@@ -54,6 +54,17 @@ TEST(ServerOptions, flags_are_taken) {
   EXPECT_FALSE(live.world.methods.dents);
 }
 
+TEST(ServerOptions, limits_of_the_machine_that_are_said_are_told_apart_from_the_worlds_settings) {
+  const auto limits_of = [](std::vector<const char*> arguments) {
+    const auto parsed = parse(std::move(arguments));
+    return std::get<ServerOptions>(parsed).live.machine_limits;
+  };
+  EXPECT_TRUE(limits_of({"--collider", "mesh", "--impacts", "false"}).empty());
+  EXPECT_EQ(limits_of({"--memory-max", "512", "--collider", "mesh"}), (SettingValues{{"memory-max", "512"}}));
+  EXPECT_EQ(limits_of({"--preset", "laptop", "--sessions-max", "9"}).size(), 4U)
+      << "sessions-max once, pieces-max, memory-max and work-percent by the preset";
+}
+
 TEST(ServerOptions, a_ring_is_a_recordings_and_has_a_unit) {
   const auto parsed = parse({"--record", "a.scree", "--record-ring", "10m"});
   ASSERT_TRUE(std::holds_alternative<ServerOptions>(parsed));

@@ -1,6 +1,10 @@
 // Persons and chat, as the server passes them on.
 #include "server/net/talk.h"
 
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
+#include <sstream>
+
 #include "server/net/limits.h"
 #include "tests/support/holds.h"
 #include "tests/support/net_server_fixture.h"
@@ -127,6 +131,24 @@ TEST_F(TalkServer, persons_and_lines_come_to_who_meets_others_and_to_nobody_else
     ASSERT_FALSE(std::holds_alternative<PersonsMessage>(*other) ||
                  std::holds_alternative<SaidMessage>(*other));
     if (std::holds_alternative<FrameMessage>(*other)) break;
+  }
+}
+
+TEST_F(TalkServer, lines_are_logged_where_that_is_asked_for_and_else_not) {
+  for (const bool logs : {false, true}) {
+    const auto before = spdlog::default_logger();
+    std::ostringstream log;
+    const auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(log);
+    spdlog::set_default_logger(std::make_shared<spdlog::logger>("talk", sink));
+    start([logs](NetConfig& config) { config.log_chat = logs; });
+    {
+      const auto bob = person("Bob");
+      ASSERT_TRUE(bob->send(SayMessage{"mind the edge"}));
+      ASSERT_TRUE(bob->receive_as<SaidMessage>());
+    }
+    server->stop();
+    spdlog::set_default_logger(before);
+    EXPECT_EQ(log.str().find("(Bob) says: mind the edge") != std::string::npos, logs) << log.str();
   }
 }
 

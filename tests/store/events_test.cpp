@@ -1,10 +1,13 @@
 // The log of events: what follows from the simulation is recorded and verified, what does not is kept apart;
 // a reader has both without simulating; files of them outlive a full disk.
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <thread>
 
 #include "server/formats/event_codec.h"
 #include "server/replay/export_lines.h"
@@ -209,7 +212,9 @@ TEST_F(EventsTest, a_recording_without_a_log_has_its_events_derived) {
   EXPECT_EQ(verified().events, 0U);
   const auto derived = exported(LineFormat::jsonl);
   ASSERT_EQ(derived.size(), logged.size());
-  EXPECT_EQ(derived[0], json_line(logged[0], {60}));
+  Event first = logged[0];
+  first.session = 0;  // which the operations do not say
+  EXPECT_EQ(derived[0], json_line(first, {60}));
 }
 
 TEST_F(EventsTest, events_that_are_no_events_are_refused_by_name) {
@@ -242,15 +247,54 @@ TEST_F(EventsTest, the_log_appends_whole_lines) {
   EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "{\"a\":1}\n{\"b\":2}\n{\"a\":1}\n{\"b\":2}\n");
 }
 
-TEST_F(EventsTest, a_line_that_a_crash_has_cut_does_not_spoil_the_next) {
+TEST_F(EventsTest, half_a_line_that_a_crash_has_left_is_cut_off_and_other_texts_stay) {
   const std::string file = (folder / "events.jsonl").string();
-  std::ofstream(file) << "{\"half";
+  for (const auto& [before, after] : {std::pair{"{\"a\":1}\n{\"half", "{\"a\":1}\n{}\n"},
+                                      {"{\"half", "{}\n"},
+                                      {"a letter", "a letter\n{}\n"}}) {
+    std::ofstream(file) << before;
+    auto log = EventLog::open(file);
+    ASSERT_TRUE(log.has_value());
+    (*log)->push("{}");
+    ASSERT_TRUE((*log)->finish().has_value());
+    const auto bytes = read_file(file);
+    EXPECT_EQ(std::string(bytes.begin(), bytes.end()), after);
+  }
+}
+
+TEST_F(EventsTest, a_file_at_its_limit_gets_no_half_line_and_all_lines_when_it_has_room_again) {
+  const std::string file = (folder / "events.jsonl").string();
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit small{20, before.rlim_max};
   auto log = EventLog::open(file);
   ASSERT_TRUE(log.has_value());
-  (*log)->push("{}");
-  (*log)->flush();
+  setrlimit(RLIMIT_FSIZE, &small);
+  for (const char* line : {"{\"first\":1}", "{\"second\":2}"}) (*log)->push(line);
+  while ((*log)->status().health.ok()) std::this_thread::yield();
+  const auto at_limit = read_file(file);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_TRUE(at_limit.empty() || at_limit.back() == '\n');
+  EXPECT_TRUE(holds((*log)->status().health.because.value_or(""), "File too large"));
+  ASSERT_TRUE((*log)->finish().has_value());
+  EXPECT_EQ((*log)->status().health.lost, 0U);
   const auto bytes = read_file(file);
-  EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "{\"half\n{}\n");
+  EXPECT_EQ(std::string(bytes.begin(), bytes.end()), "{\"first\":1}\n{\"second\":2}\n");
+}
+
+TEST_F(EventsTest, a_file_that_was_moved_away_is_made_anew) {
+  const std::string file = (folder / "events.jsonl").string(), moved = file + ".1";
+  auto log = EventLog::open(file);
+  ASSERT_TRUE(log.has_value());
+  (*log)->push("{\"a\":1}");
+  (*log)->flush();
+  std::filesystem::rename(file, moved);
+  (*log)->push("{\"b\":2}");
+  ASSERT_TRUE((*log)->finish().has_value());
+  EXPECT_EQ(read_file(moved).size(), 8U);
+  EXPECT_EQ(read_file(file).size(), 8U);
 }
 
 TEST_F(EventsTest, a_pipe_that_nobody_reads_is_refused) {
@@ -259,14 +303,17 @@ TEST_F(EventsTest, a_pipe_that_nobody_reads_is_refused) {
   EXPECT_FALSE(EventLog::open(pipe).has_value());
 }
 
-TEST_F(EventsTest, a_full_disk_loses_lines_and_counts_them) {
+TEST_F(EventsTest, a_disk_that_stays_full_loses_lines_counts_them_and_says_so_at_the_end) {
   auto log = EventLog::open("/dev/full");
   ASSERT_TRUE(log.has_value());
   for (int i = 0; i < 3; ++i) (*log)->push("{}");
   (*log)->flush();
-  EXPECT_EQ((*log)->status().lost, 3U);
+  EXPECT_EQ((*log)->status().health.lost, 0U) << "they wait";
   EXPECT_EQ((*log)->status().written, 0U);
-  EXPECT_TRUE(holds((*log)->status().error.value_or(""), "/dev/full")) << *(*log)->status().error;
+  EXPECT_TRUE(holds((*log)->status().health.because.value_or(""), "/dev/full"));
+  const auto finished = (*log)->finish();
+  ASSERT_FALSE(finished.has_value());
+  EXPECT_TRUE(holds(finished.error().message, "3 events are lost")) << finished.error().message;
   EXPECT_FALSE(EventLog::open((folder / "missing" / "x").string()).has_value());
 }
 

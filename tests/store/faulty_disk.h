@@ -1,5 +1,5 @@
-// A disk for SQLite that fills up, dies at a write, and forgets what was not synced: a VFS over the usual
-// one.
+// A disk for SQLite that fills up, fails for a while, dies at a write, and forgets what was not synced: a VFS
+// over the usual one.
 #pragma once
 
 #include <atomic>
@@ -34,8 +34,10 @@ class FaultyDisk {
   FaultyDisk(const FaultyDisk&) = delete;
   FaultyDisk& operator=(const FaultyDisk&) = delete;
 
-  std::atomic<bool> full = false;  ///< nothing more fits
-  uint64_t dies_after = 0;         ///< writes until nothing works any more; 0: never
+  std::atomic<bool> full = false;       ///< nothing more fits
+  std::atomic<bool> broken = false;     ///< writes and syncs fail
+  std::atomic<bool> read_only = false;  ///< nothing may be written
+  uint64_t dies_after = 0;              ///< writes until nothing works any more; 0: never
   uint64_t writes = 0;
   bool dead() const { return dies_after != 0 && writes > dies_after; }
 
@@ -44,7 +46,7 @@ class FaultyDisk {
     for (auto& [path, undo] : unsynced_)
       for (; !undo.empty(); undo.pop_back()) undo.back().apply(path);
     dies_after = 0;
-    full = false;
+    full = broken = read_only = false;
   }
 
  private:
@@ -93,6 +95,8 @@ class FaultyDisk {
     ++disk.writes;
     if (disk.dead()) return SQLITE_IOERR_WRITE;
     if (disk.full) return SQLITE_FULL;
+    if (disk.broken) return SQLITE_IOERR_WRITE;
+    if (disk.read_only) return SQLITE_READONLY;
     disk.remember(of(file), at, count);
     return of(file).real()->pMethods->xWrite(of(file).real(), bytes, count, at);
   }
@@ -105,7 +109,7 @@ class FaultyDisk {
     return of(file).real()->pMethods->xTruncate(of(file).real(), size);
   }
   static int sync(sqlite3_file* file, int) {
-    if (current()->dead()) return SQLITE_IOERR_FSYNC;
+    if (current()->dead() || current()->broken) return SQLITE_IOERR_FSYNC;
     if (of(file).path != nullptr) current()->unsynced_.erase(of(file).path);
     return SQLITE_OK;
   }

@@ -89,7 +89,7 @@ TEST_F(RecordingFaultsTest, a_disk_that_dies_at_any_write_leaves_a_recording_tha
   EXPECT_GT(farthest, 60U);
 }
 
-TEST_F(RecordingFaultsTest, a_disk_that_fills_up_ends_the_recording_which_plays_and_verifies_so_far) {
+TEST_F(RecordingFaultsTest, a_disk_that_stays_full_leaves_a_recording_that_plays_and_verifies_so_far) {
   simulate(150);
   FaultyDisk disk;
   {
@@ -100,9 +100,12 @@ TEST_F(RecordingFaultsTest, a_disk_that_fills_up_ends_the_recording_which_plays_
     disk.full = true;
     for (size_t i = 100; i < 150; ++i) (*recorder)->push(deltas[i], commands_by_tick[i]);
     (*recorder)->commit_up_to(150);
-    ASSERT_TRUE((*recorder)->error().has_value());
-    EXPECT_TRUE(holds(*(*recorder)->error(), "full")) << *(*recorder)->error();
-    EXPECT_FALSE((*recorder)->finish().has_value());
+    ASSERT_FALSE((*recorder)->health().ok());
+    EXPECT_TRUE(holds(*(*recorder)->health().because, "full")) << *(*recorder)->health().because;
+    const auto finished = (*recorder)->finish(0.0);
+    ASSERT_FALSE(finished.has_value());
+    EXPECT_TRUE(holds(finished.error().message, "has no ticks after 100, and 50 are in no part of it"))
+        << finished.error().message;
   }
   disk.full = false;
   EXPECT_EQ(last_tick_of_whole(), 100U);

@@ -129,11 +129,11 @@ TEST_F(RecordingTest,
   auto recorder = Recorder::create(path, {"test", small_world()});
   ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
   bound(fs::file_size(path + "-wal") + 300'000);
-  for (size_t i = 0; i < deltas.size() && !(*recorder)->error(); ++i) {
+  for (size_t i = 0; i < deltas.size() && (*recorder)->health().ok(); ++i) {
     (*recorder)->push(deltas[i], commands_by_tick[i]);
     if (i % 10 == 9) (*recorder)->commit_up_to(deltas[i]->tick);
   }
-  const auto finished = (*recorder)->finish();
+  const auto finished = (*recorder)->finish(0.0);
   bound(before.rlim_cur);
   std::signal(SIGXFSZ, handler);
   ASSERT_FALSE(finished.has_value());

@@ -149,6 +149,7 @@ inline std::vector<ServerMessage> server_messages() {
       PieceMessage{31, volume(), {1, -2, 3, 4}},
       ResetMessage{},
       ReplyMessage{7, "radius 12 m is over 8 m", 0, "carve_invalid", {8300, limits::latency_max_us, 400}},
+      ReplyMessage{8, "", 0, "", {}, 40, 3},
       status(),
       CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
       PersonsMessage{{{4, "Ann", Role::builder}, {9, "", Role::viewer}}, 2, true},

@@ -120,6 +120,27 @@ TEST(paint, an_island_is_made_of_what_its_place_was_painted) {
   EXPECT_EQ(pieces.at(5)->material, Material::soil);
 }
 
+TEST(paint, the_reply_says_how_many_bricks_were_painted) {
+  World world(flat_world());
+  const auto painted = [&](Material material, const Shape& shape) {
+    const std::vector<Command> commands{paint_it(material, shape)};
+    const Reply reply = world.step(commands)->replies.front();
+    EXPECT_EQ(reply.refusal, "");
+    EXPECT_EQ(reply.pieces, 0U);
+    return reply.painted;
+  };
+  // Bricks are 2 m wide: each whose centre lies in the box.
+  const auto first = painted(Material::ice, patch);
+  ASSERT_TRUE(first.has_value());
+  EXPECT_GT(*first, 0U);
+  EXPECT_EQ(painted(Material::ice, patch), 0U) << "all of them are ice";
+  EXPECT_EQ(painted(Material::soil, sphere({2.0F, 0.0F, 2.0F}, 0.9F)), 0U) << "it holds no brick's centre";
+  const std::vector<Command> carve{carve_at({0.0F, -0.3F, 0.0F})};
+  EXPECT_FALSE(world.step(carve)->replies.front().painted.has_value());
+  EXPECT_FALSE(
+      world.step({{paint_it(Material::ice, sphere({}, -1.0F))}})->replies.front().painted.has_value());
+}
+
 TEST(paint, what_cannot_be_painted_is_refused_by_name_and_changes_nothing) {
   World world(flat_world());
   const auto refusal = [&](Material material, const Shape& shape) {

@@ -73,7 +73,7 @@ Result<std::optional<Event>> find_event(const WhichEvent& which, RecordingReader
                                         const GroundGiver& ground) {
   EventSearch search(which);
   const auto read =
-      each_event(recording, ground, [&](const Event& event, std::optional<float>) { search.add(event); });
+      each_event(recording, ground, [&](const Event& event, const EventContext&) { search.add(event); });
   TRY(read);
   auto found = search.found();
   if (!found) return fail(recording.path() + ": " + found.error().message);

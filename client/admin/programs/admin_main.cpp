@@ -221,10 +221,12 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
   CLI::App* sessions = add("sessions", "lists the sessions, with role and address");
   CLI::App* kicked = add("kick", "ends a session");
   kicked->add_option("SESSION", options.whom, "number of the session")->required();
-  CLI::App* banned = add("ban", "bans an address, and ends its sessions");
+  CLI::App* banned = add("ban", "bans an address, a network, a name or a token, and ends such sessions");
   banned
-      ->add_option("WHOM", options.whom,
-                   "an IPv4 or IPv6 address, or the number of a session, whose address is banned")
+      ->add_option(
+          "WHOM", options.whom,
+          "203.0.113.9, 203.0.113.0/24, name:NAME, token:ID, or the number of a session, whose address "
+          "is banned")
       ->required();
   scree::bounded(banned->add_option("--minutes", options.minutes,
                                     "length of the ban in minutes; 0: until somebody lifts it"),
@@ -234,9 +236,9 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
     command->add_option("--reason", options.reason, "reason, which the client is shown");
   CLI::App* replay = add("replay", "controls a server's replay, and prints its position");
   add_control_options(replay, options);
-  CLI::App* bans = add("bans", "lists the banned addresses");
-  CLI::App* unban = add("unban", "lifts the ban of an address");
-  unban->add_option("ADDRESS", options.whom, "the address, as `bans` lists it")->required();
+  CLI::App* bans = add("bans", "lists the bans");
+  CLI::App* unban = add("unban", "lifts a ban");
+  unban->add_option("WHOM", options.whom, "address, network, name or token, as `bans` lists it")->required();
   return {{show, [](const Options& o) { return print(scree::read_settings(o.server), o.json); }},
           {status, [](const Options& o) { return print(scree::read_status(o.server), o.json); }},
           {healthy, health},

@@ -22,6 +22,12 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
   to.pieces_removed.insert(to.pieces_removed.end(), from.pieces_removed.begin(), from.pieces_removed.end());
 }
 
+std::string told_of_paint(uint32_t bricks) {
+  if (bricks == 0)
+    return "Nothing was painted: paint goes by bricks of 8 voxels a side, and this shape reaches none";
+  return std::to_string(bricks) + (bricks == 1 ? " brick was painted" : " bricks were painted");
+}
+
 }  // namespace
 
 ViewerSession::ViewerSession(std::unique_ptr<Connector> connector, SessionChoice choice)
@@ -144,9 +150,13 @@ void ViewerSession::settle(const ReplyMessage& reply, double arrived_s, double n
     latency_ = {(arrived_s - asked->second) * 1000.0, reply.latency};
     asked_s_.erase(asked);
   }
-  if (reply.refusal.empty()) return;
-  timeline_.refused();
-  notice_ = reply.refusal;
+  if (reply.refusal.empty() && !reply.painted) return;
+  if (reply.refusal.empty()) {
+    notice_ = told_of_paint(*reply.painted);
+  } else {
+    timeline_.refused();
+    notice_ = reply.refusal;
+  }
   notice_until_s_ = now_s + notice_s;
 }
 

@@ -18,6 +18,7 @@
 #include "server/replay/recorded_moment.h"
 #include "server/replay/recording_diff.h"
 #include "server/replay/recording_excerpt.h"
+#include "server/replay/request_lines.h"
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
@@ -41,6 +42,7 @@ struct Options {
   bool csv = false;
   std::string events_path;
   std::string ticks_path;
+  std::string requests_path;
   std::string other;  ///< recording to compare with
   std::string to_path;
   std::string first, last;  ///< ticks or times
@@ -206,10 +208,11 @@ Result<void> write_lines(const std::string& path, const WriteLines& write) {
 }
 
 int export_lines(const Options& options) {
-  if (!options.events_path.empty() || !options.ticks_path.empty()) {
+  if (!options.events_path.empty() || !options.ticks_path.empty() || !options.requests_path.empty()) {
     const std::array files{NamedFile{"the recording", options.path, false, true},
                            NamedFile{"--events", options.events_path, options.events_path != "-"},
-                           NamedFile{"--ticks", options.ticks_path, options.ticks_path != "-"}};
+                           NamedFile{"--ticks", options.ticks_path, options.ticks_path != "-"},
+                           NamedFile{"--requests", options.requests_path, options.requests_path != "-"}};
     if (const auto distinct = check_distinct(files); !distinct) return complain(distinct.error());
   }
   const auto ground = ground_giver(options.path, options.ground);
@@ -223,13 +226,18 @@ int export_lines(const Options& options) {
     });
     if (!written) return complain(written.error());
   }
-  if (options.ticks_path.empty()) return 0;
+  if (options.ticks_path.empty() && options.requests_path.empty()) return 0;
   const auto recording = RecordingReader::open(options.path);
   if (!recording) return complain(recording.error());
-  const auto written = write_lines(options.ticks_path, [&](const LineSink& write_line) {
-    return export_ticks(**recording, format_of(options.ticks_path), write_line);
-  });
-  return written ? 0 : complain(written.error());
+  for (const auto& [path, write_all] :
+       {std::pair(&options.ticks_path, &export_ticks), std::pair(&options.requests_path, &export_requests)}) {
+    if (path->empty()) continue;
+    const auto written = write_lines(*path, [&](const LineSink& write_line) {
+      return write_all(**recording, format_of(*path), write_line);
+    });
+    if (!written) return complain(written.error());
+  }
+  return 0;
 }
 
 int diff_files(const Options& options) {
@@ -317,15 +325,22 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
     command->add_flag("--json", options.json, "prints JSON");
   CLI::App* events = add_command(app, options, "events", "prints the events, one a line (JSON Lines)");
   events->add_flag("--csv", options.csv, "prints CSV");
-  CLI::App* exported = add_command(
-      app, options, "export", "writes events and ticks as JSON Lines, or as CSV if the name ends in .csv");
+  CLI::App* requests =
+      add_command(app, options, "requests", "prints the requests and who sent them, one a line (JSON Lines)");
+  requests->add_flag("--csv", options.csv, "prints CSV");
+  CLI::App* exported =
+      add_command(app, options, "export",
+                  "writes events, requests and ticks as JSON Lines, or as CSV if the name ends in .csv");
   exported->add_option("--events", options.events_path, "file for the events; -: the standard output");
   exported->add_option("--ticks", options.ticks_path,
                        "file for every tick's duration and ledger; -: the standard output");
+  exported->add_option("--requests", options.requests_path,
+                       "file for every request and its sender; -: the standard output");
   exported->require_option(1, 0);
   for (CLI::App* command : {verify_command, events, exported, diff_command, cut_command})
     add_ground(command, options);
-  for (CLI::App* command : {info_command, verify_command, events, exported, diff_command, cut_command})
+  for (CLI::App* command :
+       {info_command, verify_command, events, requests, exported, diff_command, cut_command})
     refuse_empty(*command);
   return {{info_command, info},
           {verify_command, verify_file},
@@ -335,6 +350,12 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
            [](const Options& o) {
              Options to_screen = o;
              to_screen.events_path = "-";
+             return export_lines(to_screen);
+           }},
+          {requests,
+           [](const Options& o) {
+             Options to_screen = o;
+             to_screen.requests_path = "-";
              return export_lines(to_screen);
            }},
           {exported, export_lines}};

@@ -64,7 +64,8 @@ void address(const std::string& text) {
   CHECK(ban_key(*key).value_or("") == *key);
   auto bans = Bans::open("");
   CHECK(bans.has_value() && bans->add(*key, {0, "fuzz"}, 1).has_value());
-  CHECK(bans->find(text, 2) != nullptr);
+  const auto target = BanTarget::read(text);
+  CHECK(target.has_value() && target->text() == *key && bans->all().contains(*key));
 }
 
 void bans_file(const std::string& text) {

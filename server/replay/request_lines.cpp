@@ -1,0 +1,116 @@
+#include "server/replay/request_lines.h"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "server/replay/recorded_people.h"
+#include "shared/base/overloaded.h"
+#include "shared/base/wall_clock.h"
+
+namespace scree {
+
+namespace {
+
+constexpr Tick people_batch_ticks = 3600;
+
+/// What a request asks for.
+struct Asked {
+  std::string_view name;  ///< empty: nobody asked
+  std::optional<Shape> shape{};
+  std::string text{};
+};
+
+Asked asked_by(const Request& request) {
+  return std::visit(Overloaded{[](const CarveRequest& carve) {
+                                 return Asked{"carve", carve.shape};
+                               },
+                               [](const FillRequest& fill) {
+                                 return Asked{"fill", fill.shape};
+                               },
+                               [](const PaintRequest& paint) {
+                                 return Asked{"paint", paint.shape, std::string(name_of(paint.material))};
+                               },
+                               [](const SettingsRequest& settings) {
+                                 Asked asked{"settings"};
+                                 for (const SettingValue& setting : settings.settings)
+                                   asked.text +=
+                                       (asked.text.empty() ? "" : " ") + setting.name + "=" + setting.value;
+                                 return asked;
+                               },
+                               [](const LeaveRequest&) { return Asked{}; }},
+                    request);
+}
+
+/// In the order of the columns; what is not known is null.
+nlohmann::ordered_json line_of(const Command& command, const Asked& asked, Tick tick, uint32_t tick_rate_hz,
+                               const RecordedPeople& people) {
+  const auto rounded = [](double value) { return std::round(value * 1000.0) / 1000.0; };
+  const Participant who = people.find(command.session);
+  const uint64_t unix_ms = people.unix_ms(tick);
+  nlohmann::ordered_json line{{"tick", tick}, {"time_s", rounded(static_cast<double>(tick) / tick_rate_hz)}};
+  line["at"] = unix_ms == 0 ? nlohmann::ordered_json() : nlohmann::ordered_json(iso_time(unix_ms));
+  line["request"] = asked.name;
+  line["session"] = command.session;
+  line["name"] = who.name.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(who.name);
+  line["token"] = who.token_id == 0 ? nlohmann::ordered_json()
+                                    : nlohmann::ordered_json(fmt::format("{:016x}", who.token_id));
+  line["party"] = party_of(command);
+  for (const char* key : {"x_m", "y_m", "z_m", "reach_m"}) line[key] = nullptr;
+  if (asked.shape) {
+    const glm::vec3 middle = centre_of(*asked.shape);
+    line["x_m"] = rounded(middle.x);
+    line["y_m"] = rounded(middle.y);
+    line["z_m"] = rounded(middle.z);
+    line["reach_m"] = rounded(reach_of(*asked.shape));
+  }
+  line["text"] = asked.text.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(asked.text);
+  return line;
+}
+
+std::string as_csv(const nlohmann::ordered_json& line) {
+  std::string csv;
+  for (const auto& [key, value] : line.items()) {
+    if (!csv.empty()) csv += ',';
+    if (value.is_string())
+      csv += csv_field(value.get<std::string>());
+    else if (!value.is_null())
+      csv += value.dump();
+  }
+  return csv;
+}
+
+std::string as_json(nlohmann::ordered_json line) {
+  nlohmann::ordered_json known;
+  for (const auto& [key, value] : line.items())
+    if (!value.is_null()) known[key] = value;
+  return known.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+
+Result<void> export_requests(RecordingReader& recording, LineFormat format, const LineSink& write) {
+  const uint32_t tick_rate_hz = recording.header().world.tick_rate_hz;
+  if (format == LineFormat::csv) write(std::string(request_csv_heads));
+  RecordedPeople people(tick_rate_hz);
+  Tick known_to = 0;
+  for (Tick tick = recording.first_tick(); tick <= recording.last_tick(); ++tick) {
+    if (tick > known_to) {
+      known_to = tick + people_batch_ticks - 1;
+      const auto rows = TRY(recording.machine(tick, known_to));
+      people.add(rows);
+    }
+    const auto commands = recording.commands(tick);
+    TRY(commands);
+    for (const Command& command : *commands) {
+      const Asked asked = asked_by(command.body);
+      if (asked.name.empty()) continue;
+      auto line = line_of(command, asked, tick, tick_rate_hz, people);
+      write(format == LineFormat::csv ? as_csv(line) : as_json(std::move(line)));
+    }
+  }
+  return {};
+}
+
+}  // namespace scree
