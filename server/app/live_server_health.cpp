@@ -11,9 +11,7 @@ namespace {
 
 /// How the world is not saved as promised; empty: it is.
 std::string saving_fault(const SaverStatus& status, double waited_s) {
-  if (status.given_up)
-    return fmt::format("the world is not saved any more: the last tick on the disk is {}", status.saved_tick);
-  if (status.error)
+  if (!status.health.ok())
     return fmt::format("the world cannot be saved, and is tried again: the last tick on the disk is {}",
                        status.saved_tick);
   if (waited_s > limits::save_delay_seconds_max)
@@ -47,8 +45,9 @@ ServerHealth LiveServer::State::health() const {
   if (saved_world && !saved_world->is_temporary())
     if (const std::string fault = saving_fault(saved_world->status(), waited_s); !fault.empty())
       found.add(HealthKind::saving, fault);
-  if (recorder && recorder->error()) found.add(HealthKind::recording, "the recording is not written");
-  if (events && events->status().error) found.add(HealthKind::events, "the log of events is not written");
+  if (recorder && !recorder->health().ok()) found.add(HealthKind::recording, "the recording is not written");
+  if (events && !events->status().health.ok())
+    found.add(HealthKind::events, "the log of events is not written");
   return found;
 }
 

@@ -22,7 +22,7 @@ namespace scree {
 /// A text as of asio::ip::address; any text that is none is an address of its own.
 std::string door_address(const std::string& ip);
 
-/// Of a client for whom a trusted proxy speaks: likewise, but nobody behind a proxy is on this machine.
+/// The same for a client for whom a trusted proxy speaks. Nobody behind a proxy is on this machine.
 std::string relayed_address(const std::string& ip);
 
 class Door {

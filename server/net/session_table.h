@@ -70,7 +70,7 @@ class SessionTable {
   bool empty() const { return entries_.empty(); }
   size_t outsiders() const { return outsiders_.size(); }
   size_t joined() const;
-  /// Of those that joined, the ones that need a place.
+  /// Those that joined and need a place.
   size_t placed() const;
   /// Outsiders that the door turned away.
   size_t turned_away() const;
