@@ -10,6 +10,7 @@
 #include "server/app/heartbeat.h"
 #include "server/app/live_server.h"
 #include "server/app/save_delay.h"
+#include "tests/store/passing_fault.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/holds.h"
 #include "tests/support/patience.h"
@@ -96,6 +97,40 @@ TEST_F(LiveHealthTest, a_recording_that_cannot_be_written_is_a_fault_and_the_gam
   EXPECT_EQ(status("/livez"), 200);
   EXPECT_EQ(status("/readyz"), 200);
 }
+
+/// What happens to the world's file, and passes.
+class LiveHealthFaultTest : public LiveHealthTest, public ::testing::WithParamInterface<Fault> {};
+
+TEST_P(LiveHealthFaultTest, a_world_that_is_not_saved_is_said_until_it_is_saved_again) {
+  FaultyDisk disk;
+  const std::string world = folder / "w.world";
+  start([&](LiveConfig& config) {
+    config.world_path = world;
+    config.durability = Durability::tick;
+  });
+  uint32_t carves = 0;
+  const auto carve = [&] {
+    CarveRequest request;
+    request.shape = sphere({static_cast<float>(++carves % 9), 0.0F, 2.0F}, 1.0F);
+    request.seeds = 1;
+    static_cast<void>(server->push({0, carves, request}));
+  };
+  carve();
+  EXPECT_TRUE(comes_to("/healthz", 200));
+  PassingFault fault(GetParam(), disk, world);
+  for (const Within within(60.0); status("/healthz") != 503 && !within.over(); wait_a_moment()) carve();
+  EXPECT_EQ(status("/healthz"), 503);
+  EXPECT_TRUE(holds(body("/healthz"), "\"name\":\"saving\"")) << body("/healthz");
+  EXPECT_FALSE(holds(body("/healthz"), world)) << "everybody may ask";
+  EXPECT_EQ(status("/livez"), 200) << "a restart mends nothing";
+  EXPECT_EQ(status("/readyz"), 200);
+  fault.pass();
+  EXPECT_TRUE(comes_to("/healthz", 200));
+  EXPECT_TRUE(server->stop());
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, LiveHealthFaultTest,
+                         ::testing::Values(Fault::held, Fault::full, Fault::broken), name_of_fault);
 
 TEST(Heartbeat, says_when_it_stands_still_again_and_again_and_when_it_goes_on) {
   Heartbeat heart(100.0, 5.0);
