@@ -127,6 +127,7 @@ TEST_P(LiveHealthFaultTest, a_world_that_is_not_saved_is_said_until_it_is_saved_
   fault.pass();
   EXPECT_TRUE(comes_to("/healthz", 200));
   EXPECT_TRUE(server->stop());
+  server.reset();  // before the disk
 }
 
 INSTANTIATE_TEST_SUITE_P(Faults, LiveHealthFaultTest,
