@@ -104,7 +104,7 @@ class ProxyTest : public NetServerTest {
   void run(const std::string& name, const std::vector<std::string>& command, const std::string& conf) {
     std::ofstream(files / (name + ".conf")) << conf;
     proxy = std::make_unique<BackgroundProgram>(command, files / (name + ".said"));
-    for (const Within within(30.0); !LoopbackSocket(by_proxy(1)).connected();)
+    for (const Within within(30.0); !LoopbackSocket({proxy_port, proxy_address, proxy_address}).connected();)
       if (within.over()) {
         std::ifstream said(files / (name + ".said"));
         std::ostringstream all;

@@ -11,6 +11,7 @@
 #include <poll.h>
 #include <span>
 #include <string>
+#include <strings.h>
 #include <sys/socket.h>
 #include <vector>
 
@@ -102,9 +103,16 @@ class WebPipe {
   std::optional<TlsEngine> tls_;
 };
 
+/// Names of fields are the same in capitals and small letters; proxies change them.
+struct FieldLess {
+  bool operator()(const std::string& a, const std::string& b) const {
+    return ::strcasecmp(a.c_str(), b.c_str()) < 0;
+  }
+};
+
 struct HttpAnswer {
   int status = 0;  ///< 0: there was none
-  std::map<std::string, std::string> fields;
+  std::map<std::string, std::string, FieldLess> fields;
   std::string body;
 
   std::string field(const std::string& name) const {
