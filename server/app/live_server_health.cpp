@@ -4,15 +4,22 @@
 
 #include "server/app/limits.h"
 #include "server/app/live_server_state.h"
+#include "shared/base/wall_clock.h"
 
 namespace scree {
 
 namespace {
 
+/// What is wrong with a file, for everybody who asks: without its name, and without the system's words.
+std::string writing_fault(std::string_view what, const StoreHealth& health) {
+  return fmt::format("{} has not been written since {}, and is tried again", what,
+                     iso_time(health.since_unix_ms));
+}
+
 /// How the world is not saved as promised; empty: it is.
 std::string saving_fault(const SaverStatus& status, double waited_s) {
   if (!status.health.ok())
-    return fmt::format("the world cannot be saved, and is tried again: the last tick on the disk is {}",
+    return fmt::format("{}: the last tick on the disk is {}", writing_fault("the world", status.health),
                        status.saved_tick);
   if (waited_s > limits::save_delay_seconds_max)
     return fmt::format("the disk has not taken the world for {:.0f} s: the last tick on it is {}", waited_s,
@@ -45,9 +52,12 @@ ServerHealth LiveServer::State::health() const {
   if (saved_world && !saved_world->is_temporary())
     if (const std::string fault = saving_fault(saved_world->status(), waited_s); !fault.empty())
       found.add(HealthKind::saving, fault);
-  if (recorder && !recorder->health().ok()) found.add(HealthKind::recording, "the recording is not written");
-  if (events && !events->status().health.ok())
-    found.add(HealthKind::events, "the log of events is not written");
+  if (recorder)
+    if (const StoreHealth health = recorder->health(); !health.ok())
+      found.add(HealthKind::recording, writing_fault("the recording", health));
+  if (events)
+    if (const StoreHealth health = events->status().health; !health.ok())
+      found.add(HealthKind::events, writing_fault("the log of events", health));
   return found;
 }
 

@@ -290,10 +290,7 @@ Outcome execute(World::State& state, const Command& command, const PieceGrant& g
   if (Checked valid = check(state, command); !valid) return tl::unexpected(valid.error());
   const size_t before = delta.operations.size();
   Outcome done = std::visit(Executing{state, party_of(command), grant, delta}, command.body);
-  for (size_t i = before; i < delta.operations.size(); ++i) {
-    delta.operations[i].session = command.session;
-    delta.operations[i].party = party_of(command);
-  }
+  for (size_t i = before; i < delta.operations.size(); ++i) delta.operations[i].session = command.session;
   if (std::holds_alternative<SettingsRequest>(command.body)) delta.settings_by = command.session;
   return done;
 }

@@ -28,7 +28,8 @@ struct AppliedOperation {
   std::vector<ChunkCoord> writes;  ///< chunks that it changed
   std::vector<PieceId> created;
   std::optional<TickStage> stage = std::nullopt;  ///< that applied it; nothing in a replay
-  /// Whose request it carries out, and the party (Command::party). 0: nobody's, and in a replay.
+  /// Whose request it carries out, and the party (Command::party) that caused it, perhaps earlier. 0:
+  /// nobody's, and in a replay.
   uint64_t session = 0, party = 0;
 };
 

@@ -87,6 +87,7 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
               applied.changed.end());
   delta.operations.push_back(describe(operation, reads, applied));
   delta.operations.back().stage = stopwatch.stage();
+  delta.operations.back().party = party;
   changed.insert(applied.changed.begin(), applied.changed.end());
   const Loose loose = left_by(operation);
   party = charged(party);

@@ -35,24 +35,34 @@ TEST(Environment, other_names_and_other_programs_variables_are_let_be) {
   EXPECT_EQ(fault_in_environment(own, nullptr), "");
 }
 
-/// Every variable that a source of a client or a tool names.
-TEST(Environment, all_variables_of_other_programs_are_known) {
-  std::set<std::string> known;
-  for (const std::string_view name : variables_of_others()) known.emplace(name);
-  const std::set<std::string> shared{"SCREE_PORT", "SCREE_PRESET", "SCREE_REPORT", "SCREE_SEED",
-                                     "SCREE_TRACE"};
-  const std::regex variable("envname\\(\"(SCREE_[A-Z_]+)\"\\)");
-  size_t found = 0;
-  for (const char* part : {"client", "auth", "tools", "bench", "studies"})
+/// The names that the pattern finds in files of these parts with these endings.
+std::set<std::string> named_in(const std::vector<const char*>& parts, const std::set<std::string>& endings,
+                               const std::regex& pattern) {
+  std::set<std::string> names;
+  for (const char* part : parts)
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(SCREE_SOURCE_DIR) / part)) {
-      if (entry.path().extension() != ".cpp" && entry.path().extension() != ".h") continue;
+      if (!entry.is_regular_file() || !endings.contains(entry.path().extension())) continue;
       std::ifstream file(entry.path());
       const std::string text{std::istreambuf_iterator<char>(file), {}};
-      for (auto match = std::sregex_iterator(text.begin(), text.end(), variable);
-           match != std::sregex_iterator(); ++match, ++found)
-        EXPECT_TRUE(known.contains((*match)[1]) || shared.contains((*match)[1])) << (*match)[1];
+      for (auto match = std::sregex_iterator(text.begin(), text.end(), pattern);
+           match != std::sregex_iterator(); ++match)
+        names.insert((*match)[1]);
     }
-  EXPECT_GT(found, 40U);
+  return names;
+}
+
+TEST(Environment, all_variables_of_other_programs_and_scripts_are_known) {
+  std::set<std::string> known{"SCREE_PORT", "SCREE_PRESET", "SCREE_REPORT", "SCREE_SEED", "SCREE_TRACE"};
+  for (const std::string_view name : variables_of_others()) known.emplace(name);
+  const auto declared = named_in({"client", "auth", "tools", "bench", "studies"}, {".cpp", ".h"},
+                                 std::regex("envname\\(\"(SCREE_[A-Z_]+)\"\\)"));
+  const auto read = named_in({"tests", "tools"}, {".sh", ".js", ".mjs"},
+                             std::regex("(?:process\\.env\\.|\\$\\{)(SCREE_[A-Z_]+)"));
+  EXPECT_GT(declared.size(), 30U);
+  EXPECT_GE(read.size(), 2U);
+  for (const auto* names : {&declared, &read})
+    for (const std::string& name : *names)
+      EXPECT_TRUE(known.contains(name) || name.starts_with("SCREE_CI_")) << name;
 }
 
 }  // namespace
