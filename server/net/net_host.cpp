@@ -43,9 +43,8 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       sessions_(service_.requests_per_second),
       requests_(commands, sessions_, figures_.counts(), config_.replay),
       returns_([this](uint64_t session) { requests_.gone(session); }, door_),
-      administration_(
-          sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
-          config_.control, [this]() -> const auto& { return publisher_.cursors(); }),
+      administration_(sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
+                      config_.control, publisher_),
       web_(config_, authorizer_, door_, figures_.counts(), log_, *this),
       arrivals_(context_,
                 {config_, door_, authorizer_, sessions_, room_, web_, *this, figures_.counts(), log_},
