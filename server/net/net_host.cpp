@@ -79,8 +79,7 @@ void NetHost::begin_websocket(std::shared_ptr<Transport> stream, const std::stri
 // ---- sessions
 
 tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& said) {
-  TRY(find_protocol(said));
-  const HelloMessage hello = placed(said, publisher_.state().spawn());
+  const HelloMessage hello = TRY(placed(said, publisher_.state().spawn()));
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
   const double now_s = steady_now_s();
   const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token, hello.name,
