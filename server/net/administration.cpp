@@ -70,7 +70,7 @@ Result<void> Administration::find_here(const ClientSession& session, SettingsReq
 
 Result<const PlayerCursor*> Administration::person_at(const ClientSession& session,
                                                       const std::string& number) const {
-  const auto& cursors = cursors_();
+  const auto& cursors = publisher_.cursors();
   std::vector<const PlayerCursor*> here;
   for (const auto& [id, cursor] : cursors) {
     const SessionEntry* const entry = sessions_.find(id);

@@ -13,6 +13,7 @@
 #include "server/doors/tickets.h"
 #include "server/net/requests.h"
 #include "server/net/session_table.h"
+#include "server/publish/publisher.h"
 #include "server/world/tick_delta.h"
 
 namespace scree {
@@ -20,19 +21,18 @@ namespace scree {
 class Administration {
  public:
   using Control = std::function<Result<void>(const ControlReplayRequest&)>;
-  using Cursors = std::function<const std::map<uint64_t, PlayerCursor>&()>;
 
-  /// All arguments but `control`, which is as of NetConfig, and `cursors`, which gives those of the persons
-  /// who are there, must outlive this object. `counts`: requests are counted there.
+  /// All arguments but `control`, which is as of NetConfig, must outlive this object. `counts`: requests are
+  /// counted there.
   Administration(SessionTable& sessions, Requests& requests, Authorizer& authorizer, Tickets& tickets,
-                 NetStats& counts, Control control, Cursors cursors)
+                 NetStats& counts, Control control, const Publisher& publisher)
       : sessions_(sessions),
         requests_(requests),
         authorizer_(authorizer),
         tickets_(tickets),
         counts_(counts),
         control_(std::move(control)),
-        cursors_(std::move(cursors)) {}
+        publisher_(publisher) {}
 
   /// Handles a request. The error is a wrong admin token's, and ends the session.
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
@@ -65,7 +65,7 @@ class Administration {
   Tickets& tickets_;
   NetStats& counts_;
   const Control control_;
-  const Cursors cursors_;
+  const Publisher& publisher_;  ///< has the cursors of the persons who are there
   /// Lines for the log, by session and request, of settings that the world has not answered yet.
   std::map<std::pair<uint64_t, uint32_t>, std::string> settings_asked_;
 };

@@ -43,9 +43,8 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       sessions_(service_.requests_per_second),
       requests_(commands, sessions_, figures_.counts(), config_),
       returns_([this](uint64_t session) { requests_.gone(session); }, door_),
-      administration_(
-          sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
-          config_.control, [this]() -> const auto& { return publisher_.cursors(); }),
+      administration_(sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
+                      config_.control, publisher_),
       web_(config_, authorizer_, door_, figures_.counts(), log_, *this),
       arrivals_(context_,
                 {config_, door_, authorizer_, sessions_, room_, web_, *this, figures_.counts(), log_},
@@ -75,8 +74,7 @@ void NetHost::run() {
 // ---- sessions
 
 tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, const HelloMessage& said) {
-  TRY(find_protocol(said));
-  const HelloMessage hello = placed(said, publisher_.state().spawn());
+  const HelloMessage hello = TRY(placed(said, publisher_.state().spawn()));
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
   const double now_s = steady_now_s();
   const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token, hello.name,

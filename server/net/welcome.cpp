@@ -20,7 +20,8 @@ tl::expected<void, Refused> find_protocol(const HelloMessage& hello) {
                             protocol_version, spoken));
 }
 
-HelloMessage placed(HelloMessage hello, const std::optional<Spawn>& spawn) {
+tl::expected<HelloMessage, Refused> placed(HelloMessage hello, const std::optional<Spawn>& spawn) {
+  TRY(find_protocol(hello));
   if (hello.at_spawn && spawn) hello.eye_m = spawn->eye_m;
   return hello;
 }

@@ -15,8 +15,9 @@ namespace scree {
 /// Refuses a client that does not speak the server's protocol. The reason names the numbers of both.
 tl::expected<void, Refused> find_protocol(const HelloMessage& hello);
 
-/// The hello with the eye at the spawn, where the client has no place of its own and there is a spawn.
-HelloMessage placed(HelloMessage hello, const std::optional<Spawn>& spawn);
+/// The hello of a client that speaks the server's protocol, as find_protocol() says. The eye is at the spawn
+/// where the client has no place of its own and there is a spawn.
+tl::expected<HelloMessage, Refused> placed(HelloMessage hello, const std::optional<Spawn>& spawn);
 
 /// The radius of interest that a client gets, metres: at most limits::interest_radius_max_m. Refuses a place
 /// or a radius that is no number, and a negative radius.

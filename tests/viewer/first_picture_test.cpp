@@ -47,7 +47,7 @@ class FirstPicture : public testing::Test {
   void view(std::vector<std::string> more = {}) {
     std::vector<std::string> texts{"scree-viewer",     "--port=" + std::to_string(port_),
                                    "--offscreen",      "--cache-mib=0",
-                                   "--quality=low",    "--view-radius=96",
+                                   "--quality=low",    "--view-radius=48",
                                    "--size=240x135",   "--screenshot=" + (folder_ / "unused.png"),
                                    "--particles=false"};
     texts.insert(texts.end(), more.begin(), more.end());
@@ -63,7 +63,7 @@ class FirstPicture : public testing::Test {
   /// Steps until it holds; false after the deadline.
   template <typename Condition>
   bool step_until(const Condition& condition) {
-    const double end_s = steady_now_s() + std::chrono::duration<double>(patience).count();
+    const double end_s = steady_now_s() + 3.0 * std::chrono::duration<double>(patience).count();
     while (steady_now_s() < end_s) {
       if (!viewing_->step(steady_now_s())) return false;
       if (condition()) return true;
