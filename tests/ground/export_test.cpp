@@ -185,6 +185,30 @@ TEST_F(ExportTest, carved_ground_by_heights_comes_back_by_tif_with_its_volume) {
                 ground_height_m(hills.source(), at_m, at_m), 0.13F);
 }
 
+TEST_F(ExportTest, unedited_ground_is_exported_from_its_heights_and_nothing_is_generated) {
+  const auto ground = written_ground(folder_ / "hills.ground", 60, 40, 2.0F);
+  MapField unedited({.heights = ground}), edited({.heights = ground});
+  const auto whole = whole_of(unedited);
+  ASSERT_TRUE(whole);
+  for_each_chunk(whole->voxels(), [&](ChunkCoord chunk) {
+    const BrickCoord first = brick_of(first_voxel(chunk));
+    edited.set_brick(first, Brick(edited.brick(first)));  // as it was
+  });
+  const auto grid = elevation_grid(*whole, 0.25F, std::nullopt);
+  ASSERT_TRUE(grid);
+  std::array<std::vector<float>, 2> heights;
+  for (const size_t which : {0U, 1U}) {
+    const auto add = [&](std::span<const float> row) -> Result<void> {
+      heights[which].insert(heights[which].end(), row.begin(), row.end());
+      return {};
+    };
+    ASSERT_TRUE(each_elevation_row(which == 0 ? unedited : edited, *whole, *grid, add, quiet));
+  }
+  ASSERT_EQ(heights[0].size(), heights[1].size());
+  for (size_t i = 0; i < heights[0].size(); ++i) ASSERT_NEAR(heights[0][i], heights[1][i], 0.05F) << i;
+  for_each_chunk(whole->voxels(), [&](ChunkCoord chunk) { EXPECT_FALSE(unedited.has_generated(chunk)); });
+}
+
 /// A disk without room is stood for by a bound of this process's files.
 TEST_F(ExportTest, a_vdb_that_finds_no_room_is_an_error_and_leaves_the_file_before_it) {
   const std::string path = folder_ / "full.vdb";

@@ -46,6 +46,29 @@ void read_brick(const Brick& brick, VoxelCoord first, VoxelCoord chunk, Columns&
     }
 }
 
+/// The columns of ground as its elevation model has them, where nobody edited it and it stores no bricks:
+/// nothing is generated for them. Nothing where the surface comes near the box's top or bottom.
+std::optional<Columns> unedited_columns(const Field& field, const ChunkBox& box, int chunk_x, int chunk_z) {
+  const TerrainSource& source = field.source();
+  if (source.heights == nullptr) return std::nullopt;
+  for (int y = box.lo.y; y < box.hi.y; ++y) {
+    const ChunkCoord chunk{chunk_x, y, chunk_z};
+    const ChunkLookup stored = stored_chunk(source, chunk);
+    if (!stored.known || stored.chunk != nullptr || field.has_edits(chunk)) return std::nullopt;
+  }
+  const HeightPatch patch = heights_at(*source.heights, chunk_x * chunk_size, chunk_z * chunk_size,
+                                       chunk_size, source.voxel_size_m);
+  const auto voxel_m = static_cast<double>(source.voxel_size_m);
+  const double bottom_m = (box.lo.y * chunk_size + 1) * voxel_m,
+               top_m = (box.hi.y * chunk_size - 2) * voxel_m;
+  if (!patch.exact || patch.lowest_m < bottom_m || patch.highest_m > top_m) return std::nullopt;
+  Columns columns;
+  for (size_t x = 0; x < side; ++x)
+    for (size_t z = 0; z < side; ++z)
+      columns.surface[x * side + z] = static_cast<float>(patch.heights_m[z * side + x] / voxel_m);
+  return columns;
+}
+
 Columns read_columns(Field& field, const ChunkBox& box, int chunk_x, int chunk_z) {
   Columns columns;
   for (int y = box.hi.y - 1; y >= box.lo.y && columns.open > 0; --y) {
@@ -135,7 +158,8 @@ Result<ElevationSums> each_elevation_row(Field& field, const ChunkBox& box, cons
       progress((static_cast<double>(z - box.lo.z) +
                 static_cast<double>(x - box.lo.x) / static_cast<double>(box.hi.x - box.lo.x)) /
                static_cast<double>(box.hi.z - box.lo.z));
-      const Columns columns = read_columns(field, box, x, z);
+      const auto unedited = unedited_columns(field, box, x, z);
+      const Columns columns = unedited ? *unedited : read_columns(field, box, x, z);
       const size_t first = static_cast<size_t>(x - box.lo.x) * side;
       for (size_t dx = 0; dx < side; ++dx)
         for (size_t dz = 0; dz < side; ++dz)
