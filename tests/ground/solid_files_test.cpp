@@ -210,7 +210,7 @@ TEST_F(SolidFiles, that_are_none_are_refused_in_words) {
   EXPECT_EQ(says(refusal("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "triangle"), "");
   EXPECT_EQ(says(refusal("nan.obj", "v nan 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "not a number"), "");
   EXPECT_EQ(says(refusal("huge.obj",
-                         "v 0 0 0\nv 1e9 0 0\nv 0 1e9 0\nv 0 0 1e9\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n"),
+                         "v 0 0 0\nv 1e6 0 0\nv 0 1e6 0\nv 0 0 1e6\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n"),
                  "limits.world_half_width_m"),
             "");
   EXPECT_EQ(says(refusal("text.ply", "ply\nformat ascii 1.0\nelement vertex 99999999999\nend_header\n"),

@@ -89,5 +89,59 @@ TEST(VdbTransforms, fog_volumes_have_their_volume_within_a_hundredth) {
     EXPECT_NEAR(imported_m3(matrix, true), ball_m3, 0.01 * ball_m3) << name;
 }
 
+class VdbChoices : public ::testing::Test {
+ protected:
+  std::string written(const openvdb::GridCPtrVec& grids) const {
+    openvdb::io::File file(folder_ / "choice.vdb");
+    file.write(grids);
+    file.close();
+    return folder_ / "choice.vdb";
+  }
+  static openvdb::FloatGrid::Ptr quarter_metre_ball(bool is_fog, const char* name) {
+    openvdb::initialize();
+    Mat4d matrix;
+    matrix.setToScale(Vec3d(0.25));
+    auto grid = ball(matrix, is_fog);
+    grid->setName(name);
+    return grid;
+  }
+  static std::string outcome(const std::string& path, const SolidsImport& how = {}) {
+    const auto read = read_solids({path}, how);
+    return read ? read->said.front() : read.error().message;
+  }
+
+  TestFolder folder_;
+};
+
+TEST_F(VdbChoices, one_of_two_level_sets_is_chosen_by_name_alone) {
+  const std::string path = written({quarter_metre_ball(false, "rock"), quarter_metre_ball(false, "cave"),
+                                    quarter_metre_ball(true, "smoke")});
+  EXPECT_NE(outcome(path).find("2 level sets, 'cave', 'rock': --grid NAME"), std::string::npos)
+      << outcome(path);
+  EXPECT_NE(outcome(path, {.grid = "cave"}).find("grid 'cave', a level set"), std::string::npos);
+  EXPECT_NE(outcome(path, {.grid = "mud"}).find("no grid 'mud'; it has 'cave' of float"), std::string::npos);
+  const std::string twins = written({quarter_metre_ball(false, "rock"), quarter_metre_ball(false, "rock")});
+  EXPECT_NE(outcome(twins).find("'rock[0]', 'rock[1]'"), std::string::npos) << outcome(twins);
+  EXPECT_NE(outcome(twins, {.grid = "rock[1]"}).find("grid 'rock[1]'"), std::string::npos);
+}
+
+TEST_F(VdbChoices, one_level_set_among_others_is_taken_and_said) {
+  const std::string path = written({quarter_metre_ball(true, "smoke"), quarter_metre_ball(false, "rock")});
+  EXPECT_NE(outcome(path).find("grid 'rock', a level set, in metres, y up; the file holds"),
+            std::string::npos)
+      << outcome(path);
+}
+
+TEST_F(VdbChoices, volumes_without_an_inside_are_refused_in_their_own_words) {
+  const std::string fog = written({quarter_metre_ball(true, "density")});
+  EXPECT_NE(outcome(fog, {.density = 1.5}).find("the densest value of the fog volume is 1, not above 1.5"),
+            std::string::npos)
+      << outcome(fog, {.density = 1.5});
+  const auto outside = openvdb::FloatGrid::create(1.0F);
+  outside->setGridClass(openvdb::GRID_LEVEL_SET);
+  outside->tree().setValue({0, 0, 0}, 0.5F);
+  EXPECT_NE(outcome(written({outside})).find("it has no inside"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace scree

@@ -119,6 +119,11 @@ class Importer {
                         limits::import_chunks_max, chunk_size));
       progress(0.8 * static_cast<double>(++done) / static_cast<double>(candidates.size()));
     }
+    if (volume_m3() < how_.least_m3)
+      return fail(fmt::format(
+          "voxels of {} m hold {:.3g} m³ of it, not half: it is thinner than they are; --voxel-size makes "
+          "smaller ones",
+          grounds_.bare.voxel_size_m, volume_m3()));
     if (level.empty())
       return fail("all of it lies inside the rock of the ground, so it would not be visible");
     return level;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace scree::limits {
 
@@ -50,8 +51,14 @@ inline constexpr size_t import_chunks_max = size_t{1} << 17;
 /// refused.
 inline constexpr size_t solid_surface_max = size_t{1} << 22;
 
-/// Meshes in one file. Above: refused.
-inline constexpr size_t import_meshes_max = 4096;
+/// Triangles of one file, and points: 4 GiB of memory. Above: refused.
+inline constexpr size_t import_triangles_max = size_t{1} << 26;
+
+/// Bricks of 8 voxels a side in an OpenVDB grid, 8 GiB of floats; and its tiles. Above: refused.
+inline constexpr uint64_t import_leaves_max = uint64_t{1} << 22;
+
+/// Parts of one mesh that have holes: each is asked for winding numbers by itself. Above: refused.
+inline constexpr size_t import_open_parts_max = 4096;
 
 /// Pixels along a side of a preview.
 inline constexpr int preview_side_max = 1024;

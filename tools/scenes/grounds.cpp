@@ -39,9 +39,7 @@ Result<SceneSetup> city_scene(const std::string& folder) {
   const float voxel_m = TerrainSource{}.voxel_size_m;
   std::vector<std::unique_ptr<Solid>> houses;
   for (const HousePlan& plan : block_of_houses) {
-    TriangleMesh mesh = house(plan, voxel_m);
-    const MeshRepair repair = turn_inside_in(mesh);
-    auto solid = TRY(solid_of_mesh(std::move(mesh), repair.open_edges == 0, voxel_m));
+    auto solid = TRY(solid_of_mesh(house(plan, voxel_m), {}, voxel_m));
     houses.push_back(std::move(solid));
   }
   const std::string path = folder + "/city.ground";

@@ -1,13 +1,26 @@
-// Meshes from files of OBJ, PLY, STL, glTF and what else assimp reads.
+// Meshes from files of OBJ, PLY, STL, glTF and the other forms that assimp reads. It reads them in a process
+// of its own (reader_process.h).
 #pragma once
 
 #include "shared/base/result.h"
 #include "tools/import/mesh/triangle_mesh.h"
 #include "tools/import/placement.h"
+#include "tools/import/process/reader_process.h"
 
 namespace scree {
 
-/// Each mesh by itself, welded, at its place in the world. The error says what is wrong with the file.
-Result<std::vector<TriangleMesh>> read_meshes(const std::string& path, const Placement& place);
+struct MeshFile {
+  /// All of the file's meshes together, each at its place in the world; not welded.
+  TriangleMesh mesh;
+  uint64_t meshes = 0;                   ///< that have triangles
+  std::vector<std::string> materials{};  ///< the first names of materials that are none of ours
+  uint64_t foreign_materials = 0;        ///< how many such names there are
+  double metres_a_unit = 0.0;            ///< by the file; 0: it does not say
+  bool says_up = false;                  ///< the file's form, or the file, says which axis is up
+  double step_m = 0.0;                   ///< coarsest rounding of its coordinates, as they are read
+};
+
+/// The error names the file and says what is wrong with it.
+Result<MeshFile> read_meshes(const std::string& path, const Placement& place, const ReaderLimits& bounds);
 
 }  // namespace scree

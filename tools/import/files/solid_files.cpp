@@ -1,12 +1,11 @@
 #include "tools/import/files/solid_files.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <filesystem>
+#include <cmath>
 #include <fmt/format.h>
 
 #include "tools/import/assimp/mesh_file.h"
+#include "tools/import/file_forms.h"
+#include "tools/import/files/mesh_words.h"
 #include "tools/import/mesh/mesh_solid.h"
 #include "tools/import/vdb/vdb_file.h"
 
@@ -14,22 +13,18 @@ namespace scree {
 
 namespace {
 
-constexpr std::array<std::string_view, 8> mesh_endings = {".obj", ".ply", ".stl", ".gltf",
-                                                          ".glb", ".off", ".dae", ".3ds"};
-
-std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
+/// A difference of volumes that is worth a word, relative.
+constexpr double difference_said = 0.01;
 
 Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, bool alone, SolidsRead& read) {
-  auto vdb = read_vdb(file, {how.grid, how.density, how.place, how.voxel_size_m});
+  auto vdb = read_vdb(file, {how.grid, how.density, how.place, how.voxel_size_m, how.reader});
   TRY(vdb);
-  read.said.push_back(fmt::format(
-      "{}: grid '{}', {}", file, vdb->grid,
-      vdb->is_level_set ? "a level set" : fmt::format("a fog volume, rock above {}", how.density)));
+  std::string words = fmt::format(
+      "{}: taken: grid '{}', {}, in metres, {} up", file, vdb->grid,
+      vdb->is_level_set ? "a level set" : fmt::format("a fog volume, rock above {} (--density)", how.density),
+      how.place.z_up ? "z" : "y");
+  if (!vdb->all_grids.empty()) words += "; the file holds " + vdb->all_grids + " (--grid)";
+  read.said.push_back(std::move(words));
   read.solids.push_back(std::move(vdb->solid));
   if (!alone) return {};
   read.exact = vdb->exact;
@@ -39,42 +34,65 @@ Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, boo
   return {};
 }
 
-Result<void> add_mesh(const std::string& file, TriangleMesh mesh, float voxel_size_m, SolidsRead& read) {
-  const MeshRepair repair = turn_inside_in(mesh);
-  const double volume = volume_m3(mesh);
-  std::string words = fmt::format("{}: mesh '{}', {} triangles", file, mesh.name, mesh.triangles.size());
-  if (repair.open_edges == 0) words += fmt::format(", closed, {:.6g} m³", volume);
-  if (repair.open_edges > 0)
-    words += fmt::format(", not closed: {} open edges; its holes are closed by winding numbers",
-                         repair.open_edges);
-  if (repair.turned_parts > 0)
-    words += fmt::format("; {} of {} parts had their inside outside and were turned", repair.turned_parts,
-                         repair.parts);
-  read.said.push_back(std::move(words));
-  read.meshes_volume_m3 += volume;
-  const std::string name = mesh.name;
-  auto solid = solid_of_mesh(std::move(mesh), repair.open_edges == 0, voxel_size_m);
-  if (!solid) return fail(fmt::format("{}: mesh '{}': {}", file, name, solid.error().message));
-  read.solids.push_back(std::move(*solid));
+Result<void> read_mesh_file(const std::string& path, const SolidsImport& how, SolidsRead& read) {
+  MeshFile file = TRY(read_meshes(path, how.place, how.reader));
+  const auto voxel_m = static_cast<double>(how.voxel_size_m);
+  if (file.step_m > voxel_m)
+    return fail(fmt::format(
+        "{}: its coordinates are so large that they are read in steps of {:.3g} m, more than a voxel: "
+        "move the mesh near its origin first",
+        path, file.step_m));
+  auto bodies = bodies_of(std::move(file.mesh), {how.sheet, voxel_m, how.level_m});
+  if (!bodies) return fail(path + ": " + bodies.error().message);
+  for (const std::string& words : words_on(file, *bodies, how)) read.said.push_back(path + ": " + words);
+  read.meshes_volume_m3 += bodies->volume_m3();
+  read.thin_volume_m3 += bodies->thin.volume_m3;
+  read.holed_volume_m3 += bodies->holed.volume_m3;
+  if (bodies->closed.triangles.empty() && bodies->open.empty())
+    return fail(path + ": nothing of it is left: it holds open sheets alone (--sheet)");
+  const auto add = [&](TriangleMesh mesh, const std::vector<OpenBody::Edge>& edges) -> Result<void> {
+    auto solid = solid_of_mesh(std::move(mesh), edges, how.voxel_size_m);
+    if (!solid) return fail(path + ": " + solid.error().message);
+    read.solids.push_back(std::move(*solid));
+    return {};
+  };
+  if (!bodies->closed.triangles.empty()) TRY(add(std::move(bodies->closed), {}));
+  for (OpenBody& body : bodies->open) TRY(add(std::move(body.mesh), body.edges));
   return {};
 }
 
 }  // namespace
 
 bool is_solid_file(const std::string& path) {
-  const std::string ending = ending_of(path);
-  return ending == ".vdb" || std::ranges::find(mesh_endings, ending) != mesh_endings.end();
+  return is_volume_file(path) || is_mesh_file(path);
+}
+
+std::optional<std::string> words_on_difference(const SolidsRead& read, double imported_m3) {
+  const double own_m3 = read.meshes_volume_m3;
+  if (own_m3 == 0.0 || std::abs(imported_m3 - own_m3) <= difference_said * std::abs(own_m3))
+    return std::nullopt;
+  const bool less = imported_m3 < own_m3;
+  std::string words =
+      fmt::format("the rock has {:.6g} m³, {:.2g} % {} than the meshes by themselves; ", imported_m3,
+                  100.0 * std::abs(imported_m3 - own_m3) / std::abs(own_m3), less ? "less" : "more");
+  if (read.thin_volume_m3 > 0.0) words += "parts thinner than a voxel are lost in part (--voxel-size), ";
+  if (read.holed_volume_m3 != 0.0) words += "holes are not closed by flat caps, ";
+  return words +
+         (less ? "where parts overlap, their rock counts once, and voxels round edges off (--voxel-size)"
+               : "voxels round edges off (--voxel-size)");
+}
+
+double least_volume_m3(const SolidsRead& read) {
+  return read.thin_volume_m3 > 0.5 * read.meshes_volume_m3 ? 0.5 * read.meshes_volume_m3 : 0.0;
 }
 
 Result<SolidsRead> read_solids(const std::vector<std::string>& files, const SolidsImport& how) {
   SolidsRead read;
   for (const std::string& file : files) {
-    if (ending_of(file) == ".vdb") {
+    if (is_volume_file(file))
       TRY(read_vdb_file(file, how, files.size() == 1, read));
-      continue;
-    }
-    auto meshes = TRY(read_meshes(file, how.place));
-    for (TriangleMesh& mesh : meshes) TRY(add_mesh(file, std::move(mesh), how.voxel_size_m, read));
+    else
+      TRY(read_mesh_file(file, how, read));
   }
   return read;
 }

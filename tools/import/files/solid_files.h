@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tools/import/bricks_import.h"
+#include "tools/import/mesh/sheet.h"
 #include "tools/import/placement.h"
 #include "tools/import/process/reader_process.h"
 
@@ -17,7 +18,10 @@ struct SolidsImport {
   std::string grid{};  ///< of an OpenVDB file
   double density = 0.5;
   float voxel_size_m = 0.25F;
-  ReaderLimits reader{};  ///< of the process that reads each file
+  SheetRule sheet = SheetRule::refuse;
+  std::optional<double> level_m{};     ///< of the rock that sheets are filled down to
+  std::optional<Material> material{};  ///< of rock for which no file says one: for the words alone
+  ReaderLimits reader{};               ///< of the process that reads each file
 };
 
 struct SolidsRead {
@@ -25,11 +29,19 @@ struct SolidsRead {
   /// Sentences on each: what was found, and what was repaired.
   std::vector<std::string> said;
   double meshes_volume_m3 = 0.0;  ///< the sum of the meshes' own
+  double thin_volume_m3 = 0.0;    ///< of these, in parts that are thinner than a voxel
+  double holed_volume_m3 = 0.0;   ///< and in parts with holes
   /// For a single file that was exported from a world (VdbSolid).
   std::optional<BricksImport::Exact> exact{};
   std::optional<double> level_m{};
   std::optional<MaterialHeights> layers{};
 };
+
+/// Words on rock that is more or less than the meshes' own volume, by more than a hundredth.
+std::optional<std::string> words_on_difference(const SolidsRead& read, double imported_m3);
+
+/// Less rock than this means that thin meshes were lost.
+double least_volume_m3(const SolidsRead& read);
 
 Result<SolidsRead> read_solids(const std::vector<std::string>& files, const SolidsImport& how);
 

@@ -1,6 +1,7 @@
 #include "tools/import/mesh/mesh_solid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -8,6 +9,8 @@
 #include <set>
 
 #include "tools/import/limits.h"
+#include "tools/import/mesh/edge_bound.h"
+#include "tools/import/mesh/triangle_distance.h"
 #include "tools/import/mesh/winding.h"
 
 namespace scree {
@@ -26,32 +29,17 @@ constexpr float voxels_per_winding = 4.0F;
 /// A voxel that lies nearer to a triangle than this is looked at on both sides of it.
 constexpr float touching_voxels = 0.002F;
 
-/// The place on a triangle nearest to p (Ericson, Real-Time Collision Detection, 5.1.5).
-double distance_to(const glm::dvec3& p, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 ab = b - a, ac = c - a, ap = p - a;
-  const double d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-  if (d1 <= 0.0 && d2 <= 0.0) return glm::length(ap);
-  const glm::dvec3 bp = p - b;
-  const double d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-  if (d3 >= 0.0 && d4 <= d3) return glm::length(bp);
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return glm::length(ap - ab * (d1 / (d1 - d3)));
-  const glm::dvec3 cp = p - c;
-  const double d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-  if (d6 >= 0.0 && d5 <= d6) return glm::length(cp);
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return glm::length(ap - ac * (d2 / (d2 - d6)));
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0)
-    return glm::length(bp - (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6))));
-  const glm::dvec3 normal = glm::cross(ab, ac);
-  return std::abs(glm::dot(ap, normal)) / glm::length(normal);
-}
+/// Two voxels a voxel apart, of which each is so far from all triangles that none is between them: the sum of
+/// their distances, with room for rounding. Voxels.
+constexpr float none_between = 1.01F;
+
+/// Steps from a voxel within which its winding number is computed, not carried over, where holes are closed.
+constexpr double steps_kept_exact = 1.8;
 
 class MeshSolid final : public Solid {
  public:
-  MeshSolid(TriangleMesh mesh, bool closed, float voxel_size_m)
-      : mesh_(std::move(mesh)), closed_(closed), voxel_m_(voxel_size_m), tree_(mesh_) {
+  MeshSolid(TriangleMesh mesh, const std::vector<OpenBody::Edge>& open, float voxel_size_m)
+      : mesh_(std::move(mesh)), closed_(open.empty()), voxel_m_(voxel_size_m), tree_(mesh_), holes_(open) {
     glm::dvec3 lo(1e300), hi(-1e300);
     for (const auto& t : mesh_.triangles)
       for (const uint32_t corner : t)
@@ -59,6 +47,8 @@ class MeshSolid final : public Solid {
     if (mesh_.triangles.empty()) return;
     lowest_m_ = lo.y;
     box_ = {floored(lo), floored(hi) + VoxelCoord{1, 1, 1}};
+    for (size_t i = 1; i < mesh_.materials.size(); ++i)
+      one_material_ = one_material_ && mesh_.materials[i] == mesh_.materials[0];
   }
 
   /// Before all else that reads the mesh.
@@ -81,38 +71,113 @@ class MeshSolid final : public Solid {
   std::vector<ChunkCoord> surface_chunks() const override {
     std::set<ChunkCoord> chunks;
     for (const auto& [chunk, triangles] : near_) chunks.insert(chunk);
-    // What closes a hole lies anywhere in between.
-    if (!closed_) for_each_chunk(box_, [&](ChunkCoord chunk) { chunks.insert(chunk); });
+    // The surface that closes a hole lies anywhere in between.
+    if (!closed_)
+      for_each_chunk(box_, [&](ChunkCoord chunk) {
+        if (!near_.contains(chunk) && closes_in(chunk)) chunks.insert(chunk);
+      });
     return {chunks.begin(), chunks.end()};
   }
   VoxelBox box() const override { return box_; }
   double lowest_m() const override { return lowest_m_; }
-  bool is_inside(VoxelCoord voxel) const override { return tree_.winding(metres(voxel)) > 0.5; }
+  bool is_inside(VoxelCoord voxel) const override {
+    return box_.grown(1).holds(voxel) && tree_.winding(metres(voxel)) > 0.5;
+  }
   std::optional<Material> material(BrickCoord brick) const override {
+    if (mesh_.materials.empty()) return std::nullopt;
     const VoxelCoord first = first_voxel(brick);
     const VoxelBox box{first, first + VoxelCoord{brick_size, brick_size, brick_size}};
-    return mesh_.material && !common(box, box_.grown(1)).empty() ? mesh_.material : std::nullopt;
+    if (common(box, box_.grown(1)).empty()) return std::nullopt;
+    constexpr double middle = 0.5 * (brick_size - 1);
+    const glm::dvec3 centre = metres(first) + glm::dvec3(middle * voxel_m_);
+    const uint8_t number = mesh_.materials[one_material_ ? 0 : tree_.nearest(centre)];
+    return number == 0 ? std::nullopt : std::optional(static_cast<Material>(number - 1));
   }
 
   void read_levels(const VoxelBox& box, std::span<float> levels) const override {
     read_distances(box, levels);
+    const std::vector<float> distances(levels.begin(), levels.end());
+    const VoxelCoord size = box.size();
+    const std::array<size_t, 3> strides = {static_cast<size_t>(size.y) * static_cast<size_t>(size.z),
+                                           static_cast<size_t>(size.z), 1};
+    std::vector<Reading> readings(levels.size());
+    HoleSlopes slopes(*this, box);
     size_t i = 0;
-    for (int x = box.lo.x; x < box.hi.x; ++x)
-      for (int y = box.lo.y; y < box.hi.y; ++y) {
-        std::optional<double> winding;  // of the voxel before, while no surface lies between
-        for (int z = box.lo.z; z < box.hi.z; ++z, ++i) {
-          const bool is_far = levels[i] >= near_voxels;
-          if (!winding || !closed_ || !is_far) winding = tree_.winding(metres({x, y, z}));
-          const auto signed_winding = static_cast<float>(0.5 - *winding);
-          levels[i] =
-              is_far ? voxels_per_winding * signed_winding : (signed_winding < 0.0F ? -levels[i] : levels[i]);
-          if (!is_far && std::abs(levels[i]) < touching_voxels) levels[i] = level_on_triangle({x, y, z});
-          if (!is_far) winding.reset();
+    for (int x = 0; x < size.x; ++x)
+      for (int y = 0; y < size.y; ++y)
+        for (int z = 0; z < size.z; ++z, ++i) {
+          const VoxelCoord voxel = box.lo + VoxelCoord{x, y, z};
+          const double slope = closed_ ? 0.0 : slopes.at(voxel);
+          readings[i] = {};
+          for (const size_t back : {z > 0 ? strides[2] : 0, y > 0 ? strides[1] : 0, x > 0 ? strides[0] : 0})
+            if (back > 0 && distances[i] + distances[i - back] > none_between)
+              readings[i].carry(readings[i - back], slope);
+          if (!readings[i].is_known) readings[i].set(tree_.winding(metres(voxel)));
+          levels[i] = level_of(voxel, distances[i], readings[i].winding);
         }
-      }
   }
 
  private:
+  /// A winding number, and how far it is from the surface that closes holes, at least.
+  struct Reading {
+    double winding = 0.0;
+    double margin = 0.0;
+    bool is_known = false;
+
+    void set(double computed) { *this = {computed, std::abs(computed - 0.5), true}; }
+    /// From a voxel beside this, where the winding number changes by `slope` a step at most.
+    void carry(const Reading& beside, double slope) {
+      const double left = beside.margin - slope;
+      if (is_known || !(left > steps_kept_exact * slope)) return;
+      *this = {beside.winding, left, true};
+    }
+  };
+
+  /// The most by which winding numbers change from voxel to voxel, by brick of a box.
+  class HoleSlopes {
+   public:
+    HoleSlopes(const MeshSolid& solid, const VoxelBox& box) : solid_(solid), lo_(box.lo) {
+      const VoxelCoord size = box.size();
+      count_ = {bricks(size.x), bricks(size.y), bricks(size.z)};
+      slopes_.assign(static_cast<size_t>(count_.x * count_.y * count_.z), -1.0);
+    }
+    double at(VoxelCoord voxel) {
+      const VoxelCoord brick{(voxel.x - lo_.x) / brick_size, (voxel.y - lo_.y) / brick_size,
+                             (voxel.z - lo_.z) / brick_size};
+      double& slope = slopes_[static_cast<size_t>((brick.x * count_.y + brick.y) * count_.z + brick.z)];
+      if (slope < 0.0) {
+        constexpr double middle = 0.5 * (brick_size - 1), reach = 0.5 * (brick_size + 1) * 1.7321;
+        const VoxelCoord first =
+            lo_ + VoxelCoord{brick.x * brick_size, brick.y * brick_size, brick.z * brick_size};
+        const glm::dvec3 centre = solid_.metres(first) + glm::dvec3(middle * solid_.voxel_m_);
+        slope = solid_.holes_.most_per_m(centre, reach * solid_.voxel_m_) * solid_.voxel_m_;
+      }
+      return slope;
+    }
+
+   private:
+    static int bricks(int voxels) { return (voxels + brick_size - 1) / brick_size; }
+
+    const MeshSolid& solid_;
+    VoxelCoord lo_;
+    VoxelCoord count_;
+    std::vector<double> slopes_;
+  };
+
+  /// Whether the surface that closes holes may come near a chunk without triangles.
+  bool closes_in(ChunkCoord chunk) const {
+    constexpr double reach = (0.5 * chunk_size + band_around + 1) * 1.7321;
+    const glm::dvec3 centre = metres(first_voxel(chunk)) + glm::dvec3(0.5 * (chunk_size - 1) * voxel_m_);
+    const double change = holes_.most_per_m(centre, reach * voxel_m_) * reach * voxel_m_;
+    return !(std::abs(tree_.winding(centre) - 0.5) > change);
+  }
+
+  float level_of(VoxelCoord voxel, float distance, double winding) const {
+    const auto outside = static_cast<float>(0.5 - winding);
+    if (distance >= near_voxels) return voxels_per_winding * outside;
+    return distance < touching_voxels ? level_on_triangle(voxel) : (outside < 0.0F ? -distance : distance);
+  }
+
   /// 0, but inside where a triangle lies within the rest of the mesh: on a triangle itself, winding numbers
   /// jump.
   float level_on_triangle(VoxelCoord voxel) const {
@@ -139,11 +204,13 @@ class MeshSolid final : public Solid {
   /// To the triangles of the chunks around, as far as near_voxels; more where none is as near.
   void read_distances(const VoxelBox& box, std::span<float> distances) const {
     std::ranges::fill(distances, band_voxels);
-    std::set<uint32_t> triangles;
+    std::vector<uint32_t> triangles;
     for_each_chunk(box, [&](ChunkCoord chunk) {
       if (const auto found = near_.find(chunk); found != near_.end())
-        triangles.insert(found->second.begin(), found->second.end());
+        triangles.insert(triangles.end(), found->second.begin(), found->second.end());
     });
+    std::ranges::sort(triangles);
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
     const VoxelCoord size = box.size();
     for (const uint32_t i : triangles) {
       const auto& t = mesh_.triangles[i];
@@ -166,6 +233,8 @@ class MeshSolid final : public Solid {
   const bool closed_;
   const double voxel_m_;
   const WindingTree tree_;
+  const EdgeBound holes_;
+  bool one_material_ = true;
   std::map<ChunkCoord, std::vector<uint32_t>> near_;
   VoxelBox box_{};
   double lowest_m_ = 0.0;
@@ -173,8 +242,9 @@ class MeshSolid final : public Solid {
 
 }  // namespace
 
-Result<std::unique_ptr<Solid>> solid_of_mesh(TriangleMesh mesh, bool closed, float voxel_size_m) {
-  auto solid = std::make_unique<MeshSolid>(std::move(mesh), closed, voxel_size_m);
+Result<std::unique_ptr<Solid>> solid_of_mesh(TriangleMesh mesh, const std::vector<OpenBody::Edge>& open,
+                                             float voxel_size_m) {
+  auto solid = std::make_unique<MeshSolid>(std::move(mesh), open, voxel_size_m);
   TRY(solid->prepare());
   return solid;
 }

@@ -1,5 +1,4 @@
-// Triangles from a file, welded, in the world's metres; and what is wrong with them as the surface of a
-// solid.
+// Triangles from a file, welded, in the world's metres.
 #pragma once
 
 #include <array>
@@ -14,24 +13,34 @@
 namespace scree {
 
 struct TriangleMesh {
+  using Triangle = std::array<uint32_t, 3>;
+
   std::string name;
   std::vector<glm::dvec3> points;
-  std::vector<std::array<uint32_t, 3>> triangles;  ///< counterclockwise from outside
-  std::optional<Material> material{};              ///< if the file's name for it is one of ours
+  std::vector<Triangle> triangles;  ///< counterclockwise from outside
+  /// Of each triangle: 0 where the file names none of ours, else one more than Material. Empty: none
+  /// anywhere.
+  std::vector<uint8_t> materials{};
+
+  void add(const Triangle& triangle, uint8_t material) {
+    triangles.push_back(triangle);
+    materials.push_back(material);
+  }
+  uint8_t material_of(size_t triangle) const { return materials.empty() ? 0 : materials[triangle]; }
 };
 
-/// Points at the same place become one; triangles without an area, and the second of two with the same
-/// corners in the same order, go.
-void weld(TriangleMesh& mesh);
-
-struct MeshRepair {
-  size_t open_edges = 0;    ///< that have no triangle, or not the right number of them, on the other side
-  size_t parts = 0;         ///< connected ones
-  size_t turned_parts = 0;  ///< whose inside was outside
+struct WeldFindings {
+  size_t joined_points = 0;        ///< that lay as near as the rounding of the file's numbers
+  size_t two_sided_triangles = 0;  ///< second sides of surfaces that show both, left out
 };
 
-/// Turns the parts whose inside is outside, but for those that lie within others: they are cavities.
-MeshRepair turn_inside_in(TriangleMesh& mesh);
+/// Points at the same place become one, and at the mesh's border also those within `rounding_m`. Triangles
+/// without an area go, and the second of two with the same corners in the same order. Two with opposite
+/// orders cancel each other, unless a whole connected part has two sides: one of them is left.
+WeldFindings weld(TriangleMesh& mesh, double rounding_m);
+
+/// Twice its normal times its area.
+glm::dvec3 normal_of(const TriangleMesh& mesh, size_t triangle);
 
 /// By the divergence theorem; of a closed mesh, cubic metres.
 double volume_m3(const TriangleMesh& mesh);

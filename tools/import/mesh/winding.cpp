@@ -2,7 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <numeric>
+
+#include "tools/import/mesh/triangle_distance.h"
 
 namespace scree {
 
@@ -25,7 +29,13 @@ double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 WindingTree::WindingTree(const TriangleMesh& mesh) {
   for (const auto& t : mesh.triangles)
     triangles_.push_back({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]});
+  numbers_.resize(triangles_.size());
+  std::iota(numbers_.begin(), numbers_.end(), 0U);
   if (!triangles_.empty()) build(0, static_cast<uint32_t>(triangles_.size()));
+  std::vector<Corners> sorted;
+  sorted.reserve(triangles_.size());
+  for (const uint32_t number : numbers_) sorted.push_back(triangles_[number]);
+  triangles_ = std::move(sorted);
 }
 
 uint32_t WindingTree::build(uint32_t first, uint32_t count) {
@@ -35,7 +45,7 @@ uint32_t WindingTree::build(uint32_t first, uint32_t count) {
   double area = 0.0;
   glm::dvec3 lo(1e300), hi(-1e300);
   for (uint32_t i = first; i < first + count; ++i) {
-    const Corners& t = triangles_[i];
+    const Corners& t = triangles_[numbers_[i]];
     const glm::dvec3 normal = 0.5 * glm::cross(t[1] - t[0], t[2] - t[0]);
     const double own = glm::length(normal);
     node.normal += normal;
@@ -45,15 +55,18 @@ uint32_t WindingTree::build(uint32_t first, uint32_t count) {
   }
   node.centre = area > 0.0 ? node.centre / area : 0.5 * (lo + hi);
   for (uint32_t i = first; i < first + count; ++i)
-    for (const glm::dvec3& p : triangles_[i])
+    for (const glm::dvec3& p : triangles_[numbers_[i]])
       node.radius = std::max(node.radius, glm::length(p - node.centre));
   if (count > leaf_triangles) {
     const glm::dvec3 size = hi - lo;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : (size.y >= size.z ? 1 : 2);
-    const auto begin = triangles_.begin() + first;
-    std::nth_element(begin, begin + count / 2, begin + count, [axis](const Corners& a, const Corners& b) {
-      return a[0][axis] + a[1][axis] + a[2][axis] < b[0][axis] + b[1][axis] + b[2][axis];
-    });
+    const auto begin = numbers_.begin() + first;
+    const auto middle = [&](uint32_t i) {
+      const Corners& t = triangles_[i];
+      return std::pair(t[0][axis] + t[1][axis] + t[2][axis], i);
+    };
+    std::nth_element(begin, begin + count / 2, begin + count,
+                     [&](uint32_t one, uint32_t other) { return middle(one) < middle(other); });
     build(first, count / 2);
     node.right = build(first + count / 2, count - count / 2);
   }
@@ -63,6 +76,29 @@ uint32_t WindingTree::build(uint32_t first, uint32_t count) {
 
 double WindingTree::winding(const glm::dvec3& p) const {
   return nodes_.empty() ? 0.0 : winding(0, p) / full_angle;
+}
+
+uint32_t WindingTree::nearest(const glm::dvec3& p) const {
+  Nearest best;
+  find_nearest(0, p, best);
+  return best.triangle;
+}
+
+void WindingTree::find_nearest(uint32_t at, const glm::dvec3& p, Nearest& best) const {
+  const Node& node = nodes_[at];
+  if (glm::length(node.centre - p) - node.radius > best.distance) return;
+  if (node.right == 0) {
+    for (uint32_t i = node.first; i < node.first + node.count; ++i) {
+      const double distance = distance_to(p, triangles_[i][0], triangles_[i][1], triangles_[i][2]);
+      if (std::pair(distance, numbers_[i]) < std::pair(best.distance, best.triangle))
+        best = {distance, numbers_[i]};
+    }
+    return;
+  }
+  const bool right_first =
+      glm::length(nodes_[node.right].centre - p) < glm::length(nodes_[at + 1].centre - p);
+  find_nearest(right_first ? node.right : at + 1, p, best);
+  find_nearest(right_first ? at + 1 : node.right, p, best);
 }
 
 double WindingTree::winding(uint32_t at, const glm::dvec3& p) const {

@@ -12,6 +12,8 @@ class WindingTree {
   explicit WindingTree(const TriangleMesh& mesh);
 
   double winding(const glm::dvec3& p) const;
+  /// The number of the triangle nearest to p; the mesh has one.
+  uint32_t nearest(const glm::dvec3& p) const;
 
  private:
   struct Node {
@@ -26,8 +28,14 @@ class WindingTree {
 
   uint32_t build(uint32_t first, uint32_t count);
   double winding(uint32_t node, const glm::dvec3& p) const;
+  struct Nearest {
+    double distance = 1e300;
+    uint32_t triangle = 0;
+  };
+  void find_nearest(uint32_t node, const glm::dvec3& p, Nearest& best) const;
 
   std::vector<Corners> triangles_;
+  std::vector<uint32_t> numbers_;  ///< of the triangles in the mesh
   std::vector<Node> nodes_;
 };
 

@@ -15,11 +15,10 @@ inline constexpr uint32_t reader_frame_bytes_max = 1U << 18;
 /// Bytes of words that a reader may send, an error's included. Above: cut in the reader, refused here.
 inline constexpr size_t reader_words_bytes_max = 4096;
 
-/// Memory that a reader may use beyond the import's own, bytes, unless the caller says another number. Above:
-/// the file is refused.
+/// Memory that a reader may use beyond the import's own, by default; bytes. Above: the file is refused.
 inline constexpr uint64_t reader_memory_bytes_max = uint64_t{2} << 30U;
 
-/// Time that an import waits for its reader in all, unless the caller says another one. Above: refused.
+/// Time that an import waits for its reader in all, by default. Above: refused.
 inline constexpr std::chrono::milliseconds reader_time_max{600'000};
 
 }  // namespace scree::limits

@@ -9,6 +9,7 @@
 #include "ground/ground_header.h"
 #include "shared/base/limits.h"
 #include "shared/base/program_output.h"
+#include "tools/import/file_forms.h"
 #include "tools/import/files/solid_files.h"
 #include "tools/import/gdal/gdal_raster.h"
 #include "tools/import/gdal/raster_reader.h"
@@ -25,6 +26,7 @@ struct Options {
   std::string preview;
   std::string on;
   std::string material;
+  std::string sheet = std::string(row_of(SheetRule::refuse).name);
   std::optional<double> level_m;
   std::optional<float> voxel_size_m;
   uint32_t memory_max_mib = 2048;
@@ -68,6 +70,13 @@ void declare_heights(CLI::App& app, Options& options) {
   app.add_option("--preview", options.preview, "draws a shaded relief to this PNG file");
 }
 
+std::string sheet_rules() {
+  std::string all;
+  for (const SheetRule rule : all_kinds<SheetRule>)
+    all += (all.empty() ? "" : ", ") + std::string(row_of(rule).name) + " " + std::string(row_of(rule).means);
+  return all;
+}
+
 void declare_solids(CLI::App& app, Options& options) {
   SolidsImport& how = options.solids;
   app.add_option("--on", options.on, "ground file on which solids stand; default: level rock");
@@ -83,9 +92,14 @@ void declare_solids(CLI::App& app, Options& options) {
   app.add_option("--voxel-size", options.voxel_size_m,
                  "size of a voxel, metres; default: that of the bricks of --on, or 0.25")
       ->check(CLI::Range(limits::voxel_size_min_m, limits::voxel_size_max_m));
-  app.add_option("--grid", how.grid,
-                 "name of the grid in an OpenVDB file; default: the first grid of floats");
+  app.add_option(
+      "--grid", how.grid,
+      "name of the grid in an OpenVDB file; default: its one level set, or else its one grid of floats");
   app.add_option("--density", how.density, "density of a fog volume above which there is rock")
+      ->capture_default_str();
+  app.add_option("--sheet", options.sheet, "rule for open sheets, as terrain meshes are: " + sheet_rules())
+      ->check(
+          CLI::IsMember(std::vector<std::string>(kind_names<SheetRule>.begin(), kind_names<SheetRule>.end())))
       ->capture_default_str();
   app.add_option("--material", options.material,
                  "default material where the file names none: " + listed(kind_names<Material>));
@@ -94,7 +108,7 @@ void declare_solids(CLI::App& app, Options& options) {
 void declare(CLI::App& app, Options& options) {
   app.add_option("file", options.files,
                  "an elevation model (GeoTIFF, ESRI ASCII, 16-bit PNG, or another format of GDAL); or "
-                 "solids: OpenVDB (.vdb) and meshes (.obj, .ply, .stl, .gltf, .glb, .off, .dae, .3ds)")
+                 "solids: OpenVDB (.vdb) and meshes (.obj, .ply, .stl, .gltf, .glb, .off, .dae, .3ds, .fbx)")
       ->required();
   app.add_option("-o,--out", options.out, "the ground file to write")->required();
   app.add_option("--soil-below", options.how.soil_below_m,
@@ -105,7 +119,8 @@ void declare(CLI::App& app, Options& options) {
                  "limit of the import's memory, megabytes; a file that needs more is refused")
       ->check(CLI::Range(256, 1 << 20))
       ->capture_default_str();
-  app.add_option("--time-max", options.time_max_s, "seconds that a file may be read for; then it is refused")
+  app.add_option("--time-max", options.time_max_s,
+                 "limit of the time to read a file, seconds; a file that takes longer is refused")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   declare_heights(app, options);
@@ -247,16 +262,22 @@ Result<void> run_solids(const Options& options) {
   }
   SolidsImport solids = options.solids;
   solids.reader = reader_limits(options);
+  solids.sheet = kind_named<SheetRule>(options.sheet).value_or(SheetRule::refuse);
+  solids.level_m = options.level_m;
+  solids.material = kind_named<Material>(options.material);
   if (options.voxel_size_m)
     solids.voxel_size_m = *options.voxel_size_m;
   else if (on != nullptr && on->bricks())
     solids.voxel_size_m = on->bricks()->voxel_size_m;
   const auto read = TRY(read_solids(options.files, solids));
   for (const std::string& said : read.said) std::fprintf(stderr, "scree-import: %s\n", said.c_str());
-  const auto how = TRY(bricks_import_of(options, solids.voxel_size_m, on, read));
+  auto how = TRY(bricks_import_of(options, solids.voxel_size_m, on, read));
+  how.least_m3 = least_volume_m3(read);
   const auto imported =
       with_bar([&](const auto& progress) { return import_bricks(read.solids, options.out, how, progress); });
   if (!imported) return fail(options.files.front() + ": " + imported.error().message);
+  if (const auto words = words_on_difference(read, imported->volume_m3))
+    std::fprintf(stderr, "scree-import: %s\n", words->c_str());
   print(options, *imported, read, seconds_since(began));
   return {};
 }
@@ -264,6 +285,8 @@ Result<void> run_solids(const Options& options) {
 Result<void> run(const Options& options) {
   bound_memory(options);
   try {
+    for (const std::string& file : options.files)
+      if (const auto refusal = refusal_of_form(file)) return fail(*refusal);
     const auto solids = std::ranges::count_if(options.files, is_solid_file);
     if (solids == 0) return run_heights(options);
     if (solids < std::ssize(options.files))

@@ -5,19 +5,22 @@
 
 #include "tools/import/bricks_import.h"
 #include "tools/import/placement.h"
+#include "tools/import/process/reader_process.h"
 
 namespace scree {
 
 struct VdbImport {
-  std::string grid{};    ///< its name; default: the first of floats
+  std::string grid{};    ///< its name; by default the one level set, or else the one grid of floats
   double density = 0.5;  ///< of a fog volume: rock where it is more
   Placement place{};
   float voxel_size_m = 0.25F;  ///< of the world
+  ReaderLimits reader{};       ///< of the process that reads the file
 };
 
 struct VdbSolid {
   std::unique_ptr<Solid> solid;
   std::string grid;
+  std::string all_grids{};  ///< of the file, with their types, if there are several
   bool is_level_set = false;
   /// What `scree export` wrote of the ground, if the file is from there, its voxels are the world's and it is
   /// not moved: then its codes are exact.

@@ -1,0 +1,170 @@
+#include "tools/import/assimp/scene_reader.h"
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "shared/base/kind_table.h"
+#include "shared/field/material.h"
+#include "tools/import/assimp/ply_header.h"
+#include "tools/import/limits.h"
+
+namespace scree {
+
+namespace {
+
+/// By the standards of their forms.
+constexpr std::array<std::string_view, 2> metre_endings = {".gltf", ".glb"};
+
+constexpr double metres_a_centimetre = 0.01;
+
+/// Axes of FBX files.
+constexpr int32_t fbx_up_x = 0, fbx_up_z = 2;
+
+uint8_t number_of(const std::string& material) {
+  const auto kind = kind_named<Material>(material);
+  return kind ? static_cast<uint8_t>(1 + static_cast<int>(*kind)) : material_unnamed;
+}
+
+/// All meshes of a scene, in the order of its nodes.
+class SceneTriangles {
+ public:
+  explicit SceneTriangles(const aiScene& scene) : scene_(scene) {}
+
+  Result<void> collect(const aiNode& node, const aiMatrix4x4& above) {
+    const aiMatrix4x4 transform = above * node.mTransformation;
+    for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+      const aiMesh& mesh = *scene_.mMeshes[node.mMeshes[i]];
+      const std::string own = mesh.mName.C_Str();
+      TRY(add(mesh, transform, own.empty() ? node.mName.C_Str() : own));
+    }
+    for (unsigned i = 0; i < node.mNumChildren; ++i) TRY(collect(*node.mChildren[i], transform));
+    return {};
+  }
+
+  std::vector<std::array<double, 3>> points;
+  std::vector<std::array<uint32_t, 3>> triangles;
+  std::vector<uint8_t> materials;
+  std::set<std::string> foreign_materials;
+  uint64_t meshes = 0;
+
+ private:
+  uint8_t material_of(const aiMesh& mesh, const std::string& name) {
+    std::string material;
+    if (mesh.mMaterialIndex < scene_.mNumMaterials)
+      material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+    const uint8_t number = number_of(material) != material_unnamed ? number_of(material) : number_of(name);
+    if (number == material_unnamed && !material.empty() && material != AI_DEFAULT_MATERIAL_NAME)
+      foreign_materials.insert(material);
+    return number;
+  }
+
+  Result<void> add(const aiMesh& mesh, const aiMatrix4x4& transform, const std::string& name) {
+    if (points.size() + mesh.mNumVertices > limits::import_triangles_max ||
+        triangles.size() + mesh.mNumFaces > limits::import_triangles_max)
+      return fail(fmt::format("more than {} triangles or points (limits.import_triangles_max)",
+                              limits::import_triangles_max));
+    const auto first = static_cast<uint32_t>(points.size());
+    const size_t had = triangles.size();
+    const bool mirrored = transform.Determinant() < 0.0F;
+    for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
+      const aiFace& face = mesh.mFaces[i];
+      if (face.mNumIndices != 3) continue;  // points and lines bound nothing
+      for (unsigned k = 0; k < 3; ++k)
+        if (face.mIndices[k] >= mesh.mNumVertices)
+          return fail(fmt::format("mesh '{}' has a triangle without its points", name));
+      triangles.push_back({first + face.mIndices[0], first + face.mIndices[mirrored ? 2 : 1],
+                           first + face.mIndices[mirrored ? 1 : 2]});
+    }
+    if (triangles.size() == had) return {};
+    ++meshes;
+    materials.resize(triangles.size(), material_of(mesh, name));
+    for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
+      const aiVector3D p = transform * mesh.mVertices[i];
+      points.push_back({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
+    }
+    return {};
+  }
+
+  const aiScene& scene_;
+};
+
+Result<const aiScene*> opened(Assimp::Importer& importer, const std::string& path,
+                              const std::string& ending) {
+  constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
+  const aiScene* scene = nullptr;
+  if (ending == ".ply") {
+    std::ifstream in(path, std::ios::binary);
+    std::string file((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+    file = TRY(mended_ply(std::move(file)));
+    scene = importer.ReadFileFromMemory(file.data(), file.size(), steps, "ply");
+  } else {
+    scene = importer.ReadFile(path, steps);
+  }
+  if (scene != nullptr && scene->mRootNode != nullptr) return scene;
+  const std::string words = importer.GetErrorString();
+  if (words.starts_with("No suitable reader"))
+    return fail("it is not of the form that its name says, or damaged");
+  return fail(words);
+}
+
+/// Unit and axis of the file's form: glTF's by its standard, Collada's by assimp, which turns and scales by
+/// the file, FBX's by the file. The transform that is left to do.
+aiMatrix4x4 read_unit(const aiScene& scene, const std::string& ending, SceneHead& head) {
+  aiMatrix4x4 transform;
+  if (std::ranges::find(metre_endings, ending) != metre_endings.end() || ending == ".dae") {
+    head.metres_a_unit = 1.0;
+    head.says_up = 1;
+  }
+  if (ending != ".fbx" || scene.mMetaData == nullptr) return transform;
+  double centimetres = 0.0;
+  float rounded = 0.0F;
+  if (scene.mMetaData->Get("UnitScaleFactor", rounded)) centimetres = static_cast<double>(rounded);
+  scene.mMetaData->Get("UnitScaleFactor", centimetres);
+  if (centimetres > 0.0) {
+    head.metres_a_unit = centimetres * metres_a_centimetre;
+    const auto scale = static_cast<float>(head.metres_a_unit);
+    aiMatrix4x4::Scaling({scale, scale, scale}, transform);
+  }
+  int32_t up = 0;
+  if (!scene.mMetaData->Get("UpAxis", up)) return transform;
+  head.says_up = 1;
+  aiMatrix4x4 turn;
+  if (up == fbx_up_x) turn = aiMatrix4x4(0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1);
+  if (up == fbx_up_z) turn = aiMatrix4x4(1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1);
+  return turn * transform;
+}
+
+}  // namespace
+
+Result<void> send_scene(ReaderChannel& channel, const std::string& path, const std::string& ending) {
+  Assimp::Importer importer;
+  const aiScene* const scene = TRY(opened(importer, path, ending));
+  SceneHead head;
+  const aiMatrix4x4 transform = read_unit(*scene, ending, head);
+  SceneTriangles all(*scene);
+  TRY(all.collect(*scene->mRootNode, transform));
+  head.meshes = all.meshes;
+  head.foreign_materials = all.foreign_materials.size();
+  head.names = std::min(head.foreign_materials, scene_names_max);
+  TRY(channel.put(head));
+  TRY(channel.put_list(all.points));
+  TRY(channel.put_list(all.triangles));
+  TRY(channel.put_list(all.materials));
+  uint64_t names = head.names;
+  for (const std::string& name : all.foreign_materials)
+    if (names > 0) {
+      --names;
+      TRY(channel.put_text(name));
+    }
+  return {};
+}
+
+}  // namespace scree
