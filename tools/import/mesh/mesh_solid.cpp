@@ -112,8 +112,12 @@ class MeshSolid final : public Solid {
           for (const size_t back : {z > 0 ? strides[2] : 0, y > 0 ? strides[1] : 0, x > 0 ? strides[0] : 0})
             if (back > 0 && distances[i] + distances[i - back] > none_between)
               readings[i].carry(readings[i - back], slope);
+          if (distances[i] < touching_voxels) {
+            levels[i] = level_on_triangle(voxel);
+            continue;
+          }
           if (!readings[i].is_known) readings[i].set(tree_.winding(metres(voxel)));
-          levels[i] = level_of(voxel, distances[i], readings[i].winding);
+          levels[i] = level_of(distances[i], readings[i].winding);
         }
   }
 
@@ -172,10 +176,10 @@ class MeshSolid final : public Solid {
     return !(std::abs(tree_.winding(centre) - 0.5) > change);
   }
 
-  float level_of(VoxelCoord voxel, float distance, double winding) const {
+  static float level_of(float distance, double winding) {
     const auto outside = static_cast<float>(0.5 - winding);
     if (distance >= near_voxels) return voxels_per_winding * outside;
-    return distance < touching_voxels ? level_on_triangle(voxel) : (outside < 0.0F ? -distance : distance);
+    return outside < 0.0F ? -distance : distance;
   }
 
   /// 0, but inside where a triangle lies within the rest of the mesh: on a triangle itself, winding numbers

@@ -15,6 +15,11 @@ namespace {
 constexpr uint32_t leaf_triangles = 8;
 /// A node counts as one dipole from this many of its radii on; errors are then below a hundredth.
 constexpr double far_radii = 2.0;
+/// A triangle is slender from this ratio of its length to its height on.
+constexpr double slender = 8.0;
+/// Times that a triangle is halved at most, and pieces for each triangle of the mesh in the mean.
+constexpr int halvings_max = 8;
+constexpr size_t pieces_a_triangle = 8;
 constexpr double full_angle = 4.0 * M_PI;
 
 /// Van Oosterom and Strackee 1983.
@@ -27,15 +32,44 @@ double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
 }  // namespace
 
 WindingTree::WindingTree(const TriangleMesh& mesh) {
-  for (const auto& t : mesh.triangles)
-    triangles_.push_back({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]});
+  const size_t pieces_max = pieces_a_triangle * mesh.triangles.size();
+  std::vector<uint32_t> owners;
+  for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
+    const TriangleMesh::Triangle& t = mesh.triangles[i];
+    add_pieces({mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]}, halvings_max, pieces_max);
+    owners.resize(triangles_.size(), i);
+  }
   numbers_.resize(triangles_.size());
   std::iota(numbers_.begin(), numbers_.end(), 0U);
   if (!triangles_.empty()) build(0, static_cast<uint32_t>(triangles_.size()));
   std::vector<Corners> sorted;
   sorted.reserve(triangles_.size());
-  for (const uint32_t number : numbers_) sorted.push_back(triangles_[number]);
+  for (uint32_t& number : numbers_) {
+    sorted.push_back(triangles_[number]);
+    number = owners[number];
+  }
   triangles_ = std::move(sorted);
+}
+
+/// Slender triangles make nodes large, and large nodes are far from nowhere: they are halved.
+void WindingTree::add_pieces(const Corners& t, int halvings, size_t pieces_max) {
+  size_t longest = 0;
+  double length = -1.0;
+  for (size_t k = 0; k < 3; ++k)
+    if (const double own = glm::length(t[(k + 1) % 3] - t[k]); own > length) {
+      length = own;
+      longest = k;
+    }
+  const double twice_area = glm::length(glm::cross(t[1] - t[0], t[2] - t[0]));
+  const bool is_slender = length * length > slender * twice_area && twice_area > 0.0;
+  if (!is_slender || halvings == 0 || triangles_.size() >= pieces_max) {
+    triangles_.push_back(t);
+    return;
+  }
+  const glm::dvec3 &a = t[longest], &b = t[(longest + 1) % 3], &c = t[(longest + 2) % 3];
+  const glm::dvec3 middle = 0.5 * (a + b);
+  add_pieces({a, middle, c}, halvings - 1, pieces_max);
+  add_pieces({middle, b, c}, halvings - 1, pieces_max);
 }
 
 uint32_t WindingTree::build(uint32_t first, uint32_t count) {

@@ -26,6 +26,7 @@ class WindingTree {
   };
   using Corners = std::array<glm::dvec3, 3>;
 
+  void add_pieces(const Corners& t, int halvings, size_t pieces_max);
   uint32_t build(uint32_t first, uint32_t count);
   double winding(uint32_t node, const glm::dvec3& p) const;
   struct Nearest {
@@ -34,8 +35,8 @@ class WindingTree {
   };
   void find_nearest(uint32_t node, const glm::dvec3& p, Nearest& best) const;
 
-  std::vector<Corners> triangles_;
-  std::vector<uint32_t> numbers_;  ///< of the triangles in the mesh
+  std::vector<Corners> triangles_;  ///< or pieces of slender ones
+  std::vector<uint32_t> numbers_;   ///< of the triangles in the mesh
   std::vector<Node> nodes_;
 };
 
