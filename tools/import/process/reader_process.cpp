@@ -201,7 +201,7 @@ Error ReaderProcess::end_in_words() {
     if (number == SIGKILL)
       return {library_ + " was killed while it read it: the machine may be out of memory (--memory-max)"};
     return {library_ + " ended on it by signal " + std::to_string(number) + " (" + ::strsignal(number) +
-            "): the file is damaged, or of a form that " + library_ + " does not stand"};
+            "): the file is damaged, or " + library_ + " cannot read such files"};
   }
   return {library_ + " ended without an answer, status " +
           std::to_string(ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1)};
