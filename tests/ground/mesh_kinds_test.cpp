@@ -251,7 +251,8 @@ TEST_F(MeshKinds, coordinates_that_are_read_too_coarsely_are_refused_or_named) {
 }
 
 TEST_F(MeshKinds, forms_that_are_not_read_are_refused_in_their_own_words) {
-  expect_words(refusal_of_form("city.zip").value_or(""), "an archive: unpack it");
+  expect_words(refusal_of_form("city.7z").value_or(""), "an archive: unpack it");
+  EXPECT_FALSE(refusal_of_form("city.zip")) << "GDAL finds rasters in it, or lists its files";
   expect_words(refusal_of_form("Scan.LAZ").value_or(""), "a cloud of points");
   EXPECT_FALSE(refusal_of_form("hills.tif"));
   EXPECT_TRUE(is_solid_file("model.FBX"));

@@ -28,16 +28,15 @@ constexpr std::string_view scene =
     "a form of scenes that import does not read: convert it to glTF, OBJ or PLY";
 
 constexpr UnreadForm unread_forms[] = {
-    {".zip", archive},        {".7z", archive},      {".rar", archive},      {".tar", archive},
-    {".tgz", archive},        {".bz2", archive},     {".xz", archive},       {".zst", archive},
-    {".blend", project},      {".max", project},     {".ma", project},       {".mb", project},
-    {".c4d", project},        {".skp", project},     {".3dm", project},      {".rvt", project},
-    {".step", solid_model},   {".stp", solid_model}, {".iges", solid_model}, {".igs", solid_model},
-    {".sldprt", solid_model}, {".ifc", solid_model}, {".las", point_cloud},  {".laz", point_cloud},
-    {".e57", point_cloud},    {".pcd", point_cloud}, {".pts", point_cloud},  {".ptx", point_cloud},
-    {".usd", scene},          {".usda", scene},      {".usdc", scene},       {".usdz", scene},
-    {".abc", scene},          {".x3d", scene},       {".wrl", scene},        {".3mf", scene},
-    {".amf", scene},          {".lwo", scene},       {".nvdb", scene},
+    {".7z", archive},      {".rar", archive},        {".bz2", archive},     {".xz", archive},
+    {".zst", archive},     {".blend", project},      {".max", project},     {".ma", project},
+    {".mb", project},      {".c4d", project},        {".skp", project},     {".3dm", project},
+    {".rvt", project},     {".step", solid_model},   {".stp", solid_model}, {".iges", solid_model},
+    {".igs", solid_model}, {".sldprt", solid_model}, {".ifc", solid_model}, {".las", point_cloud},
+    {".laz", point_cloud}, {".e57", point_cloud},    {".pcd", point_cloud}, {".pts", point_cloud},
+    {".ptx", point_cloud}, {".usd", scene},          {".usda", scene},      {".usdc", scene},
+    {".usdz", scene},      {".abc", scene},          {".x3d", scene},       {".wrl", scene},
+    {".3mf", scene},       {".amf", scene},          {".lwo", scene},       {".nvdb", scene},
 };
 
 }  // namespace
