@@ -86,6 +86,16 @@ TEST(HeightsImport, finer_samples_lie_on_the_surface_of_the_coarse_ones) {
   EXPECT_LT(worst_m, 0.05);
 }
 
+TEST(HeightsImport, coarser_samples_are_means_of_all_cells_around) {
+  const TestFolder folder;
+  // Stripes as far apart as the samples: each sample alone would meet the same side of all of them.
+  FunctionRaster stripes(161, 161, 1.0, [](int x, int) { return x % 4 < 2 ? 0.0 : 20.0; });
+  const auto ground = import_and_open(stripes, folder / "a.ground", {.sample_m = 4.0});
+  ASSERT_EQ(ground->layout().columns, 41);
+  for (double x_m = -60.0; x_m <= 60.0; x_m += 4.0)
+    EXPECT_NEAR(height_at(*ground, x_m, 0.0), 10.0, 0.1) << x_m;
+}
+
 TEST(HeightsImport, cells_without_data_are_filled_and_counted) {
   const TestFolder folder;
   FunctionRaster holes(20, 20, 5.0, [](int x, int z) { return x == 3 && z > 4 ? NAN : 100.0 + x; });

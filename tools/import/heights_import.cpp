@@ -48,47 +48,59 @@ Result<Survey> survey(Raster& raster, const HeightsImport& how, const std::funct
   return found;
 }
 
+/// The cells of a raster that make a sample of the ground, along one axis, and their parts in it.
+struct Taps {
+  int first = 0;
+  std::vector<double> weights;
+};
+
+/// The cubic B-spline at a distance.
+double spline(double distance) {
+  const double u = std::abs(distance);
+  if (u < 1.0) return (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0;
+  return u < 2.0 ? (2.0 - u) * (2.0 - u) * (2.0 - u) / 6.0 : 0.0;
+}
+
+/// Sample `i` of `count` in a raster of `source_count` cells. Samples farther apart than cells have a wider
+/// spline, so that no cell is left out.
+Taps taps_of(int i, int count, int source_count) {
+  if (count == source_count) return {i, {1.0}};
+  const double step = static_cast<double>(source_count - 1) / static_cast<double>(count - 1);
+  const double at = static_cast<double>(i) * static_cast<double>(source_count - 1) / (count - 1);
+  const double width = std::max(1.0, step);
+  Taps taps;
+  taps.first = static_cast<int>(std::floor(at - 2.0 * width)) + 1;
+  double sum = 0.0;
+  for (int cell = taps.first; static_cast<double>(cell) < at + 2.0 * width; ++cell) {
+    taps.weights.push_back(spline((cell - at) / width));
+    sum += taps.weights.back();
+  }
+  for (double& weight : taps.weights) weight /= sum;
+  return taps;
+}
+
 /// A raster's rows in the ground's samples. Where these lie between cells, by the cubic B-spline, as the
 /// ground's own surface (shared/field/heights.h): heights in whole metres make no terraces. Rows are asked
 /// for from the north.
 class Resampled {
  public:
   Resampled(Raster& raster, const HeightLayout& layout, double scale, double fill_m)
-      : raster_(raster), shape_(raster.shape()), layout_(layout), scale_(scale), fill_m_(fill_m) {}
+      : raster_(raster), shape_(raster.shape()), layout_(layout), scale_(scale), fill_m_(fill_m) {
+    for (int x = 0; x < layout.columns; ++x) columns_.push_back(taps_of(x, layout.columns, shape_.columns));
+  }
 
   Result<void> row(int z, std::span<double> heights_m) {
-    const auto [first, weight] = place(z, layout_.rows, shape_.rows);
-    std::array<const std::vector<double>*, 4> rows{};
-    for (int k = 0; k < 4; ++k) {
-      const auto row = TRY(source(std::clamp(first + k, 0, shape_.rows - 1)));
-      rows[static_cast<size_t>(k)] = row;
+    const Taps taps = taps_of(z, layout_.rows, shape_.rows);
+    std::ranges::fill(heights_m, 0.0);
+    for (size_t k = 0; k < taps.weights.size(); ++k) {
+      const auto* const row = TRY(source(std::clamp(taps.first + static_cast<int>(k), 0, shape_.rows - 1)));
+      for (size_t i = 0; i < heights_m.size(); ++i) heights_m[i] += taps.weights[k] * (*row)[i];
     }
-    for (size_t i = 0; i < heights_m.size(); ++i) {
-      double sum = 0.0;
-      for (size_t k = 0; k < 4; ++k) sum += weight[k] * (*rows[k])[i];
-      heights_m[i] = sum;
-    }
-    rows_.erase(rows_.begin(), rows_.lower_bound(std::clamp(first, 0, shape_.rows - 1)));
+    rows_.erase(rows_.begin(), rows_.lower_bound(std::clamp(taps.first, 0, shape_.rows - 1)));
     return {};
   }
 
  private:
-  struct Place {
-    int first;
-    std::array<double, 4> weight;
-  };
-
-  static Place place(int i, int count, int source_count) {
-    if (count == source_count) return {i - 1, {0.0, 1.0, 0.0, 0.0}};
-    const double at =
-        static_cast<double>(i) * static_cast<double>(source_count - 1) / static_cast<double>(count - 1);
-    const int whole = std::min(static_cast<int>(at), source_count - 1);
-    const double t = at - static_cast<double>(whole), s = 1.0 - t;
-    return {whole - 1,
-            {s * s * s / 6.0, (3.0 * t * t * t - 6.0 * t * t + 4.0) / 6.0,
-             (3.0 * s * s * s - 6.0 * s * s + 4.0) / 6.0, t * t * t / 6.0}};
-  }
-
   /// A row of the raster, in the ground's columns.
   Result<const std::vector<double>*> source(int z) {
     const auto found = rows_.find(z);
@@ -96,14 +108,15 @@ class Resampled {
     std::vector<double> cells(static_cast<size_t>(shape_.columns));
     TRY(raster_.read_row(z, cells));
     for (double& height : cells) height = std::isfinite(height) ? height * scale_ : fill_m_;
-    std::vector<double> row(static_cast<size_t>(layout_.columns));
-    for (int x = 0; x < layout_.columns; ++x) {
-      const auto [first, weight] = place(x, layout_.columns, shape_.columns);
+    std::vector<double> row;
+    row.reserve(columns_.size());
+    for (const Taps& taps : columns_) {
       double sum = 0.0;
-      for (int k = 0; k < 4; ++k)
-        sum += weight[static_cast<size_t>(k)] *
-               cells[static_cast<size_t>(std::clamp(first + k, 0, shape_.columns - 1))];
-      row[static_cast<size_t>(x)] = sum;
+      for (size_t k = 0; k < taps.weights.size(); ++k)
+        sum +=
+            taps.weights[k] *
+            cells[static_cast<size_t>(std::clamp(taps.first + static_cast<int>(k), 0, shape_.columns - 1))];
+      row.push_back(sum);
     }
     return &rows_.emplace(z, std::move(row)).first->second;
   }
@@ -113,6 +126,7 @@ class Resampled {
   const HeightLayout& layout_;
   double scale_;
   double fill_m_;
+  std::vector<Taps> columns_;
   std::map<int, std::vector<double>> rows_;
 };
 
