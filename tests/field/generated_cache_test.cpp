@@ -67,10 +67,11 @@ TEST(GeneratedCache, drops_all_when_its_bound_becomes_too_small) {
   EXPECT_EQ(cache.drops(), 1U);
 }
 
-TEST(ChunkResidence, counts_bricks_and_waits) {
+TEST(ChunkResidence, counts_bricks_and_asks_for_what_is_out) {
   ChunkResidence residence;
   EXPECT_FALSE(residence.pages());
-  residence.page_by([](ChunkCoord) -> Result<std::vector<BrickPatch>> { return fail("no disk"); });
+  std::vector<ChunkCoord> asked;
+  residence.page_by([&](ChunkCoord chunk) { asked.push_back(chunk); });
   ASSERT_TRUE(residence.pages());
   residence.enter(nth(1), 3);
   residence.add_brick();
@@ -79,8 +80,8 @@ TEST(ChunkResidence, counts_bricks_and_waits) {
   residence.leave(nth(1), 4);
   EXPECT_EQ(residence.bricks(), 0U);
   EXPECT_TRUE(residence.chunks().empty());
-  EXPECT_FALSE(residence.read(nth(1)));
-  EXPECT_EQ(residence.waits(), 1U);
+  residence.bring_in(nth(1));
+  EXPECT_EQ(asked, std::vector{nth(1)});
 }
 
 }  // namespace
