@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "proto/messages.h"
-#include "proto/spawn.h"
 #include "server/command/command.h"
 #include "shared/base/digest.h"
 #include "shared/base/result.h"
+#include "shared/base/spawn.h"
 #include "shared/operation/ledger.h"
 
 namespace scree {

@@ -2,7 +2,7 @@
 // under the sky, with relief in the middle distance and the horizon in the picture.
 #pragma once
 
-#include "proto/spawn.h"
+#include "shared/base/spawn.h"
 #include "shared/field/terrain.h"
 
 namespace scree {

@@ -4,8 +4,8 @@
 
 #include <optional>
 
-#include "proto/spawn.h"
 #include "server/world/tick_delta.h"
+#include "shared/base/spawn.h"
 #include "shared/field/field.h"
 
 namespace scree {

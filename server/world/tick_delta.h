@@ -9,13 +9,13 @@
 #include <vector>
 
 #include "proto/messages.h"
-#include "proto/spawn.h"
 #include "server/command/command.h"
 #include "server/work/tick_work.h"
 #include "server/world/service_limits.h"
 #include "server/world/stages.h"
 #include "shared/base/ids.h"
 #include "shared/base/setting_value.h"
+#include "shared/base/spawn.h"
 #include "shared/operation/ledger.h"
 #include "shared/operation/operation.h"
 

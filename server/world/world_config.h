@@ -5,12 +5,12 @@
 #include <functional>
 #include <optional>
 
-#include "proto/spawn.h"
 #include "server/world/methods.h"
 #include "server/world/rules.h"
 #include "server/world/service_limits.h"
 #include "shared/base/digest.h"
 #include "shared/base/result.h"
+#include "shared/base/spawn.h"
 #include "shared/field/terrain.h"
 
 namespace scree {

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "client/render/scene/camera.h"
-#include "proto/spawn.h"
 #include "shared/base/result.h"
+#include "shared/base/spawn.h"
 
 namespace scree {
 

@@ -1,11 +1,10 @@
-#include "proto/spawn.h"
+#include "shared/base/spawn.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <fmt/format.h>
 
 #include "shared/base/limits.h"
 
@@ -19,8 +18,8 @@ constexpr size_t numbers_of_place = 3;
 constexpr double degrees_per_radian = 57.29577951308232;
 
 tl::unexpected<Error> no_place(std::string_view text) {
-  return fail(
-      fmt::format("'{}' is no place to begin: write X,Y,Z or X,Y,Z,YAW,PITCH, in metres and degrees", text));
+  return fail("'" + std::string(text) +
+              "' is no place to begin: write X,Y,Z or X,Y,Z,YAW,PITCH, in metres and degrees");
 }
 
 }  // namespace
@@ -64,10 +63,10 @@ Result<Spawn> parse_spawn(std::string_view text) {
   const bool inside = std::max(std::abs(x), std::abs(z)) <= limits::world_half_width_m &&
                       std::abs(y) <= limits::world_half_height_m;
   if (!inside)
-    return fail(
-        fmt::format("'{}' is outside the world (limits.world_half_width_m, world_half_height_m)", text));
+    return fail("'" + std::string(text) +
+                "' is outside the world (limits.world_half_width_m, world_half_height_m)");
   if (std::abs(pitch) > spawn_pitch_max_degrees)
-    return fail(fmt::format("'{}' looks too steeply: its pitch is within ±89 degrees", text));
+    return fail("'" + std::string(text) + "' looks too steeply: its pitch is within ±89 degrees");
   return Spawn{{x, y, z}, std::remainder(yaw, 360.0F), pitch};
 }
 
