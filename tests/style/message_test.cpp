@@ -13,7 +13,7 @@ std::vector<std::string> texts_of(const std::string& source) {
   return texts;
 }
 
-size_t complaints_of(const std::string& source) {
+size_t message_complaints_of(const std::string& source) {
   return check_messages({"server/a.cpp", source}).size();
 }
 
@@ -45,25 +45,25 @@ TEST(MessageRules, an_option_is_known_by_its_call) {
 }
 
 TEST(MessageRules, turns_of_phrase_are_caught) {
-  EXPECT_EQ(complaints_of("f(\"whoever knows it may come\");"), 1U);
-  EXPECT_EQ(complaints_of("f(\"the flag stands \"\n  \"over the file\");"), 1U);
-  EXPECT_EQ(complaints_of("f(\"a port; unless said, 4177\");"), 1U);
-  EXPECT_EQ(complaints_of("f(\"It ended. Of bytes no more are kept.\");"), 1U);
-  EXPECT_EQ(complaints_of("f(\"the flag overrides the file\");"), 0U);
+  EXPECT_EQ(message_complaints_of("f(\"whoever knows it may come\");"), 1U);
+  EXPECT_EQ(message_complaints_of("f(\"the flag stands \"\n  \"over the file\");"), 1U);
+  EXPECT_EQ(message_complaints_of("f(\"a port; unless said, 4177\");"), 1U);
+  EXPECT_EQ(message_complaints_of("f(\"It ended. Of bytes no more are kept.\");"), 1U);
+  EXPECT_EQ(message_complaints_of("f(\"the flag overrides the file\");"), 0U);
 }
 
 TEST(MessageRules, an_option_names_its_thing) {
-  EXPECT_EQ(complaints_of("app.add_option(\"--seed\", seed, \"of the terrain\");"), 1U);
-  EXPECT_EQ(complaints_of("app.add_option(\"--seed\", seed, \"random seed of the terrain\");"), 0U);
-  EXPECT_EQ(complaints_of("say(count, \"of the pieces\");"), 0U);
+  EXPECT_EQ(message_complaints_of("app.add_option(\"--seed\", seed, \"of the terrain\");"), 1U);
+  EXPECT_EQ(message_complaints_of("app.add_option(\"--seed\", seed, \"random seed of the terrain\");"), 0U);
+  EXPECT_EQ(message_complaints_of("say(count, \"of the pieces\");"), 0U);
 }
 
 TEST(MessageRules, a_long_sentence_is_caught) {
   std::string words;
   for (size_t word = 0; word < sentence_words_max; ++word) words += "word ";
-  EXPECT_EQ(complaints_of("f(\"" + words + "\");"), 0U);
-  EXPECT_EQ(complaints_of("f(\"" + words + "\"\n  \"word\");"), 1U);
-  EXPECT_EQ(complaints_of("f(\"" + words + "\\nword\");"), 0U);
+  EXPECT_EQ(message_complaints_of("f(\"" + words + "\");"), 0U);
+  EXPECT_EQ(message_complaints_of("f(\"" + words + "\"\n  \"word\");"), 1U);
+  EXPECT_EQ(message_complaints_of("f(\"" + words + "\\nword\");"), 0U);
 }
 
 TEST(MessageRules, tests_may_say_anything) {
