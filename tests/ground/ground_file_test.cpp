@@ -110,7 +110,7 @@ TEST(GroundFiles, foreign_files_other_versions_and_folders_are_named) {
   put_bytes(path, bytes);
   EXPECT_NE(refusal_of(path).find("version 9"), std::string::npos);
   put_bytes(path, std::vector<char>(5000, 'x'));
-  EXPECT_NE(refusal_of(path).find("no ground file"), std::string::npos);
+  EXPECT_NE(refusal_of(path).find("not a ground file"), std::string::npos);
   EXPECT_FALSE(refusal_of(folder / "").empty());
   EXPECT_FALSE(refusal_of(folder / "none").empty());
 }
