@@ -69,7 +69,7 @@ class HeightGrid {
 
   float step_m() const { return step_m_; }
   float scale() const { return step_m_ / endless_step_m; }
-  /// Of a point of the grid, or of the nearest.
+  /// The value at a point of the grid, or at the nearest.
   float at(int x, int z) const {
     return heights_m_[static_cast<size_t>(index_of(z) * side_steps + index_of(x))];
   }
@@ -125,7 +125,7 @@ struct Picture {
   float skyline = 0.0F;  ///< in the middle of it
 };
 
-/// Of a skyline: how much nearer or farther it is than the one beside it.
+/// How much nearer or farther a skyline is than the one beside it.
 float edge_between(const Sight& a, const Sight& b, float scale) {
   const float near_m = std::min(a.away_m, b.away_m), far_m = std::max(a.away_m, b.away_m);
   return std::abs(a.skyline - b.skyline) * (1.0F - near_m / far_m) * weight_at(near_m / scale);

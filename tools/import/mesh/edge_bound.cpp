@@ -67,7 +67,7 @@ double EdgeBound::sum(uint32_t at, const glm::dvec3& centre, double radius_m) co
       (leaf ? distance_to_edge(centre, node.edge) : glm::length(node.centre - centre) - node.radius) -
       radius_m;
   if (leaf && !(apart > 0.0)) return std::numeric_limits<double>::infinity();
-  // Of a straight edge, however long, it is at most 2 / distance.
+  // A straight edge, however long, gives at most 2 / distance.
   if (leaf) return std::min(node.length / (apart * apart), 2.0 / apart);
   if (apart > together_radii * node.radius) return node.length / (apart * apart);
   return sum(at + 1, centre, radius_m) + sum(node.right, centre, radius_m);

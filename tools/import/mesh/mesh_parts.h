@@ -17,7 +17,7 @@ struct MeshPart {
   bool is_cavity = false;  ///< within another part, inside out
   uint32_t within = 0;     ///< of a cavity: the number of the smallest part around it
 
-  /// Of the whole surface, from 0 to 1.
+  /// The share of the whole surface, from 0 to 1.
   double missing() const { return area_m2 > 0.0 ? caps_m2 / (area_m2 + caps_m2) : 0.0; }
 };
 
