@@ -155,6 +155,7 @@ class TrustingClient {
   void apply(const PlaybackMessage& message) { playbacks.push_back(message); }
   void apply(const MarksMessage& message) { apply_news(marks, message); }
   void apply(const RecordedCursorsMessage& message) { recorded_cursors = message; }
+  void apply(const HealthMessage&) { ADD_FAILURE() << "health is not the publisher's"; }
   void apply(const PersonsMessage&) { ADD_FAILURE() << "persons are not the publisher's"; }
   void apply(const SaidMessage&) { ADD_FAILURE() << "what persons say is not the publisher's"; }
   void apply(const AdminListMessage&) { ADD_FAILURE() << "lists are not the publisher's"; }
