@@ -168,10 +168,12 @@ HttpResponse SocketDoor::open(const HttpRequest& request, const WebPeer& peer) {
 
 HttpResponse SocketDoor::tell(const HttpRequest& request, const WebPeer& peer) const {
   const std::string_view name = digits_of(request.query, "attempt");
-  const auto found = std::ranges::find(attempts_, name, &Attempt::name);
-  nlohmann::ordered_json json{{"seen", found != attempts_.end()}};
-  if (found != attempts_.end()) json["words"] = found->words;
-  if (found != attempts_.end() && found->foreign) json["pass"] = pass_for(peer.address);
+  const auto found = std::find_if(attempts_.rbegin(), attempts_.rend(),
+                                  [&](const Attempt& attempt) { return attempt.name == name; });
+  const bool seen = found != attempts_.rend();
+  nlohmann::ordered_json json{{"seen", seen}};
+  if (seen) json["words"] = found->words;
+  if (seen && found->foreign) json["pass"] = pass_for(peer.address);
   return {.fields = {{"Content-Type", "application/json"}, {"Cache-Control", "no-store"}},
           .body = std::make_shared<const std::string>(json.dump() + "\n")};
 }

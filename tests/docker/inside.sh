@@ -51,14 +51,14 @@ carve >visitor.json 2>visitor.err || status=$?
 ((status == 3)) || fail "a visitor without a token may carve here: the bot ended with $status"
 carve --token "$token" >bot.json 2>bot.err || fail "five carves with the token failed: $(cat bot.err)"
 scree-admin ban 203.0.113.9 --reason 'too loud' || fail "a ban failed"
-before=$(tell status | sed -n 's/.*"terrain": \([0-9]*\).*/\1/p')
+before=$(tell status | sed -n 's/.*"terrain": \(-\{0,1\}[0-9]*\).*/\1/p')
 stop
 [[ -s $SCREE_WORLD ]] || fail "there is no world in the volume"
 
 start
 ! grep -q 'an admin token was made' server.log || fail "the second start makes another token"
 [[ $(head -n 1 "$SCREE_ADMIN_TOKEN_FILE") == "$token" ]] || fail "the token changed"
-after=$(tell status | sed -n 's/.*"terrain": \([0-9]*\).*/\1/p')
+after=$(tell status | sed -n 's/.*"terrain": \(-\{0,1\}[0-9]*\).*/\1/p')
 [[ -n $before && $before == "$after" ]] || fail "the terrain was $before, and is $after"
 scree-admin bans | grep -q 203.0.113.9 || fail "the ban is lost"
 stop
