@@ -266,7 +266,7 @@ struct ReplyMessage {
   std::string refusal_name{};  ///< for programs, as of RefusalMessage
   ServerLatency latency{};     ///< zeroes: no tick answered it
   Tick tick = 0;               ///< that answered it; 0: none. Saved once StatusMessage::saved_tick is as high
-  std::optional<uint32_t> painted{};  ///< bricks of 8 voxels a side that a paint changed
+  std::optional<uint32_t> painted{};  ///< bricks of 8 voxels a side whose rock a paint changed
 };
 
 /// How long a stage of the tick took.

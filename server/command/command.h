@@ -34,7 +34,7 @@ struct Reply {
   uint32_t pieces = 0;
   std::optional<Refusal> reason = std::nullopt;  ///< of the refusal
   std::string host_name{};                       ///< of a Refusal::host that the host gave a name of its own
-  std::optional<uint32_t> painted{};             ///< bricks that a paint changed
+  std::optional<uint32_t> painted{};             ///< bricks whose rock a paint changed
 };
 
 /// The name of the reply's refusal that clients get, which stays the same from version to version: that of

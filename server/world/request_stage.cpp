@@ -16,6 +16,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
+#include "shared/field/mass.h"
 
 namespace scree {
 
@@ -190,11 +191,12 @@ Outcome fill(World::State& state, const FillRequest& request, uint64_t party, Ti
   return enclosed;
 }
 
-/// Returns how many bricks it painted: a small shape may reach none.
+/// Returns in how many bricks rock changed its material: a small shape in the air reaches none.
 Outcome paint(World::State& state, const PaintRequest& request, uint64_t party, TickDelta& delta) {
   const Applied applied =
       state.apply_and_record(PaintOperation{request.shape, request.material}, party, delta);
-  return static_cast<uint32_t>(applied.changed.size());
+  return static_cast<uint32_t>(std::ranges::count_if(
+      applied.changed, [&](BrickCoord coord) { return brick_mass(state.field.brick(coord)) > 0; }));
 }
 
 Outcome change(World::State& state, const SettingsRequest& request, TickDelta& delta) {

@@ -119,7 +119,7 @@ TEST_F(EventsTest, a_change_of_settings_is_an_event_and_the_first_tick_is_none) 
   record();
   const std::vector<Event> events = recorded_events();
   ASSERT_EQ(events.size(), 1U);
-  EXPECT_EQ(events[0], (Event{.kind = EventKind::setting, .tick = 3, .text = "impacts=false"}));
+  EXPECT_EQ(events[0], (Event{.kind = EventKind::setting, .tick = 3, .session = 1, .text = "impacts=false"}));
   EXPECT_TRUE(verified().agrees());
 }
 

@@ -134,7 +134,7 @@ TEST(paint, the_reply_says_how_many_bricks_were_painted) {
   ASSERT_TRUE(first.has_value());
   EXPECT_GT(*first, 0U);
   EXPECT_EQ(painted(Material::ice, patch), 0U) << "all of them are ice";
-  EXPECT_EQ(painted(Material::soil, sphere({2.0F, 0.0F, 2.0F}, 0.9F)), 0U) << "it holds no brick's centre";
+  EXPECT_EQ(painted(Material::soil, sphere({2.0F, 9.0F, 2.0F}, 0.9F)), 0U) << "there is air alone";
   const std::vector<Command> carve{carve_at({0.0F, -0.3F, 0.0F})};
   EXPECT_FALSE(world.step(carve)->replies.front().painted.has_value());
   EXPECT_FALSE(

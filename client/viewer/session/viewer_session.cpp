@@ -24,7 +24,8 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
 
 std::string told_of_paint(uint32_t bricks) {
   if (bricks == 0)
-    return "Nothing was painted: paint goes by bricks of 8 voxels a side, and this shape reaches none";
+    return "Nothing was painted: paint goes by bricks of 8 voxels a side, and this shape reaches no other "
+           "rock";
   return std::to_string(bricks) + (bricks == 1 ? " brick was painted" : " bricks were painted");
 }
 
