@@ -14,7 +14,6 @@
 #include "server/world/limits.h"
 #include "server/world/refracture_stage.h"
 #include "server/world/spawn.h"
-#include "server/world/world.h"
 #include "server/world/world_snapshot.h"
 #include "shared/field/field.h"
 #include "tests/support/flat_world.h"
