@@ -9,6 +9,7 @@
 #include "client/cache/join_server.h"
 #include "client/connection/come_again.h"
 #include "client/session/join_and_wait.h"
+#include "proto/spawn_direction.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/text.h"
 #include "shared/base/timing.h"

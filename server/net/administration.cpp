@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "auth/access_token.h"
+#include "proto/spawn_direction.h"
 #include "server/doors/unix_time.h"
 #include "server/world/settings.h"
 #include "shared/base/overloaded.h"

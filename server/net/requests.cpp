@@ -1,17 +1,28 @@
 #include "server/net/requests.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
+#include "shared/base/limits.h"
 #include "shared/base/timing.h"
 
 namespace scree {
 
 namespace {
 
-/// Refuses an edit that is too far away. One that is no shape is the simulation's to refuse.
+bool is_within_world(const glm::vec3& place_m) {
+  return std::max(std::abs(place_m.x), std::abs(place_m.z)) <= limits::world_half_width_m &&
+         std::abs(place_m.y) <= limits::world_half_height_m;
+}
+
+/// Refuses an edit that is too far away. One that is no shape, or outside the world, is the simulation's to
+/// refuse.
 tl::expected<void, Refused> check_reach(const SessionEntry& session, const Request& request, double reach_m) {
   const Shape* const shape = shape_of(request);
-  if (shape == nullptr || session.grant.role == Role::admin || !validate(*shape)) return {};
+  if (shape == nullptr || session.grant.role == Role::admin || !validate(*shape) ||
+      !is_within_world(shape->a))
+    return {};
   const double away_m = distance(*shape, session.eye_m);
   if (away_m <= reach_m) return {};
   const glm::vec3& eye = session.eye_m;

@@ -16,7 +16,6 @@ namespace {
 /// Fewer than the wire's limit of a setting's value asks for.
 constexpr size_t numbers_max = 5;
 constexpr size_t numbers_of_place = 3;
-constexpr double degrees_per_radian = 57.29577951308232;
 
 /// "'TEXT' WHY"; put together piece by piece, for g++ 12 warns of no overflow then (its bug 105651).
 tl::unexpected<Error> refuse_place(std::string_view text, std::string_view why) {
@@ -30,21 +29,6 @@ tl::unexpected<Error> no_place(std::string_view text) {
 }
 
 }  // namespace
-
-Spawn spawn_looking_at(glm::vec3 eye_m, glm::vec3 at_m) {
-  const double x = static_cast<double>(at_m.x - eye_m.x), y = static_cast<double>(at_m.y - eye_m.y),
-               z = static_cast<double>(at_m.z - eye_m.z);
-  Spawn spawn{eye_m, static_cast<float>(std::atan2(-x, -z) * degrees_per_radian),
-              static_cast<float>(std::atan2(y, std::hypot(x, z)) * degrees_per_radian)};
-  spawn.pitch_degrees = std::clamp(spawn.pitch_degrees, -spawn_pitch_max_degrees, spawn_pitch_max_degrees);
-  return rounded(spawn);
-}
-
-glm::vec3 ahead_of(const Spawn& spawn, float metres) {
-  const double yaw = static_cast<double>(spawn.yaw_degrees) / degrees_per_radian;
-  return spawn.eye_m -
-         metres * glm::vec3(static_cast<float>(std::sin(yaw)), 0.0F, static_cast<float>(std::cos(yaw)));
-}
 
 std::string text_of(const Spawn& spawn) {
   const auto number = [](float value) { return static_cast<double>(value) + 0.0; };  // no −0

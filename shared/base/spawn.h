@@ -21,12 +21,6 @@ struct Spawn {
 /// As far from the level as a spawn may look: no direction is wrong straight up or down.
 inline constexpr float spawn_pitch_max_degrees = 89.0F;
 
-/// The spawn from which one place looks at another.
-Spawn spawn_looking_at(glm::vec3 eye_m, glm::vec3 at_m);
-
-/// The place on the level of the eye, so far before it.
-glm::vec3 ahead_of(const Spawn& spawn, float metres);
-
 /// "X,Y,Z,YAW,PITCH"; in hundredths of a metre and tenths of a degree, which parse_spawn() reads back.
 std::string text_of(const Spawn& spawn);
 /// "X,Y,Z" or "X,Y,Z,YAW,PITCH", within the world. The yaw becomes one within ±180.

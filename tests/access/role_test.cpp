@@ -193,7 +193,7 @@ TEST_F(RoleTest, a_token_that_does_not_hold_refuses_the_session_by_its_reason) {
     EXPECT_TRUE(comes_to_refuse(reason)) << words;
   };
   named("scree1.garbled", Refusal::token_malformed, "the token is damaged");
-  named("a-guess-of-something", Refusal::token_malformed, "no access token");
+  named("a-guess-of-something", Refusal::token_malformed, "not an access token");
   named(*sign({7, Role::admin, 0, 0, "", ""}, SigningKey::generate()), Refusal::token_foreign,
         "not signed by this server's key");
   named(token(Role::builder, 7, 1'000'000'000), Refusal::token_expired, "has expired");

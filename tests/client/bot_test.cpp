@@ -113,7 +113,7 @@ TEST_F(BotTest, without_a_place_it_carves_before_the_eyes_of_who_begins_in_the_w
   ASSERT_FALSE(chunks.empty());
   for (const ChunkCoord chunk : chunks) {
     EXPECT_NEAR(static_cast<float>(chunk.x) * chunk_m, 200.0F - limits::bot_ahead_m, 20.0F);
-    EXPECT_NEAR(static_cast<float>(chunk.z) * chunk_m, 50.0F, 20.0F);
+    EXPECT_NEAR(static_cast<float>(chunk.z) * chunk_m, 50.0F, 40.0F);  // pieces fly to the sides
   }
 }
 

@@ -44,7 +44,8 @@ class SessionTest : public ::testing::Test {
     played->folder = fs::temp_directory_path() / ("scree_session_" + std::to_string(::getpid()));
     fs::create_directories(played->folder);
     played->recording = (played->folder / "session.scree").string();
-    LiveConfig config;  // the canyon
+    LiveConfig config;                                   // the canyon
+    config.world.service.reach_m = limits::reach_max_m;  // everybody strikes everywhere
     config.record_path = played->recording;
     played->session = std::make_unique<LoopbackSession>(config);
     play(*played);

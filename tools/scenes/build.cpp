@@ -1,5 +1,6 @@
 #include "tools/scenes/build.h"
 
+#include "proto/spawn_direction.h"
 #include "server/store/stored_field.h"
 #include "shared/base/overloaded.h"
 #include "shared/operation/operation.h"

@@ -1,3 +1,5 @@
 #include "client/bot/bot_program.h"
 
-int main(int argc, char** argv) { return scree::bot_program(argc, argv); }
+int main(int argc, char** argv) {
+  return scree::bot_program(argc, argv);
+}

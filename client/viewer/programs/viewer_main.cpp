@@ -1,3 +1,5 @@
 #include "client/viewer/viewer_program.h"
 
-int main(int argc, char** argv) { return scree::viewer_program(argc, argv); }
+int main(int argc, char** argv) {
+  return scree::viewer_program(argc, argv);
+}
