@@ -9,6 +9,7 @@
 
 #include "bench/support/scenes.h"
 #include "server/replay/verify.h"
+#include "server/world/limits.h"
 #include "tests/support/rounds.h"
 #include "tests/support/session_support.h"
 
