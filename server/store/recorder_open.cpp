@@ -1,7 +1,6 @@
 // How a Recorder begins.
 #include <algorithm>
 #include <filesystem>
-#include <ranges>
 #include <spdlog/spdlog.h>
 #include <utility>
 
@@ -46,11 +45,10 @@ Made fitting_part(const std::string& path, const RecordingHeader& header, const 
                   RingLimit limit) {
   std::string why = path + " is there already";
   const std::vector<std::string> parts = recording_parts(path);
-  for (const std::string& part : parts | std::views::reverse) {
-    if (from == nullptr) break;
-    auto resumed = RecordingWriter::resume(part, header, *from, limit);
+  for (auto part = parts.rbegin(); part != parts.rend() && from != nullptr; ++part) {
+    auto resumed = RecordingWriter::resume(*part, header, *from, limit);
     if (resumed || Database::may_pass(resumed.error())) return resumed;
-    if (part == parts.back()) why = resumed.error().message;
+    if (part == parts.rbegin()) why = resumed.error().message;
   }
   const std::string part = TRY(next_recording_part(path));
   if (part != path) spdlog::warn("the session is recorded to {}: {}", part, why);

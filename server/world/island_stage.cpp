@@ -221,15 +221,15 @@ Result<void> may_cause_falls(const World::State& state, uint64_t party) {
   if (party == 0 || !state.config.methods.islands || state.islands.idle(party)) return {};
   const IslandQueue::Backlog own = state.islands.backlog(party);
   const size_t left = limits::falls_waiting_max - std::min(limits::falls_waiting_max, state.islands.size());
+  const size_t parties = state.islands.parties();
   const std::string count = std::to_string(own.count()) +
                             " falls that this client, or those who share with "
                             "it, caused are waiting";
-  if (own.count() >= left)
-    return fail(count + ", as many as there are places left of " + std::to_string(limits::falls_waiting_max) +
-                " (limits.falls_waiting_max): ask again later");
+  if (own.count() >= std::max(left, limits::falls_waiting_max / parties))
+    return fail(count + ", and others' leave no room for more of " +
+                std::to_string(limits::falls_waiting_max) + " (limits.falls_waiting_max): ask again later");
   // Where they do not fit, one falls in island_rest_s, by the parties' turns.
-  const float wait_s =
-      limits::island_rest_s * static_cast<float>(own.falls) * static_cast<float>(state.islands.parties());
+  const float wait_s = limits::island_rest_s * static_cast<float>(own.falls) * static_cast<float>(parties);
   if (wait_s <= limits::falls_wait_max_s) return {};
   return fail(count + ", for about " + std::to_string(static_cast<int>(std::lround(wait_s))) +
               " s; this server lets them wait for " +

@@ -266,7 +266,7 @@ test('the status page asks for a token, and shows what it then gets', async () =
   await until(page, 'the token is asked for', () => !document.querySelector('#ask').hidden);
   await page.type('#token', 'wrong');
   await page.keyboard.press('Enter');
-  await until(page, 'the wrong token is refused', () => document.querySelector('#why').textContent.includes('does not hold'));
+  await until(page, 'the wrong token is refused', () => document.querySelector('#why').textContent.includes('not valid'));
   await page.$eval('#token', (input) => { input.value = ''; });
   await page.type('#token', 'right');
   await page.keyboard.press('Enter');

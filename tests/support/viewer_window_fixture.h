@@ -71,6 +71,7 @@ class ViewerWindow : public testing::Test {
     options_.given.view_radius = true;
     options_.camera.eye_m = {0.0F, 3.0F, 6.0F};
     options_.camera.pitch = -0.45F;
+    options_.given.camera = true;
     options_.method = &all_methods().front();
     options_.gl_debug = true;
   }

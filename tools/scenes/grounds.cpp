@@ -68,8 +68,8 @@ Result<SceneSetup> maunga_whau_scene(const std::string& folder) {
   const auto on_ground_at = [&](float x_m, float z_m) {
     return glm::vec3(x_m, ground_height_m(terrain, x_m, z_m), z_m);
   };
-  // From the eastern rim into the crater.
-  setup->target_m = on_ground_at(-130.0F, -34.0F);
+  // From the eastern rim into the crater, with some sky over the western one.
+  setup->target_m = on_ground_at(-130.0F, -34.0F) + glm::vec3(0.0F, 10.0F, 0.0F);
   setup->eye_m = on_ground_at(-62.0F, -16.0F) + glm::vec3(0.0F, 16.0F, 0.0F);
   for (const glm::vec2 at :
        {glm::vec2(-88.0F, -24.0F), {-84.0F, -16.0F}, {-92.0F, -30.0F}, {-82.0F, -28.0F}}) {
