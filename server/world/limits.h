@@ -43,9 +43,9 @@ inline constexpr uint32_t neck_seeds_max = 6;
 inline constexpr float neck_throw_m_s = 2.0F;
 
 /// Searches for islands and islands that wait to fall, of all parties. A party may have as many as there are
-/// places left, so that one more party always finds one, and its even share even if others went beyond theirs:
-/// nobody knows how much a carve loosens before it is searched. A finished search takes some 0.1 MB. Above:
-/// what may loosen more is refused.
+/// places left, so that one more party always finds one, and its even share even if others went beyond
+/// theirs: nobody knows how much a carve loosens before it is searched. A finished search takes some 0.1 MB.
+/// Above: what may loosen more is refused.
 inline constexpr size_t falls_waiting_max = 512;
 
 /// How long a party's islands may wait until the last has fallen, seconds, where none fits and one falls in
