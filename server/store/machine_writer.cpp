@@ -5,6 +5,7 @@
 
 #include "server/formats/event_codec.h"
 #include "server/store/schema.h"
+#include "server/world/world.h"
 
 namespace scree {
 
