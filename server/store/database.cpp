@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <utility>
 #include <xxhash.h>
 
 #include "server/store/limits.h"
@@ -37,6 +38,20 @@ int refused_by_system(sqlite3* database) {
   for (const int refused : {sqlite3_system_errno(database), now})
     if (refused == ENOSPC || refused == EFBIG || refused == EDQUOT || refused == EROFS) return refused;
   return 0;
+}
+
+/// What SQLite advises for files of strangers (sqlite.org/security.html): what the file brings of SQL does
+/// not run.
+void distrust(sqlite3* database) {
+  constexpr std::array<std::pair<int, int>, 4> options{{{SQLITE_DBCONFIG_DEFENSIVE, 1},
+                                                        {SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0},
+                                                        {SQLITE_DBCONFIG_ENABLE_TRIGGER, 0},
+                                                        {SQLITE_DBCONFIG_ENABLE_VIEW, 0}}};
+  for (const auto& [option, value] : options) {
+    int now = -1;
+    CHECK_EQ(sqlite3_db_config(database, option, value, &now), SQLITE_OK);
+    CHECK_EQ(now, value);
+  }
 }
 
 }  // namespace
@@ -81,6 +96,7 @@ Result<Database> Database::open(const std::string& path) {
   if (code != SQLITE_OK) return database.failure("cannot be opened");
   sqlite3_busy_timeout(raw, busy_timeout_ms);
   sqlite3_limit(raw, SQLITE_LIMIT_LENGTH, static_cast<int>(limits::row_bytes_max));
+  distrust(raw);
   return database;
 }
 
@@ -191,6 +207,22 @@ Result<void> Database::each_number(const std::string& select, const NumbersVisit
     if (code != SQLITE_ROW) return failure("cannot be read");
     for (size_t i = 0; i < columns.size(); ++i)
       columns[i] = sqlite3_column_int64(prepared.get(), static_cast<int>(i));
+    TRY(visit(columns));
+  }
+}
+
+Result<void> Database::each_text(const std::string& select, const TextVisitor& visit) {
+  const auto prepared = TRY(prepare(select));
+  std::vector<std::string> columns(static_cast<size_t>(sqlite3_column_count(prepared.get())));
+  for (;;) {
+    const int code = sqlite3_step(prepared.get());
+    if (code == SQLITE_DONE) return {};
+    if (code != SQLITE_ROW) return failure("cannot be read");
+    for (size_t i = 0; i < columns.size(); ++i) {
+      const auto at = static_cast<int>(i);
+      const auto* const text = reinterpret_cast<const char*>(sqlite3_column_text(prepared.get(), at));
+      columns[i] = text == nullptr ? "" : text;
+    }
     TRY(visit(columns));
   }
 }

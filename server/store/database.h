@@ -29,7 +29,7 @@ class Database {
  public:
   /// Creates a file. An error if it exists.
   static Result<Database> create(const std::string& path);
-  /// Opens an existing file, without reading its content.
+  /// Opens an existing file, without reading its content. Its triggers and views do not act.
   static Result<Database> open(const std::string& path);
 
   Result<void> execute(const std::string& sql);
@@ -57,6 +57,9 @@ class Database {
   /// Calls `visit` with the columns of each row, which are whole numbers; ends at its first error.
   using NumbersVisitor = std::function<Result<void>(std::span<const int64_t> columns)>;
   Result<void> each_number(const std::string& select, const NumbersVisitor& visit);
+  /// The same with columns of text.
+  using TextVisitor = std::function<Result<void>(std::span<const std::string> columns)>;
+  Result<void> each_text(const std::string& select, const TextVisitor& visit);
   /// Copies the whole database, as of one moment, into a new file.
   Result<void> copy_to(const std::string& path);
   /// Whether the last call failed because another program has the file open.

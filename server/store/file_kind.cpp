@@ -1,5 +1,6 @@
 #include "server/store/file_kind.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
@@ -44,6 +45,24 @@ int64_t application_id(const std::string& header) {
   for (size_t i = 0; i < 4; ++i)
     id = id * 256 + static_cast<int64_t>(static_cast<unsigned char>(header[id_at + i]));
   return id;
+}
+
+/// Refuses what no program of ours makes in such a file.
+Result<void> check_schema(Database& database, const FileKind& kind) {
+  const auto is_ours = [&kind](const std::string& name, const std::string& sql) {
+    return sql == kind.index || std::ranges::any_of(kind.columns, [&](std::string_view columns) {
+             return !columns.empty() && sql == fmt::format("CREATE TABLE {}{}", name, columns);
+           });
+  };
+  return database.each_text(
+      "SELECT type, name, sql FROM sqlite_master WHERE sql IS NOT NULL AND name <> 'sqlite_stat1'",
+      [&](std::span<const std::string> row) -> Result<void> {
+        if (is_ours(row[1], row[2])) return {};
+        return fail(fmt::format(
+            "{} has a {} \"{}\" that no {} has. It may do harm when the file is read, so the file is "
+            "not used: remove it (sqlite3), or take a copy from somebody whom you trust",
+            database.path(), row[0], row[1], kind.noun));
+      });
 }
 
 }  // namespace
@@ -101,7 +120,7 @@ Result<void> check_format(Database& database, const FileKind& kind) {
   if (format->value_or(0) != kind.format)
     return fail(fmt::format("{} is a {} of format {}; this program reads format {}: {}", database.path(),
                             noun, format->value_or(0), kind.format, kind.way_out));
-  return {};
+  return check_schema(database, kind);
 }
 
 Result<void> check_pages(Database& database) {

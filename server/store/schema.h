@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <fmt/format.h>
 #include <string>
+#include <string_view>
 
 #include "server/formats/recording_codec.h"
 #include "server/store/file_kind.h"
@@ -14,21 +16,25 @@ namespace scree::schema {
 /// the format.
 inline constexpr int64_t application_id = 0x53435245;
 
-inline constexpr FileKind recording{.noun = "recording",
-                                    .application_id = application_id,
-                                    .format = recording_format,
-                                    .way_out = "play it with the release that recorded it"};
+inline constexpr std::string_view row_columns =
+    " (tick INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL)";
+inline constexpr std::string_view chunk_columns =
+    " (id INTEGER PRIMARY KEY, tick INTEGER NOT NULL, chunk INTEGER NOT NULL, hash INTEGER NOT NULL,"
+    " data BLOB NOT NULL, checksum INTEGER NOT NULL)";
+
+inline constexpr FileKind recording{
+    .noun = "recording",
+    .application_id = application_id,
+    .format = recording_format,
+    .way_out = "play it with the release that recorded it",
+    .columns = {row_columns, chunk_columns},
+    .index = "CREATE INDEX keyframe_chunks_of ON keyframe_chunks (chunk, tick, hash)"};
 
 /// Tables of rows by tick, or by id.
 inline constexpr std::array row_tables = {"header",          "frames",          "commands",
                                           "events",          "machine",         "ended",
                                           "keyframe_states", "keyframe_pieces", "state_moments"};
 inline constexpr const char* chunk_table = "keyframe_chunks";
-inline constexpr const char* chunk_columns =
-    " (id INTEGER PRIMARY KEY, tick INTEGER NOT NULL, chunk INTEGER NOT NULL, hash INTEGER NOT NULL,"
-    " data BLOB NOT NULL, checksum INTEGER NOT NULL);";
-inline constexpr const char* row_columns =
-    " (tick INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL);";
 
 /// The table frames has one row for every tick, without a gap. The table commands has one row for each tick
 /// with commands, also for ticks before the first frame, back to the state from which these are simulated.
@@ -50,16 +56,16 @@ inline constexpr const char* row_columns =
 ///
 /// This makes the tables that are not there. Builds before 0.2.0 left out tables without rows.
 inline std::string create_tables() {
-  std::string sql = "PRAGMA application_id = " + std::to_string(application_id) + ";" +
-                    "PRAGMA user_version = " + std::to_string(recording_format) + ";";
+  std::string sql =
+      fmt::format("PRAGMA application_id = {};PRAGMA user_version = {};", application_id, recording_format);
   for (const char* table : row_tables)
-    sql += std::string("CREATE TABLE IF NOT EXISTS ") + table + row_columns;
-  return sql + "CREATE TABLE IF NOT EXISTS " + chunk_table + chunk_columns +
+    sql += fmt::format("CREATE TABLE IF NOT EXISTS {}{};", table, row_columns);
+  return sql + fmt::format("CREATE TABLE IF NOT EXISTS {}{};", chunk_table, chunk_columns) +
          "CREATE INDEX IF NOT EXISTS keyframe_chunks_of ON keyframe_chunks (chunk, tick, hash);";
 }
 /// Makes an empty table in memory, for a reader of a file that lacks it.
 inline std::string create_empty(const std::string& table) {
-  return "CREATE TEMP TABLE " + table + (table == chunk_table ? chunk_columns : row_columns);
+  return fmt::format("CREATE TEMP TABLE {}{}", table, table == chunk_table ? chunk_columns : row_columns);
 }
 
 inline std::string insert_into(const std::string& table) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <system_error>
 #include <unistd.h>
 #include <utility>
@@ -23,6 +24,13 @@ std::string process_in(int file) {
   return "process " + number;
 }
 
+/// Whether a file that is open has one name and is no pipe or device: a lock of ours, and nobody's file that
+/// somebody linked here to have it overwritten.
+bool is_plain(int file) {
+  struct stat status {};
+  return fstat(file, &status) == 0 && S_ISREG(status.st_mode) && status.st_nlink == 1;
+}
+
 }  // namespace
 
 /// By links a file has several paths: all of them lead to the same lock, or are refused.
@@ -34,11 +42,16 @@ Result<WorldLock> WorldLock::acquire(const std::string& world_path) {
                 " has another name, too (a hard link), by which another server might use it: copy it, "
                 "and remove one of the names");
   const std::string path = (real.empty() ? world_path : real.string()) + "-lock";
-  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  const int file = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+  if (file < 0 && errno == ELOOP)
+    return fail(fmt::format("{}: {} is a link, which may lead to another file: remove it", world_path, path));
   if (file < 0)
     return fail(fmt::format("{}: {} cannot be written ({}): a world needs a folder that can be written",
                             world_path, path, std::strerror(errno)));
   WorldLock lock(file);
+  if (!is_plain(file))
+    return fail(
+        fmt::format("{}: {} is no plain file, or has another name, too: remove it", world_path, path));
   if (flock(file, LOCK_EX | LOCK_NB) != 0)
     return fail(fmt::format("{} is in use by {}: a world belongs to one server at a time", world_path,
                             process_in(file)));

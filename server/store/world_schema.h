@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <fmt/format.h>
 #include <string>
 
 #include "server/formats/world_codec.h"
@@ -12,10 +13,13 @@
 namespace scree::world_schema {
 
 /// "SCRW" distinguishes a world from other SQLite files.
-inline constexpr FileKind world{.noun = "world",
-                                .application_id = 0x53435257,
-                                .format = world_format,
-                                .way_out = "open it with the release that made it"};
+inline constexpr FileKind world{
+    .noun = "world",
+    .application_id = 0x53435257,
+    .format = world_format,
+    .way_out = "open it with the release that made it",
+    .columns = {" (key INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL)"},
+    .index = {}};
 
 /// header and moment: one row each, key 0. chunks: the edited ones, by chunk_key(). pieces: those alive, by
 /// id. checksum: XXH3 of the data. All rows are of one tick, the moment's.
@@ -23,8 +27,7 @@ inline std::string create_tables() {
   std::string sql = "PRAGMA application_id = " + std::to_string(world.application_id) + ";" +
                     "PRAGMA user_version = " + std::to_string(world.format) + ";";
   for (const char* table : {"header", "moment", "chunks", "pieces"})
-    sql += std::string("CREATE TABLE ") + table +
-           " (key INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL);";
+    sql += fmt::format("CREATE TABLE {}{};", table, world.columns.front());
   return sql;
 }
 

@@ -49,6 +49,19 @@ TEST_F(RecordingTest, newer_and_foreign_sqlite_files_are_refused) {
   expect_refused("another program");
 }
 
+TEST_F(RecordingTest, sql_that_came_with_a_file_is_refused) {
+  simulate(2);
+  record();
+  {
+    auto database = Database::open(path);
+    ASSERT_TRUE(database && database
+                                ->execute("CREATE TRIGGER eats AFTER INSERT ON frames BEGIN DELETE FROM "
+                                          "commands; END")
+                                .has_value());
+  }
+  expect_refused("has a trigger \"eats\" that no recording has");
+}
+
 TEST_F(RecordingTest, a_world_beyond_its_limits_is_refused) {
   simulate(2);
   for (const auto& [voxel_size_m, tick_rate_hz, limit] :

@@ -198,6 +198,38 @@ TEST_F(WorldFileTest, foreign_files_and_other_releases_are_named) {
   expect("is a world of format 9");
 }
 
+TEST_F(WorldFileTest, sql_that_came_with_a_file_does_not_run_and_the_file_is_refused) {
+  const std::map<std::string, std::string> brought{
+      {"trigger", "CREATE TRIGGER eats AFTER INSERT ON moment BEGIN DELETE FROM chunks; END"},
+      {"view",
+       "ALTER TABLE pieces RENAME TO other; CREATE VIEW pieces AS WITH RECURSIVE n(i) AS (SELECT 1 UNION "
+       "ALL SELECT i + 1 FROM n) SELECT i AS key, x'00' AS data, 0 AS checksum FROM n"},
+      {"index", "CREATE INDEX costly ON chunks (hex(data))"},
+      {"table", "CREATE TABLE more (key INTEGER PRIMARY KEY, data BLOB CHECK (length(hex(data)) < 9))"}};
+  for (const auto& [kind, sql] : brought) {
+    SCOPED_TRACE(kind);
+    make();
+    file.reset();
+    {
+      auto database = Database::open(path);
+      ASSERT_TRUE(database.has_value()) << database.error().message;
+      const auto done = database->execute(sql);
+      ASSERT_TRUE(done.has_value()) << done.error().message;
+      if (kind == "trigger") {
+        const auto before = database->number("SELECT count(*) FROM chunks");
+        ASSERT_TRUE(before.has_value());
+        ASSERT_TRUE(database->execute("INSERT INTO moment VALUES (9, x'00', 0)").has_value());
+        const auto after = database->number("SELECT count(*) FROM chunks");
+        EXPECT_TRUE(after.has_value() && *after == *before && **after > 0);
+      }
+      if (kind == "view") EXPECT_FALSE(database->number("SELECT count(*) FROM pieces").has_value());
+    }
+    const std::string said = refusal_of(path);
+    EXPECT_NE(said.find("has a " + kind + " "), std::string::npos) << said;
+    std::filesystem::remove(path);
+  }
+}
+
 TEST_F(WorldFileTest, repair_keeps_every_chunk_that_is_whole_and_says_what_was_lost) {
   make();
   const WorldSnapshot before = world->snapshot();
