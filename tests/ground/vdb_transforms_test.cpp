@@ -132,6 +132,34 @@ TEST_F(VdbChoices, one_level_set_among_others_is_taken_and_said) {
       << outcome(path);
 }
 
+/// Materials may change within the cubes of 8 voxels that OpenVDB keeps, and be said for a part of them
+/// alone.
+TEST_F(VdbChoices, materials_of_single_voxels_are_read_and_silent_ones_are_not) {
+  const auto ball = quarter_metre_ball(false, "surface");
+  const auto materials = openvdb::Int32Grid::create(-1);
+  materials->setName("material");
+  materials->setTransform(ball->transform().copy());
+  auto voxels = materials->getAccessor();
+  const int middle_x = 12;  // of the ball, which lies from x = -2 to 8 m
+  for (int x = -8; x < 32; ++x)
+    for (int y = 28; y < 68; ++y)
+      for (int z = -28; z < 12; ++z) {
+        if (x < middle_x)
+          voxels.setValueOn({x, y, z}, static_cast<int32_t>(Material::ice));
+        else
+          voxels.setValueOff({x, y, z}, static_cast<int32_t>(Material::soil));
+      }
+  const auto read = read_solids({written({ball, materials})}, {});
+  ASSERT_TRUE(read) << read.error().message;
+  const auto imported = import_bricks(read->solids, folder_ / "ball.ground", {.level_m = 0.0}, [](double) {});
+  ASSERT_TRUE(imported) << imported.error().message;
+  const auto file = GroundFile::open(folder_ / "ball.ground");
+  ASSERT_TRUE(file);
+  const TerrainSource source{.heights = *file};
+  EXPECT_EQ(material_at(source, {0.5F, 12.0F, -2.0F}), Material::ice);
+  EXPECT_EQ(material_at(source, {5.5F, 12.0F, -2.0F}), Material::rock);
+}
+
 TEST_F(VdbChoices, volumes_without_an_inside_are_refused_in_their_own_words) {
   const std::string fog = written({quarter_metre_ball(true, "density")});
   EXPECT_NE(outcome(fog, {.density = 1.5}).find("the densest value of the fog volume is 1, not above 1.5"),

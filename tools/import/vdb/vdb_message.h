@@ -34,11 +34,13 @@ inline bool has(const VdbHead& head, VdbTold what) {
   return (head.told & static_cast<uint8_t>(what)) != 0;
 }
 
-/// Equal values in a cube of 8, 128 or 4096 voxels a side: level 1, 2 or 3.
+/// Equal values in a cube of 8, 128 or 4096 voxels a side: level 1, 2 or 3. `is_active` is OpenVDB's state:
+/// where a grid of materials is inactive, it names no material.
 template <typename T>
 struct VdbTile {
   std::array<int32_t, 3> at;
   int32_t level;
+  int32_t is_active;
   T value;
 };
 
@@ -46,6 +48,7 @@ struct VdbTile {
 template <typename T>
 struct VdbLeaf {
   std::array<int32_t, 3> at;
+  std::array<uint8_t, 512> is_active;
   std::array<T, 512> values;
 };
 
@@ -58,18 +61,23 @@ Result<void> send_grid(ReaderChannel& channel, const Grid& grid) {
   auto tile = tree.cbeginValueAll();
   tile.setMaxDepth(Grid::TreeType::ValueAllCIter::LEAF_DEPTH - 1);
   for (; tile; ++tile) {
-    if (*tile == tree.background()) continue;
+    if (*tile == tree.background() && !tile.isValueOn()) continue;
     openvdb::CoordBBox box;
     tile.getBoundingBox(box);
-    tiles.push_back(
-        {{box.min().x(), box.min().y(), box.min().z()}, static_cast<int32_t>(tile.getLevel()), *tile});
+    tiles.push_back({{box.min().x(), box.min().y(), box.min().z()},
+                     static_cast<int32_t>(tile.getLevel()),
+                     tile.isValueOn() ? 1 : 0,
+                     *tile});
   }
   TRY(channel.put_list(tiles));
   TRY(channel.put(static_cast<uint64_t>(tree.leafCount())));
   for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
     const openvdb::Coord at = leaf->origin();
-    VdbLeaf<T> sent{{at.x(), at.y(), at.z()}, {}};
-    for (openvdb::Index i = 0; i < sent.values.size(); ++i) sent.values[i] = leaf->getValue(i);
+    VdbLeaf<T> sent{{at.x(), at.y(), at.z()}, {}, {}};
+    for (openvdb::Index i = 0; i < sent.values.size(); ++i) {
+      sent.values[i] = leaf->getValue(i);
+      sent.is_active[i] = leaf->isValueOn(i) ? 1 : 0;
+    }
     TRY(channel.put(sent));
   }
   return {};
@@ -96,7 +104,7 @@ Result<typename Grid::Ptr> receive_grid(ReaderChannel& channel, uint64_t leaves_
         !is_right(tile.value))
       return fail("the grid has a tile that is none");
     grid->tree().addTile(static_cast<openvdb::Index>(tile.level), {tile.at[0], tile.at[1], tile.at[2]},
-                         tile.value, true);
+                         tile.value, tile.is_active != 0);
   }
   const auto leaves = TRY(channel.get<uint64_t>());
   if (leaves > leaves_max) return fail("the grid has more bricks than there can be");
@@ -105,7 +113,10 @@ Result<typename Grid::Ptr> receive_grid(ReaderChannel& channel, uint64_t leaves_
     if (!is_place(leaf.at, 8) || !std::ranges::all_of(leaf.values, is_right))
       return fail("the grid has a brick that is none");
     auto* const made = grid->tree().touchLeaf({leaf.at[0], leaf.at[1], leaf.at[2]});
-    for (openvdb::Index k = 0; k < leaf.values.size(); ++k) made->setValueOnly(k, leaf.values[k]);
+    for (openvdb::Index k = 0; k < leaf.values.size(); ++k) {
+      made->setValueOnly(k, leaf.values[k]);
+      made->setActiveState(k, leaf.is_active[k] != 0);
+    }
   }
   return grid;
 }
