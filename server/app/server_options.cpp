@@ -10,7 +10,6 @@
 
 #include "proto/messages.h"
 #include "server/app/config_file.h"
-#include "server/app/distinct_files.h"
 #include "server/app/door_options.h"
 #include "server/app/environment.h"
 #include "server/app/ground_giver.h"
@@ -19,6 +18,7 @@
 #include "server/web/site.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
+#include "shared/base/distinct_files.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
 #include "shared/base/option_check.h"

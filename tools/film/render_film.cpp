@@ -2,8 +2,8 @@
 
 #include <array>
 
-#include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
+#include "shared/base/distinct_files.h"
 #include "shared/base/timing.h"
 #include "tools/film/recorded_scene.h"
 

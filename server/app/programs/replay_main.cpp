@@ -12,7 +12,6 @@
 #include <unistd.h>
 
 #include "ground/whole_file.h"
-#include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/replay/export_lines.h"
 #include "server/replay/recorded_moment.h"
@@ -22,6 +21,7 @@
 #include "server/replay/verify.h"
 #include "server/store/recording_reader.h"
 #include "server/world/settings.h"
+#include "shared/base/distinct_files.h"
 #include "shared/base/option_check.h"
 #include "shared/base/program_output.h"
 #include "shared/base/progress_bar.h"

@@ -6,10 +6,10 @@
 
 #include "client/connection/endpoint_options.h"
 #include "ground/ground_file.h"
-#include "server/app/distinct_files.h"
 #include "server/app/ground_giver.h"
 #include "server/replay/recorded_field.h"
 #include "server/store/stored_field.h"
+#include "shared/base/distinct_files.h"
 #include "shared/base/limits.h"
 #include "shared/base/option_check.h"
 #include "shared/base/program_output.h"

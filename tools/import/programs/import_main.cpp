@@ -7,6 +7,7 @@
 #include <sys/resource.h>
 
 #include "ground/ground_header.h"
+#include "shared/base/distinct_files.h"
 #include "shared/base/limits.h"
 #include "shared/base/program_output.h"
 #include "tools/import/file_forms.h"
@@ -282,7 +283,16 @@ Result<void> run_solids(const Options& options) {
   return {};
 }
 
+/// What is written would take the place of what is read.
+Result<void> check_outputs(const Options& options) {
+  std::vector<NamedFile> files{
+      {"--out", options.out, true}, {"--preview", options.preview, true}, {"--on", options.on}};
+  for (const std::string& file : options.files) files.push_back({"the imported file", file});
+  return check_distinct(files);
+}
+
 Result<void> run(const Options& options) {
+  TRY(check_outputs(options));
   bound_memory(options);
   try {
     for (const std::string& file : options.files)

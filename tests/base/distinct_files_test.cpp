@@ -1,5 +1,5 @@
 // Names of one file are told from each other's, however they are written.
-#include "server/app/distinct_files.h"
+#include "shared/base/distinct_files.h"
 
 #include <filesystem>
 #include <fstream>

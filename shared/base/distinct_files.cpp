@@ -1,4 +1,4 @@
-#include "server/app/distinct_files.h"
+#include "shared/base/distinct_files.h"
 
 #include <filesystem>
 #include <vector>
