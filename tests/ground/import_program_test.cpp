@@ -41,5 +41,11 @@ TEST_F(ImportProgram, never_writes_over_what_it_reads) {
   expect_one_file(house + " -o " + ground + " --on " + ground);
 }
 
+TEST_F(ImportProgram, prints_names_that_are_no_text) {
+  const auto [code, said] = run(hill_ + " -o " + (folder_ / "hill_\xFF.ground"));
+  EXPECT_EQ(code, 0) << said;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "hill_\xFF.ground"));
+}
+
 }  // namespace
 }  // namespace scree

@@ -165,7 +165,8 @@ Result<void> run(const Options& options) {
   });
   TRY(written);
   line.update(*written);
-  std::printf("%s\n", line.dump().c_str());
+  // A name of a file may be any bytes.
+  std::printf("%s\n", line.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
   return {};
 }
 

@@ -21,6 +21,8 @@
 namespace scree {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 struct Options {
   std::vector<std::string> files;
   std::string out;
@@ -146,27 +148,32 @@ double seconds_since(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
+/// A name of a file may be any bytes.
+void print(const Json& line) {
+  std::printf("%s\n", line.dump(-1, ' ', false, Json::error_handler_t::replace).c_str());
+}
+
 void print(const Options& options, const HeightsImported& imported, const std::optional<Raster::Place>& place,
            double seconds) {
   const HeightLayout& layout = imported.header.ground.layout;
-  nlohmann::ordered_json line{{"ground", options.out},
-                              {"hash", hex_of(name_of(imported.header))},
-                              {"bytes", imported.bytes},
-                              {"columns", layout.columns},
-                              {"rows", layout.rows},
-                              {"sample_m", layout.cell_m},
-                              {"tiles", layout.tiles()},
-                              {"lowest_m", imported.lowest_m},
-                              {"highest_m", imported.highest_m},
-                              {"zero_m", imported.header.zero_m},
-                              {"cells_without_data", imported.nodata},
-                              {"volume_m3", imported.volume_m3}};
+  Json line{{"ground", options.out},
+            {"hash", hex_of(name_of(imported.header))},
+            {"bytes", imported.bytes},
+            {"columns", layout.columns},
+            {"rows", layout.rows},
+            {"sample_m", layout.cell_m},
+            {"tiles", layout.tiles()},
+            {"lowest_m", imported.lowest_m},
+            {"highest_m", imported.highest_m},
+            {"zero_m", imported.header.zero_m},
+            {"cells_without_data", imported.nodata},
+            {"volume_m3", imported.volume_m3}};
   if (place) {
     line["crs"] = place->crs;
     line["middle"] = std::array{place->x, place->y};
   }
   line["seconds"] = seconds;
-  std::printf("%s\n", line.dump().c_str());
+  print(line);
 }
 
 /// With the values of --nodata.
@@ -223,14 +230,14 @@ void print(const Options& options, const BricksImported& imported, const SolidsR
     return std::array{static_cast<float>(at.x) * chunk_m, static_cast<float>(at.y) * chunk_m,
                       static_cast<float>(at.z) * chunk_m};
   };
-  nlohmann::ordered_json line{{"ground", options.out},          {"hash", hex_of(name_of(imported.header))},
-                              {"bytes", imported.bytes},        {"solids", read.solids.size()},
-                              {"chunks", imported.chunks},      {"voxel_size_m", layout.voxel_size_m},
-                              {"from_m", metres(layout.lo)},    {"to_m", metres(layout.hi)},
-                              {"volume_m3", imported.volume_m3}};
+  Json line{{"ground", options.out},          {"hash", hex_of(name_of(imported.header))},
+            {"bytes", imported.bytes},        {"solids", read.solids.size()},
+            {"chunks", imported.chunks},      {"voxel_size_m", layout.voxel_size_m},
+            {"from_m", metres(layout.lo)},    {"to_m", metres(layout.hi)},
+            {"volume_m3", imported.volume_m3}};
   if (read.meshes_volume_m3 != 0.0) line["meshes_volume_m3"] = read.meshes_volume_m3;
   line["seconds"] = seconds;
-  std::printf("%s\n", line.dump().c_str());
+  print(line);
 }
 
 Result<BricksImport> bricks_import_of(const Options& options, float voxel_size_m,
@@ -283,7 +290,7 @@ Result<void> run_solids(const Options& options) {
   return {};
 }
 
-/// What is written would take the place of what is read.
+/// Writing over a file that is read would lose it.
 Result<void> check_outputs(const Options& options) {
   std::vector<NamedFile> files{
       {"--out", options.out, true}, {"--preview", options.preview, true}, {"--on", options.on}};

@@ -59,7 +59,8 @@ int make(const std::string& name, const std::string& path) {
                                     {"scene", name},
                                     {"camera", camera_text(look_at(setup->eye_m, setup->target_m))},
                                     {"centre", {middle_m.x, middle_m.z}}};
-  std::printf("%s\n", line.dump().c_str());
+  // A name of a file may be any bytes.
+  std::printf("%s\n", line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
   return 0;
 }
 
