@@ -68,6 +68,15 @@ TEST(ReaderProcess, ends_of_every_kind_become_words) {
             "");
 }
 
+TEST(ReaderProcess, words_of_a_file_do_not_steer_a_terminal) {
+  const std::string hostile = "a\x1B[31mb\xFF", shown = "a [31mb?";
+  EXPECT_EQ(end_of([&](ReaderChannel&) -> Result<void> { return fail(hostile); }), shown);
+  auto reader = ReaderProcess::start(
+      "libthing", {}, [&](ReaderChannel& channel) -> Result<void> { return channel.put_text(hostile); });
+  ASSERT_TRUE(reader);
+  EXPECT_EQ((*reader)->get_text().value(), shown);
+}
+
 TEST(ReaderProcess, limits_of_time_and_memory_end_it) {
   const auto late = [](ReaderChannel&) -> Result<void> {
     while (true) ::pause();

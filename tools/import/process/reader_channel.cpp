@@ -1,5 +1,7 @@
 #include "tools/import/process/reader_channel.h"
 
+#include "shared/base/text.h"
+
 namespace scree {
 
 Result<void> ReaderChannel::put_bytes(std::span<const std::byte> bytes) {
@@ -44,7 +46,7 @@ Result<void> ReaderChannel::put_text(std::string_view text) {
 
 Result<std::string> ReaderChannel::get_text() {
   const auto letters = TRY(get_list<char>(limits::reader_words_bytes_max));
-  return std::string(letters.begin(), letters.end());
+  return showable({letters.data(), letters.size()}, limits::reader_words_bytes_max);
 }
 
 }  // namespace scree

@@ -65,6 +65,7 @@ class ReaderChannel {
     }
     return values;
   }
+  /// Fit to be shown (shared/base/text.h): names in a foreign file may hold what steers a terminal.
   Result<std::string> get_text();
 
  protected:

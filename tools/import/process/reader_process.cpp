@@ -16,6 +16,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "shared/base/text.h"
+
 namespace scree {
 
 namespace {
@@ -171,8 +173,7 @@ Result<std::vector<uint8_t>> ReaderProcess::receive() {
   if (frame.kind == FrameKind::values) return std::move(frame.bytes);
   kill_child();
   if (frame.kind == FrameKind::no_memory) return fail("it does not fit into memory (--memory-max)");
-  frame.bytes.resize(std::min(frame.bytes.size(), limits::reader_words_bytes_max));
-  return fail(std::string(frame.bytes.begin(), frame.bytes.end()));
+  return fail(showable(std::string(frame.bytes.begin(), frame.bytes.end()), limits::reader_words_bytes_max));
 }
 
 Error ReaderProcess::fault(FrameSocket::Outcome outcome) {
