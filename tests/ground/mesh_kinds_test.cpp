@@ -126,6 +126,23 @@ TEST_F(MeshKinds, a_box_without_a_floor_is_closed_and_said) {
   expect_words(house.said, "not closed: 4 open edges, 21 % of the surface is missing");
 }
 
+TEST_F(MeshKinds, a_cavity_in_a_sheet_that_is_closed_stays_a_cavity) {
+  // Three faces of a cube at one corner, and a cube of 3 m inside out near it.
+  std::vector<std::array<double, 3>> points = {{0, 0, 0},  {0, 0, 16},  {0, 16, 0}, {0, 16, 16},
+                                               {16, 0, 0}, {16, 0, 16}, {16, 16, 0}};
+  std::vector<Face> faces = {{{1, 2, 4, 3}}, {{1, 5, 6, 2}}, {{1, 3, 7, 5}}};
+  for (const auto& p : house_points)
+    points.push_back({2.5 + 0.3 * p[0], 1.0 + 0.5 * p[1], 2.5 + 0.375 * p[2]});
+  for (Face face : house_faces) {
+    for (int& corner : face.corners) corner += 7;
+    std::ranges::reverse(face.corners);
+    faces.push_back(face);
+  }
+  const Imported corner = imported(obj(points, faces), {.sheet = SheetRule::close, .level_m = -1.0});
+  EXPECT_NEAR(corner.volume_m3, 2048.0 - 27.0, 10.0);
+  expect_words(corner.said, "1 part within others are cavities");
+}
+
 TEST_F(MeshKinds, triangles_that_stand_against_their_neighbours_are_turned) {
   std::vector<Face> faces = house_faces;
   for (const size_t i : {1U, 4U}) std::ranges::reverse(faces[i].corners);

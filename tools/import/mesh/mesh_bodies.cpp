@@ -65,7 +65,7 @@ class Sorting {
     bodies_.closed = part_mesh(mesh_, closed);
     for (size_t i = 0; i < parts_.size(); ++i) {
       if (parts_[i].open.empty()) continue;
-      if (sheets_[i] && rule_.sheet != SheetRule::close)
+      if (!is_closed_by_windings(i))
         settle_sheet(parts_[i]);
       else
         TRY(add_open(parts_[i]));
@@ -100,11 +100,15 @@ class Sorting {
     return bottom;
   }
 
+  /// Of parts with holes: whether they stay open bodies. Sheets are filled down or left out unless they are
+  /// to be closed.
+  bool is_closed_by_windings(size_t at) const { return !sheets_[at] || rule_.sheet == SheetRule::close; }
+
   /// A cavity in a part with holes belongs to that part's winding numbers.
   bool is_within_open(size_t at) {
     if (!parts_[at].is_cavity) return false;
     const uint32_t around = parts_[at].within;
-    if (parts_[around].open.empty() || sheets_[around]) return false;
+    if (parts_[around].open.empty() || !is_closed_by_windings(around)) return false;
     auto& cavities = cavities_[around];
     cavities.insert(cavities.end(), parts_[at].triangles.begin(), parts_[at].triangles.end());
     count(bodies_.holed, parts_[at], parts_[at].volume_m3);
