@@ -176,6 +176,88 @@ TEST(RasterPlace, control_points_place_a_raster) {
   EXPECT_NEAR(bent.shape.cell_x_m.value_or(0.0), 10.0, 0.2);
 }
 
+std::string metadata(const std::string& domain, const std::vector<std::array<std::string, 2>>& items) {
+  std::string element = "<Metadata domain=\"" + domain + "\">";
+  for (const auto& [key, value] : items) element += fmt::format("<MDI key=\"{}\">{}</MDI>", key, value);
+  return element + "</Metadata>";
+}
+
+TEST(RasterPlace, rational_polynomials_are_of_degrees_whatever_map_the_file_names) {
+  const TestFolder folder;
+  const auto only = [](int at, double value) {
+    std::string list;
+    for (int i = 0; i < 20; ++i) list += fmt::format("{} ", i == at ? value : 0.0);
+    return list;
+  };
+  // The line is the latitude, from 30 rows north of 47° to 30 rows south, and the sample the longitude.
+  const std::string polynomials = metadata("RPC", {{"LINE_OFF", "30"},
+                                                   {"SAMP_OFF", "30"},
+                                                   {"LAT_OFF", "47"},
+                                                   {"LONG_OFF", "15"},
+                                                   {"HEIGHT_OFF", "0"},
+                                                   {"LINE_SCALE", "30"},
+                                                   {"SAMP_SCALE", "30"},
+                                                   {"LAT_SCALE", "0.0027"},
+                                                   {"LONG_SCALE", "0.0039"},
+                                                   {"HEIGHT_SCALE", "500"},
+                                                   {"LINE_NUM_COEFF", only(2, -1.0)},
+                                                   {"LINE_DEN_COEFF", only(0, 1.0)},
+                                                   {"SAMP_NUM_COEFF", only(1, 1.0)},
+                                                   {"SAMP_DEN_COEFF", only(0, 1.0)}});
+  for (const std::string& named : {std::string(), std::string("<SRS>EPSG:32633</SRS>")}) {
+    const auto stored = [](int column, int row) { return column + 100.0 * row; };
+    const WholeRaster whole = read_whole(
+        write_vrt(folder, {.columns = 60, .rows = 60, .stored = stored, .head = named + polynomials}));
+    ASSERT_EQ(whole.refusal, "");
+    EXPECT_TRUE(whole.says("rational polynomials at height 0; map 'WGS 84'")) << whole.said;
+    EXPECT_EQ(whole.shape.columns, 60);
+    EXPECT_EQ(whole.shape.rows, 60);
+    EXPECT_NEAR(whole.shape.cell_x_m.value_or(0.0), 9.95, 0.1) << named;
+    ASSERT_TRUE(whole.place);
+    EXPECT_NE(whole.place->crs.find("lat_0=47.0"), std::string::npos) << whole.place->crs;
+  }
+}
+
+TEST(RasterPlace, geolocation_arrays_are_of_the_map_that_they_name_or_of_degrees) {
+  const TestFolder folder;
+  const auto write_array = [&](const char* name, const std::function<double(int, int)>& value) {
+    std::ofstream grid(folder / name);
+    grid << "ncols 60\nnrows 60\nxllcorner 0\nyllcorner 0\ncellsize 1\n";
+    for (int row = 0; row < 60; ++row)
+      for (int column = 0; column < 60; ++column)
+        grid << fmt::format("{:.4f}{}", value(column, row), column < 59 ? ' ' : '\n');
+  };
+  const auto cell_of = [&](const std::string& own, const std::string& head) {
+    std::vector<std::array<std::string, 2>> items = {{"X_DATASET", folder / "x.asc"},
+                                                     {"X_BAND", "1"},
+                                                     {"Y_DATASET", folder / "y.asc"},
+                                                     {"Y_BAND", "1"},
+                                                     {"PIXEL_OFFSET", "0"},
+                                                     {"LINE_OFFSET", "0"},
+                                                     {"PIXEL_STEP", "1"},
+                                                     {"LINE_STEP", "1"}};
+    if (!own.empty()) items.push_back({"SRS", own});
+    const WholeRaster whole =
+        read_whole(write_vrt(folder, {.columns = 60,
+                                      .rows = 60,
+                                      .stored = [](int column, int row) { return column + 100.0 * row; },
+                                      .head = head + metadata("GEOLOCATION", items)}));
+    EXPECT_EQ(whole.refusal, "");
+    return whole.shape.cell_z_m.value_or(0.0);
+  };
+  const std::string degrees =
+      "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+      "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]";
+  write_array("x.asc", [](int column, int) { return 15.0 + 0.0130 * column; });
+  write_array("y.asc", [](int, int row) { return 47.0 - 0.0090 * row; });
+  EXPECT_NEAR(cell_of("", ""), 990.0, 30.0) << "no map is named";
+  EXPECT_NEAR(cell_of(degrees, ""), 990.0, 30.0);
+  EXPECT_NEAR(cell_of(degrees, "<SRS>EPSG:32633</SRS>"), 990.0, 30.0) << "the map of the cells is another";
+  write_array("x.asc", [](int column, int) { return 500'000.0 + 100.0 * column; });
+  write_array("y.asc", [](int, int row) { return 5'000'000.0 - 100.0 * row; });
+  EXPECT_NEAR(cell_of("EPSG:32633", ""), 100.0, 3.0);
+}
+
 TEST(RasterPlace, a_place_that_cannot_be_is_refused) {
   const TestFolder folder;
   const auto refusal = [&](const std::string& head, const RasterChoice& choice = {}) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <string_view>
 
 #include "tools/import/gdal/gdal_library.h"
 #include "tools/import/gdal/ground_metric.h"
@@ -20,6 +21,11 @@ constexpr double convergence_said_min = 1.0;
 constexpr double corner_error_said_min = 0.01;
 /// Cells below this size, without a map, lie in degrees: no survey has cells of a few centimetres.
 constexpr double degrees_cell_max = 0.05;
+
+/// Ways to place a raster, as GDAL names them.
+constexpr const char* control_points = "GCP_POLYNOMIAL";
+constexpr const char* rational_polynomials = "RPC";
+constexpr const char* geolocation_arrays = "GEOLOC_ARRAY";
 
 std::string name_of(const OGRSpatialReference& crs) {
   const std::string name = shown(crs.GetName());
@@ -193,7 +199,8 @@ Result<NorthUp> on_local_map(GDALDataset& heights, const OGRSpatialReference& cr
   NorthUp placed;
   const double longitude = metric.longitude_deg.value_or(0.0), latitude = metric.latitude_deg.value_or(0.0);
   const OGRSpatialReference map = local_map(crs, longitude, latitude);
-  placed.warped = TRY(warp_to_map(heights, &map, method));
+  const bool may_name_none = std::string_view(method) == geolocation_arrays;
+  placed.warped = TRY(warp_to_map(heights, may_name_none ? &crs : nullptr, &map, method));
   const auto transform = map_transform_of(*placed.warped);
   placed.shape = {placed.warped->GetRasterXSize(), placed.warped->GetRasterYSize(), {}, {}};
   if (transform) {
@@ -208,27 +215,44 @@ Result<NorthUp> on_local_map(GDALDataset& heights, const OGRSpatialReference& cr
   return placed;
 }
 
-/// By ground control points, rational polynomials or geolocation arrays.
-Result<NorthUp> by_points(GDALDataset& heights, const OGRSpatialReference* crs, const char* method,
-                          std::string words) {
+/// The map on which the method places cells. Rational polynomials know WGS 84 alone, whatever map the file
+/// names. Geolocation arrays name one themselves; without one they hold degrees. Nothing: control points of
+/// no map.
+std::optional<OGRSpatialReference> map_of_points(GDALDataset& heights, const OGRSpatialReference* crs,
+                                                 std::string_view method) {
+  const char* const own = heights.GetMetadataItem("SRS", "GEOLOCATION");
+  if (OGRSpatialReference named;
+      method == geolocation_arrays && own != nullptr &&
+      named.SetFromUserInput(own, OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) ==
+          OGRERR_NONE) {
+    named.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return named;
+  }
+  if (method != rational_polynomials && crs != nullptr) return *crs;
+  if (method == control_points) return std::nullopt;
   OGRSpatialReference degrees;
   degrees.SetWellKnownGeogCS("WGS84");
   degrees.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-  const bool by_gcps = heights.GetGCPCount() > 0;
+  return degrees;
+}
+
+/// By ground control points, rational polynomials or geolocation arrays.
+Result<NorthUp> by_points(GDALDataset& heights, const OGRSpatialReference* crs, const char* method,
+                          std::string words) {
   const auto [x, y] = TRY(middle_on_map(heights, method));
-  if (by_gcps && crs == nullptr) {
+  const auto map = map_of_points(heights, crs, method);
+  if (!map) {
     NorthUp placed;
-    placed.warped = TRY(warp_to_map(heights, nullptr, method));
+    placed.warped = TRY(warp_to_map(heights, nullptr, nullptr, method));
     const auto transform = map_transform_of(*placed.warped);
     placed.shape = {placed.warped->GetRasterXSize(), placed.warped->GetRasterYSize(), {}, {}};
     if (transform) placed.shape.cell_x_m = placed.shape.cell_z_m = std::abs(transform->t[1]);
     placed.words = {std::move(words), "no map is named, metres are assumed", cells_words(placed.shape)};
     return placed;
   }
-  const OGRSpatialReference& map = crs != nullptr ? *crs : degrees;
-  const auto scale = TRY(scale_at(map, x, y));
-  if (!scale.metric.latitude_deg) return fail("its ground control points lie on no map of the Earth");
-  return on_local_map(heights, map, scale.metric, method, {std::move(words), "map " + name_of(map)});
+  const auto scale = TRY(scale_at(*map, x, y));
+  if (!scale.metric.latitude_deg) return fail("its middle lies on no map of the Earth");
+  return on_local_map(heights, *map, scale.metric, method, {std::move(words), "map " + name_of(*map)});
 }
 
 Result<NorthUp> by_transform(GDALDataset& heights, const OGRSpatialReference* crs,
@@ -285,11 +309,11 @@ Result<NorthUp> place_north_up(GDALDataset& heights) {
   if (transform && !is_of_the_picture(heights, crs, *transform))
     return by_transform(heights, crs, *transform);
   if (heights.GetGCPCount() > 0)
-    return by_points(heights, crs, "GCP_POLYNOMIAL", "placed by ground control points");
+    return by_points(heights, crs, control_points, "placed by ground control points");
   if (heights.GetMetadata("RPC") != nullptr)
-    return by_points(heights, crs, "RPC", "placed by rational polynomials at height 0");
+    return by_points(heights, crs, rational_polynomials, "placed by rational polynomials at height 0");
   if (heights.GetMetadata("GEOLOCATION") != nullptr)
-    return by_points(heights, crs, "GEOLOC_ARRAY", "placed by geolocation arrays");
+    return by_points(heights, crs, geolocation_arrays, "placed by geolocation arrays");
   NorthUp placed;
   placed.shape = {heights.GetRasterXSize(), heights.GetRasterYSize(), {}, {}};
   placed.words = {

@@ -26,16 +26,21 @@ struct DestroyOptions {
   void operator()(GDALWarpOptions* options) const { GDALDestroyWarpOptions(options); }
 };
 
-Result<Transformer> transformer_of(GDALDataset& source, const OGRSpatialReference* map, const char* method) {
+void set_map(CPLStringList& options, const char* name, const OGRSpatialReference* map) {
+  if (map == nullptr) return;
+  char* text = nullptr;
+  const char* const form[] = {"FORMAT=WKT2_2018", nullptr};
+  map->exportToWkt(&text, form);
+  options.SetNameValue(name, text);
+  CPLFree(text);
+}
+
+Result<Transformer> transformer_of(GDALDataset& source, const OGRSpatialReference* from,
+                                   const OGRSpatialReference* map, const char* method) {
   CPLStringList options;
   options.SetNameValue("METHOD", method);
-  if (map != nullptr) {
-    char* text = nullptr;
-    const char* const form[] = {"FORMAT=WKT2_2018", nullptr};
-    map->exportToWkt(&text, form);
-    options.SetNameValue("DST_SRS", text);
-    CPLFree(text);
-  }
+  set_map(options, "SRC_SRS", from);
+  set_map(options, "DST_SRS", map);
   Transformer transformer(
       GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&source), nullptr, options.List()));
   if (!transformer)
@@ -71,14 +76,15 @@ Result<Dataset> warped(GDALDataset& source, Transformer transformer, GDALTransfo
 }  // namespace
 
 Result<Dataset> warp_to_grid(GDALDataset& source, const WarpGrid& grid, bool exact) {
-  Transformer transformer = TRY(transformer_of(source, nullptr, "GEOTRANSFORM"));
+  Transformer transformer = TRY(transformer_of(source, nullptr, nullptr, "GEOTRANSFORM"));
   GDALSetGenImgProjTransformerDstGeoTransform(transformer.get(), grid.transform.t.data());
   return warped(source, std::move(transformer), GDALGenImgProjTransform, grid,
                 exact ? GRA_NearestNeighbour : GRA_Bilinear);
 }
 
-Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* map, const char* method) {
-  Transformer inner = TRY(transformer_of(source, map, method));
+Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* from,
+                            const OGRSpatialReference* map, const char* method) {
+  Transformer inner = TRY(transformer_of(source, from, map, method));
   WarpGrid grid;
   std::array<double, 4> extent{};
   if (GDALSuggestedWarpOutput2(GDALDataset::ToHandle(&source), GDALGenImgProjTransform, inner.get(),
@@ -94,7 +100,7 @@ Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* map,
 }
 
 Result<std::array<double, 2>> middle_on_map(GDALDataset& source, const char* method) {
-  const Transformer transformer = TRY(transformer_of(source, nullptr, method));
+  const Transformer transformer = TRY(transformer_of(source, nullptr, nullptr, method));
   double x = 0.5 * source.GetRasterXSize(), y = 0.5 * source.GetRasterYSize(), z = 0.0;
   int done = 0;
   if (GDALGenImgProjTransform(transformer.get(), FALSE, 1, &x, &y, &z, &done) == 0 || done == 0)

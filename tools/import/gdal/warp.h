@@ -19,8 +19,10 @@ struct WarpGrid {
 Result<Dataset> warp_to_grid(GDALDataset& source, const WarpGrid& grid, bool exact);
 
 /// Into another map; GDAL chooses the grid, with north up. `method` places the source, as GDAL names it:
-/// GEOTRANSFORM, GCP_POLYNOMIAL, RPC or GEOLOC_ARRAY.
-Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* map, const char* method);
+/// GEOTRANSFORM, GCP_POLYNOMIAL, RPC or GEOLOC_ARRAY. `from`: the source's own map; null where the source
+/// names it to GDAL. `map` null: the source's own.
+Result<Dataset> warp_to_map(GDALDataset& source, const OGRSpatialReference* from,
+                            const OGRSpatialReference* map, const char* method);
 
 /// Where the middle of the source lies on its map.
 Result<std::array<double, 2>> middle_on_map(GDALDataset& source, const char* method);
