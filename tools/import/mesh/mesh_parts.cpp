@@ -91,18 +91,20 @@ class Patches {
     return edge.size() == 1 && std::ranges::binary_search(joined_, std::pair(edge.front().a, edge.front().b));
   }
 
-  /// Calls f(root, a use, balance) for each part at an edge.
+  /// Calls f(root, a use, balance) for each part at an edge. Any number of triangles may share one.
   template <typename F>
   void for_each_root(std::span<const EdgeUse> edge, F&& f) const {
-    for (size_t i = 0; i < edge.size(); ++i) {
-      const uint32_t root = root_[edge[i].triangle];
-      bool seen = false;
-      for (size_t k = 0; k < i; ++k) seen = seen || root_[edge[k].triangle] == root;
-      if (seen) continue;
-      int balance = 0;
-      for (const EdgeUse& use : edge.subspan(i))
-        if (root_[use.triangle] == root) balance += use.forward ? 1 : -1;
-      f(root, edge[i], balance);
+    const auto root_of = [&](const EdgeUse& use) { return root_[use.triangle]; };
+    const auto is_of_first = [&](const EdgeUse& use) { return root_of(use) == root_of(edge.front()); };
+    if (std::ranges::all_of(edge, is_of_first))
+      return f(root_of(edge.front()), edge.front(), balance_of(edge));
+    std::vector<EdgeUse> uses(edge.begin(), edge.end());
+    std::ranges::stable_sort(uses, {}, root_of);
+    for (auto first = uses.begin(); first != uses.end();) {
+      const auto end = std::ranges::find_if(
+          first, uses.end(), [&](const EdgeUse& use) { return root_of(use) != root_of(*first); });
+      f(root_of(*first), *first, balance_of({first, end}));
+      first = end;
     }
   }
 
