@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace scree {
@@ -75,6 +76,21 @@ TEST(ReaderProcess, words_of_a_file_do_not_steer_a_terminal) {
       "libthing", {}, [&](ReaderChannel& channel) -> Result<void> { return channel.put_text(hostile); });
   ASSERT_TRUE(reader);
   EXPECT_EQ((*reader)->get_text().value(), shown);
+}
+
+TEST(ReaderProcess, after_its_end_there_are_only_errors) {
+  const pid_t other = ::fork();  // a child that is not the reader's to wait for
+  if (other == 0) ::_exit(7);
+  {
+    auto reader = ReaderProcess::start(
+        "libthing", {}, [](ReaderChannel&) -> Result<void> { return fail("row 3 is cut off"); });
+    ASSERT_TRUE(reader);
+    EXPECT_FALSE((*reader)->get<int>());
+    EXPECT_EQ((*reader)->get<int>().error().message, "libthing has ended, and reads no more of it");
+  }
+  int status = 0;
+  EXPECT_EQ(::waitpid(other, &status, 0), other);
+  EXPECT_EQ(WEXITSTATUS(status), 7);
 }
 
 TEST(ReaderProcess, limits_of_time_and_memory_end_it) {

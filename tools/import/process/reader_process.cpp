@@ -185,6 +185,7 @@ Error ReaderProcess::fault(FrameSocket::Outcome outcome) {
 
 /// The socket is closed: the child has ended, or is about to.
 Error ReaderProcess::end_in_words() {
+  if (process_ == 0) return {library_ + " has ended, and reads no more of it"};
   int status = 0;
   pid_t ended = 0;
   for (int i = 0; i < pauses_to_end && ended == 0; ++i) {
