@@ -17,8 +17,6 @@ struct MapTransform {
   std::array<double, 2> at(double column, double row) const {
     return {t[0] + column * t[1] + row * t[2], t[3] + column * t[4] + row * t[5]};
   }
-  /// Turned by 180 degrees about the map's origin: of maps whose axes point to the west and the south.
-  MapTransform turned_over() const { return {{-t[0], -t[1], -t[2], -t[3], -t[4], -t[5]}}; }
   bool is_finite() const;
   bool has_area() const;
   /// Whether rows run along x or against it, within a twentieth of a cell.
