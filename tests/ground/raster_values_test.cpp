@@ -96,8 +96,10 @@ TEST(RasterValues, declared_nodata_is_found_in_each_type) {
 TEST(RasterValues, nodata_that_the_type_cannot_hold_is_said) {
   const WholeRaster whole = read_band("<NoDataValue>-9999</NoDataValue>", "UInt16");
   EXPECT_EQ(holes(whole), 0);
-  EXPECT_TRUE(whole.says("no cell can hold the declared nodata -9999")) << whole.said;
+  EXPECT_TRUE(whole.says("no cell can hold the nodata -9999")) << whole.said;
   EXPECT_TRUE(read_band("<NoDataValue>-9999</NoDataValue>", "UInt16", {}, 55537.0).refuses("--nodata 55537"));
+  const WholeRaster chosen = read_band("", "UInt16", {.nodata = {-9999.0}});
+  EXPECT_TRUE(chosen.says("no cell can hold the nodata -9999")) << chosen.said;
 }
 
 TEST(RasterValues, undeclared_nodata_is_refused_until_the_command_line_decides) {

@@ -54,7 +54,7 @@ Result<HeightValues> HeightValues::of(GDALRasterBand& band, const RasterChoice& 
   HeightValues values(band, std::move(unit));
   TRY(values.read_scale());
   if (!choice.no_nodata) values.read_declared();
-  for (const double value : choice.nodata) values.add_nodata(value, false);
+  for (const double value : choice.nodata) values.add_nodata(value);
   return values;
 }
 
@@ -81,16 +81,16 @@ void HeightValues::read_declared() {
     value = static_cast<double>(band_->GetNoDataValueAsUInt64(&known));
   else
     value = band_->GetNoDataValue(&known);
-  if (known != 0) add_nodata(value, true);
+  if (known != 0) add_nodata(value);
 }
 
-void HeightValues::add_nodata(double value, bool declared) {
+void HeightValues::add_nodata(double value) {
   if (std::isnan(value)) return;  // never a height
   if (is_integer(type_)) {
     const auto [lowest, highest] = range_of(type_, signed_bytes_);
     if (signed_bytes_ && value > highest && value < 256.0) value -= 256.0;
     if (value < lowest || value > highest || value != std::round(value)) {
-      if (declared) misdeclared_.push_back(value);
+      misdeclared_.push_back(value);
       return;
     }
   }
@@ -152,7 +152,7 @@ std::vector<std::string> HeightValues::words() const {
     none += fmt::format("{}{}", none.empty() ? "nodata" : " and", alpha_ ? " by alpha" : " by a mask");
   parts.push_back(none.empty() ? "no nodata is declared" : none);
   for (const double value : misdeclared_)
-    parts.push_back(fmt::format("no cell can hold the declared nodata {}", value));
+    parts.push_back(fmt::format("no cell can hold the nodata {}", value));
   return parts;
 }
 

@@ -22,9 +22,7 @@ class HeightValues {
   /// Heights in metres instead; NaN stays.
   Result<void> read(int column, int row, int columns, int rows, std::span<double> heights_m);
   double height_m(double stored) const { return (stored * scale_ + offset_) * unit_.metres; }
-  /// Whether the file, a mask or the command line says where there is no height.
-  bool says_nodata() const { return !nodata_.empty() || masked_; }
-  /// Values that the file declares as none, and that its type cannot store as they are.
+  /// Values that the file or the command line says are none, and that its type cannot store as they are.
   const std::vector<double>& misdeclared() const { return misdeclared_; }
   /// As a number of the file's type is written, so that reading it gives the same one.
   std::string text_of(double stored) const;
@@ -34,7 +32,7 @@ class HeightValues {
  private:
   HeightValues(GDALRasterBand& band, HeightUnit unit);
   Result<void> read_scale();
-  void add_nodata(double value, bool declared);
+  void add_nodata(double value);
   void read_declared();
   bool is_none(double stored) const;
 
