@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <numeric>
+#include <sys/prctl.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -76,6 +78,19 @@ TEST(ReaderProcess, words_of_a_file_do_not_steer_a_terminal) {
       "libthing", {}, [&](ReaderChannel& channel) -> Result<void> { return channel.put_text(hostile); });
   ASSERT_TRUE(reader);
   EXPECT_EQ((*reader)->get_text().value(), shown);
+}
+
+TEST(ReaderProcess, reaches_no_network) {
+  const std::string end = end_of([](ReaderChannel&) -> Result<void> {
+    if (::prctl(PR_GET_SECCOMP) == 0) return fail("no filter");
+    if (::socket(AF_INET, SOCK_STREAM, 0) < 0) return fail("no socket");
+    return fail("a socket");
+  });
+  if (end == "no filter") GTEST_SKIP() << "this kernel has no filters of system calls";
+  EXPECT_EQ(end, "no socket");
+  const int here = ::socket(AF_INET, SOCK_STREAM, 0);
+  EXPECT_GE(here, 0) << "the import itself may";
+  ::close(here);
 }
 
 TEST(ReaderProcess, after_its_end_there_are_only_errors) {

@@ -4,15 +4,19 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <new>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -88,14 +92,29 @@ void bound(decltype(RLIMIT_AS) resource, rlim_t soft_most, rlim_t hard_most) {
   ::setrlimit(resource, &now);
 }
 
-/// The child dies with the import, leaves no core file, stays within its limits, and is silent: words of
-/// libraries and of the C library would stand between ours.
+/// A file may hold nothing but addresses, as maps of web services do, and a library would ask them: socket()
+/// fails from now on. A kernel without such filters lets it be.
+void forbid_sockets() {
+  std::array rules{
+      sock_filter{BPF_LD | BPF_W | BPF_ABS, 0, 0, offsetof(seccomp_data, nr)},
+      sock_filter{BPF_JMP | BPF_JEQ | BPF_K, 0, 1, SYS_socket},
+      sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | EACCES},
+      sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW},
+  };
+  sock_fprog program{static_cast<unsigned short>(rules.size()), rules.data()};
+  if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0)
+    ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0);
+}
+
+/// The child dies with the import, leaves no core file, reaches no network, stays within its limits, and is
+/// silent: words of libraries and of the C library would stand between ours.
 void confine(const ReaderLimits& bounds, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) _exit(exit_unheard);
   for (const int number : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGINT, SIGXCPU})
     if (!is_sanitized) std::signal(number, SIG_DFL);
   bound(RLIMIT_CORE, 0, 0);
+  forbid_sockets();
   const auto seconds = static_cast<rlim_t>(std::chrono::ceil<std::chrono::seconds>(bounds.time).count());
   bound(RLIMIT_CPU, seconds, seconds + 1);
   if (is_sanitized) return;

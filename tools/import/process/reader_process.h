@@ -3,7 +3,7 @@
 // refusal, a signal, a limit.
 //
 // The child is a fork of the import, so it needs no program of its own; it runs `work` and ends. The library
-// (GDAL, assimp, OpenVDB) is used there alone.
+// (GDAL, assimp, OpenVDB) is used there alone. It opens no sockets: no file makes an import ask the network.
 #pragma once
 
 #include <chrono>
