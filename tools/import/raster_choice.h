@@ -13,7 +13,7 @@ struct RasterChoice {
   std::string crs{};             ///< overrides the file's: a code such as EPSG:32633, WKT or a PROJ string
   std::string vertical_unit{};   ///< overrides the file's
   std::vector<double> nodata{};  ///< stored values that are no heights, besides those that the file declares
-  bool no_nodata = false;        ///< all values are heights, also those that the file declares as none
+  bool no_nodata = false;  ///< all values are heights, also those declared as none; masks still hide cells
 };
 
 }  // namespace scree

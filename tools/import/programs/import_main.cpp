@@ -43,7 +43,7 @@ struct Options {
 /// Where the file of an elevation model says it wrong or not at all.
 void declare_raster(CLI::App& app, Options& options) {
   RasterChoice& choice = options.raster;
-  app.add_option("--band", choice.band, "the band of heights, from 1; default: the first that holds heights")
+  app.add_option("--band", choice.band, "the band of heights, from 1; default: the first, without alpha")
       ->check(CLI::Range(1, 65536));
   app.add_option(
       "--layer", choice.layer,
