@@ -118,6 +118,17 @@ TEST_F(MeshKinds, a_sheet_that_faces_down_is_filled_down_as_well) {
   }
 }
 
+TEST_F(MeshKinds, stray_sheets_are_left_out_unless_a_rule_says_more) {
+  std::vector<std::array<double, 3>> points = house_points;
+  for (const auto& p : {std::array{20.0, 3.0, 0.0}, {20.0, 3.0, 0.5}, {20.5, 3.0, 0.5}, {20.5, 3.0, 0.0}})
+    points.push_back(p);
+  std::vector<Face> faces = house_faces;
+  faces.push_back({{9, 10, 11, 12}});
+  const std::string path = obj(points, faces);
+  expect_words(imported(path).said, "1 part with a surface of 0.25 m², open sheets, left out");
+  expect_words(imported(path, {.sheet = SheetRule::down, .level_m = -1.0}).said, "filled down to y = -1 m");
+}
+
 TEST_F(MeshKinds, a_box_without_a_floor_is_closed_and_said) {
   std::vector<Face> faces = house_faces;
   faces.erase(faces.begin() + 4);

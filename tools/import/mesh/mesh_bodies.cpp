@@ -17,7 +17,7 @@ constexpr double rounding = 4.0e-7;
 /// Borders count as joined up to this part of a voxel: a slit of that width is not seen.
 constexpr double slit_voxels = 0.05;
 
-/// Sheets with less of a file's area than this are left out without a question, and said.
+/// Sheets with less of a file's area than this are left out, and said, where no rule was chosen.
 constexpr double stray_share = 0.001;
 
 double largest_coordinate(const TriangleMesh& mesh) {
@@ -49,7 +49,7 @@ class Sorting {
       all_m2 += part.area_m2;
       sheets_m2 += sheets_.back() ? part.area_m2 : 0.0;
     }
-    if (sheets_m2 <= stray_share * all_m2) rule_.sheet = SheetRule::drop;
+    if (rule.sheet == SheetRule::refuse && sheets_m2 <= stray_share * all_m2) rule_.sheet = SheetRule::drop;
   }
 
   Result<MeshBodies> run() {
