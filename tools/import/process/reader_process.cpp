@@ -21,24 +21,13 @@
 #include <unistd.h>
 
 #include "shared/base/text.h"
+#include "tools/import/process/sanitized.h"
 
 namespace scree {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool is_sanitized = true;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool is_sanitized = true;
-#else
-constexpr bool is_sanitized = false;
-#endif
-#else
-constexpr bool is_sanitized = false;
-#endif
 
 /// Waits for the end of a child whose socket is closed.
 constexpr int pauses_to_end = 1000, pause_ms = 5;

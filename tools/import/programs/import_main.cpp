@@ -16,6 +16,7 @@
 #include "tools/import/gdal/raster_reader.h"
 #include "tools/import/heights_import.h"
 #include "tools/import/process/reader_process.h"
+#include "tools/import/process/sanitized.h"
 #include "tools/import/programs/program.h"
 
 namespace scree {
@@ -131,8 +132,10 @@ void declare(CLI::App& app, Options& options) {
   declare_solids(app, options);
 }
 
-/// Whatever a library does with a hostile file: memory beyond this is refused to it.
+/// Whatever a library does with a hostile file: memory beyond this is refused to it. Builds with sanitizers
+/// do not bound it.
 void bound_memory(const Options& options) {
+  if (is_sanitized) return;
   const rlim_t bytes = rlim_t{options.memory_max_mib} << 20U;
   const rlimit bound{bytes, bytes};
   setrlimit(RLIMIT_AS, &bound);
