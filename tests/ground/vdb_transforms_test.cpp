@@ -135,10 +135,10 @@ TEST_F(VdbChoices, one_level_set_among_others_is_taken_and_said) {
 /// Materials may change within the cubes of 8 voxels that OpenVDB keeps, and be said for a part of them
 /// alone.
 TEST_F(VdbChoices, materials_of_single_voxels_are_read_and_silent_ones_are_not) {
-  const auto ball = quarter_metre_ball(false, "surface");
+  const auto rock = quarter_metre_ball(false, "surface");
   const auto materials = openvdb::Int32Grid::create(-1);
   materials->setName("material");
-  materials->setTransform(ball->transform().copy());
+  materials->setTransform(rock->transform().copy());
   auto voxels = materials->getAccessor();
   const int middle_x = 12;  // of the ball, which lies from x = -2 to 8 m
   for (int x = -8; x < 32; ++x)
@@ -149,7 +149,7 @@ TEST_F(VdbChoices, materials_of_single_voxels_are_read_and_silent_ones_are_not) 
         else
           voxels.setValueOff({x, y, z}, static_cast<int32_t>(Material::soil));
       }
-  const auto read = read_solids({written({ball, materials})}, {});
+  const auto read = read_solids({written({rock, materials})}, {});
   ASSERT_TRUE(read) << read.error().message;
   const auto imported = import_bricks(read->solids, folder_ / "ball.ground", {.level_m = 0.0}, [](double) {});
   ASSERT_TRUE(imported) << imported.error().message;
