@@ -38,7 +38,7 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, con
   const WorldConfig& config = world.config();
   const Shape* const shape = shape_of(held.command.body);
   // Only a shape that an operation may have has a bounded box. The simulation refuses the others.
-  if (shape == nullptr || !validate_edit(*shape)) return Verdict::admit;
+  if (shape == nullptr || !validate_edit(*shape)) return admit_with(held.command, 0.0);
   const VoxelBox box = band_box(in_voxels(*shape, config.terrain.voxel_size_m));
   const VoxelBox around = box.grown(limits::admitted_margin_voxels);
   const double waited_s = now_s - held.since_s;
@@ -58,13 +58,16 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, con
   const uint32_t max_mb = config.memory_max_mb;
   const double used = used_bytes(pager.memory(), max_mb) + reserved_sum_bytes_;
   const double added = added_bytes(box, world.field());
-  if (added == 0.0 || used + added <= max_mb * bytes_per_mb * (1.0 - limits::merge_memory_share)) {
-    reserved_bytes_[{held.command.session, held.command.request}] += added;
-    reserved_sum_bytes_ += added;
-    return Verdict::admit;
-  }
+  if (added == 0.0 || used + added <= max_mb * bytes_per_mb * (1.0 - limits::merge_memory_share))
+    return admit_with(held.command, added);
   if (room_will_come && !waited_long) return Verdict::hold;
   return tl::unexpected(no_memory(used, added, max_mb));
+}
+
+Admission::Verdict Admission::admit_with(const Command& command, double added_bytes) {
+  reserved_bytes_[{command.session, command.request}].insert(added_bytes);
+  reserved_sum_bytes_ += added_bytes;
+  return Verdict::admit;
 }
 
 Admitted Admission::admit(std::vector<Command> arrived, const EditGround& ground) {
@@ -108,12 +111,15 @@ Admitted Admission::admit(std::vector<Command> arrived, const EditGround& ground
   return admitted;
 }
 
+/// Which of several commands under one number was answered is not known: it is taken for the smallest.
 void Admission::answered(const std::vector<Reply>& replies) {
   for (const Reply& reply : replies) {
     const auto found = reserved_bytes_.find({reply.session, reply.request});
     if (found == reserved_bytes_.end()) continue;
-    reserved_sum_bytes_ -= found->second;
-    reserved_bytes_.erase(found);
+    std::multiset<double>& reserved = found->second;
+    reserved_sum_bytes_ -= *reserved.begin();
+    reserved.erase(reserved.begin());
+    if (reserved.empty()) reserved_bytes_.erase(found);
   }
   if (reserved_bytes_.empty()) reserved_sum_bytes_ = 0.0;
 }

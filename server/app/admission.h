@@ -9,6 +9,7 @@
 
 #include <deque>
 #include <map>
+#include <set>
 #include <vector>
 
 #include "server/app/terrain_ahead.h"
@@ -47,9 +48,12 @@ class Admission {
   };
   enum class Verdict { admit, hold };
   tl::expected<Verdict, Refused> judge(const Held& held, const EditGround& ground, double now_s);
+  /// Every command that the simulation is given gets an answer.
+  Verdict admit_with(const Command& command, double added_bytes);
 
   std::deque<Held> held_;
-  std::map<std::pair<uint64_t, uint32_t>, double> reserved_bytes_;  ///< of edits that have no answer yet
+  /// Of commands that have no answer yet, by session and number, which a client may use again and again.
+  std::map<std::pair<uint64_t, uint32_t>, std::multiset<double>> reserved_bytes_;
   double reserved_sum_bytes_ = 0.0;
   uint64_t held_count_ = 0;
 };

@@ -256,6 +256,30 @@ TEST_F(PagerTest, without_room_edits_are_refused_by_name_or_wait_where_room_will
   EXPECT_EQ(answered.size(), 1U);
 }
 
+TEST_F(PagerTest, an_answer_frees_the_room_of_one_edit_though_others_have_its_number) {
+  config.memory_max_mb = limits::memory_max_min_mb;
+  open(0);
+  constexpr uint32_t number = 7;
+  const Command paint{1, number, PaintRequest{box(glm::vec3(0.0F), glm::vec3(4.6F)), Material::ice}};
+  const Command change{1, number, SettingsRequest{{{"impacts", "false"}}}};
+  const std::vector<Reply> answer{{1, number, {}, 0}};
+  const auto is_admitted = [&](const Command& command) {
+    const Admitted admitted = admission.admit({command}, {*world, *pager, nullptr, false});
+    EXPECT_EQ(admitted.commands.size() + admitted.refused.size(), 1U);
+    return admitted.refused.empty();
+  };
+  size_t paints = 0;
+  while (paints < 4000 && is_admitted(paint)) ++paints;  // none is carried out
+  ASSERT_GT(paints, 50U);
+  ASSERT_LT(paints, 4000U);
+  admission.answered(answer);
+  EXPECT_TRUE(is_admitted(paint));
+  EXPECT_FALSE(is_admitted(paint)) << "all others still wait";
+  EXPECT_TRUE(is_admitted(change));
+  admission.answered(answer);
+  EXPECT_FALSE(is_admitted(paint)) << "it may be the change of settings that was answered";
+}
+
 TEST_F(PagerTest, shapes_that_no_operation_may_have_are_refused_by_the_simulation_and_have_no_box) {
   open(0);
   constexpr float most = std::numeric_limits<float>::max();
