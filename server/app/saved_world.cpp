@@ -165,7 +165,7 @@ void SavedWorld::complain(const SaverStatus& status) {
 }
 
 void SavedWorld::abandon() {
-  saver_.reset();
+  saver_->end();
 }
 
 Result<void> SavedWorld::finish(World& world) {

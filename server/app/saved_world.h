@@ -45,7 +45,7 @@ class SavedWorld {
   const std::string& path() const { return path_; }
   bool is_temporary() const { return temporary_; }
   ~SavedWorld();
-  /// From any thread, after start().
+  /// From any thread, after start(), also after the end.
   SaverStatus status() const { return saver_->status(); }
 
  private:

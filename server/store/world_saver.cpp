@@ -163,6 +163,10 @@ WorldSaver::WorldSaver(std::unique_ptr<WorldFile> file, Tick tick, const Terrain
 }
 
 WorldSaver::~WorldSaver() {
+  end();
+}
+
+void WorldSaver::end() {
   {
     const std::scoped_lock lock(state_->mutex);
     state_->stopping = true;

@@ -76,7 +76,7 @@ class WorldSaver {
  public:
   /// `file` holds this world, as of `tick`.
   WorldSaver(std::unique_ptr<WorldFile> file, Tick tick, const TerrainSource& ground, SaverConfig config);
-  /// Writes what was handed over, and joins the thread.
+  /// Calls end().
   ~WorldSaver();
   WorldSaver(const WorldSaver&) = delete;
   WorldSaver& operator=(const WorldSaver&) = delete;
@@ -90,8 +90,10 @@ class WorldSaver {
   /// Saves the last tick, waits until it is written, and ends. What fails is tried again for a while; then
   /// the last error is returned, and says which tick the file holds.
   Result<void> finish(WorldMoment moment, const ChunkNow& now = {});
+  /// Ends without the last tick: writes what was handed over, and joins the thread.
+  void end();
 
-  /// From any thread.
+  /// From any thread, also after the end.
   SaverStatus status() const;
 
  private:

@@ -50,5 +50,15 @@ TEST_F(SavedWorldTest, starts_once) {
   EXPECT_DEATH(static_cast<void>(kept->start(*world, saving())), "a saved world starts once");
 }
 
+TEST_F(SavedWorldTest, says_what_it_saved_also_when_it_was_abandoned) {
+  const auto kept = open();
+  const auto world = kept->release_world();
+  ASSERT_TRUE(kept->start(*world, saving()).has_value());
+  kept->note(*world->step({}), *world);
+  kept->abandon();
+  EXPECT_EQ(kept->status().saved_tick, 0U);
+  EXPECT_TRUE(kept->status().health.ok());
+}
+
 }  // namespace
 }  // namespace scree
