@@ -81,7 +81,7 @@ struct EventLog::State {
   mutable std::mutex mutex;  ///< guards the members below
   std::condition_variable changed;
   std::vector<std::string> waiting;
-  bool writing = false;
+  size_t writing = 0;  ///< lines that the thread has taken out of them
   bool stopping = false;
   Status status;
 };
@@ -133,6 +133,7 @@ void EventLog::State::note(const Result<void>& result, uint64_t written) {
   StoreHealth& health = status.health;
   if (result) {
     health.because.reset();
+    health.since_unix_ms = 0;
     return;
   }
   if (health.ok()) health.since_unix_ms = unix_now_ms();
@@ -154,7 +155,7 @@ void EventLog::State::run() {
       if (waiting.empty()) return;
       last = stopping;
       lines.swap(waiting);
-      writing = true;
+      writing = lines.size();
     }
     const size_t count = lines.size();
     const Result<void> done = write(lines);
@@ -163,7 +164,7 @@ void EventLog::State::run() {
       note(done, count - lines.size());
       if (!done && last) status.health.lost += lines.size();
       if (!done && !last) waiting.insert(waiting.begin(), lines.begin(), lines.end());
-      writing = false;
+      writing = 0;
     }
     changed.notify_all();
     if (last && !done) return;
@@ -203,7 +204,7 @@ Result<std::unique_ptr<EventLog>> EventLog::open(const std::string& path) {
 void EventLog::push(std::string line) {
   {
     const std::scoped_lock lock(state_->mutex);
-    if (state_->waiting.size() >= limits::event_lines_max) {
+    if (state_->waiting.size() + state_->writing >= limits::event_lines_max) {
       ++state_->status.health.lost;
       return;
     }
@@ -219,8 +220,9 @@ EventLog::Status EventLog::status() const {
 
 void EventLog::flush() {
   std::unique_lock lock(state_->mutex);
-  state_->changed.wait(
-      lock, [this] { return !state_->writing && (state_->waiting.empty() || !state_->status.health.ok()); });
+  state_->changed.wait(lock, [this] {
+    return state_->writing == 0 && (state_->waiting.empty() || !state_->status.health.ok());
+  });
 }
 
 }  // namespace scree

@@ -37,7 +37,8 @@ inline constexpr size_t recorder_wake_ticks = 60;
 /// Ticks that wait for the storage thread; above: the simulation waits for it, and the wait is counted.
 inline constexpr size_t recorder_queue_max = 600;
 
-/// Lines of the log of events (--events) that wait for its thread; above: they are lost, and counted.
+/// Lines of the log of events (--events) that wait for its thread, or are being written; above: they are
+/// lost, and counted.
 inline constexpr size_t event_lines_max = 4096;
 
 /// Events of sessions, of one tick, that wait for the recorder and the log; above: they are lost.

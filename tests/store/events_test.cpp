@@ -1,6 +1,7 @@
 // The log of events: what follows from the simulation is recorded and verified, what does not is kept apart;
 // a reader has both without simulating; files of them outlive a full disk.
 #include <csignal>
+#include <fcntl.h>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <thread>
+#include <unistd.h>
 
 #include "server/formats/event_codec.h"
 #include "server/replay/export_lines.h"
@@ -301,6 +303,32 @@ TEST_F(EventsTest, a_pipe_that_nobody_reads_is_refused) {
   const std::string pipe = (folder / "pipe").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_FALSE(EventLog::open(pipe).has_value());
+}
+
+TEST_F(EventsTest, lines_that_are_being_written_count_among_those_that_wait) {
+  const std::string pipe = (folder / "pipe").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  ASSERT_EQ(::fcntl(reader, F_SETFL, O_RDONLY), 0);
+  auto log = EventLog::open(pipe);
+  ASSERT_TRUE(log.has_value());
+  constexpr size_t more_than_a_pipe_holds = size_t{1} << 22;
+  (*log)->push(std::string(more_than_a_pipe_holds, 'x'));
+  char first = 0;
+  ASSERT_EQ(::read(reader, &first, 1), 1) << "it is being written";
+  for (size_t i = 0; i < limits::event_lines_max; ++i) (*log)->push("{}");
+  EXPECT_EQ((*log)->status().health.lost, 1U);
+  std::thread drain([&] {
+    std::vector<char> bytes(65536);
+    while (::read(reader, bytes.data(), bytes.size()) > 0) {
+    }
+  });
+  EXPECT_TRUE((*log)->finish().has_value());
+  EXPECT_EQ((*log)->status().written, limits::event_lines_max);
+  log->reset();  // closes the pipe
+  drain.join();
+  ::close(reader);
 }
 
 TEST_F(EventsTest, a_disk_that_stays_full_loses_lines_counts_them_and_says_so_at_the_end) {
