@@ -216,9 +216,11 @@ void Recorder::State::begin_at(std::unique_ptr<RecordingWriter> made, Tick tick)
   path = writer->path();
 }
 
-/// The end of the recording: a file that is held, or that fails in any other way, may be written soon.
+/// The end of the recording: a part that waits for its world begins, and a file that is held, or that fails
+/// in any other way, may be written soon.
 void Recorder::State::try_last() {
   const double until_s = steady_now_s() + last_tries_s;
+  if (next != nullptr && !waiting.empty()) begin_part();
   while (writer != nullptr) {
     Result<void> done = write_waiting();
     if (done) done = commit();

@@ -302,6 +302,23 @@ TEST_F(RecordingPartsTest, a_start_on_a_full_disk_records_once_there_is_room) {
   EXPECT_EQ(verified((*recorder)->path()), world.tick());
 }
 
+TEST_F(RecordingPartsTest, a_part_that_begins_as_the_server_ends_has_its_last_ticks) {
+  for (int round = 0; round < 5; ++round) {  // the thread may be faster
+    const std::string named = path + std::to_string(round);
+    FaultyDisk disk;
+    disk.full = true;
+    auto recorder = Recorder::open(named, header(), nullptr);
+    ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+    disk.full = false;
+    ASSERT_TRUE(waits_for([&] { return (*recorder)->wants_start(); }));
+    ticks(**recorder, 3);
+    const auto finished = (*recorder)->finish();
+    ASSERT_TRUE(finished.has_value()) << finished.error().message;
+    EXPECT_EQ((*recorder)->health().lost, 1U) << "the tick before it";
+    EXPECT_EQ(verified(named), world.tick());
+  }
+}
+
 TEST(RecordingParts, are_named_beside_the_first_one) {
   EXPECT_EQ(recording_part("a/session.scree", 1), "a/session.scree");
   EXPECT_EQ(recording_part("a/session.scree", 12), "a/session-12.scree");
