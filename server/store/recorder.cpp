@@ -6,6 +6,7 @@
 #include "server/store/limits.h"
 #include "server/store/recorder_state.h"
 #include "shared/base/check.h"
+#include "shared/base/timing.h"
 
 namespace scree {
 
@@ -76,7 +77,7 @@ Result<void> Recorder::finish(double last_tries_s) {
   {
     const std::scoped_lock lock(state_->mutex);
     state_->stopping = true;
-    state_->last_tries_s = last_tries_s;
+    state_->last_until_s = steady_now_s() + last_tries_s;
   }
   state_->changed.notify_all();
   if (state_->thread.joinable()) state_->thread.join();

@@ -67,7 +67,7 @@ struct Recorder::State {
   bool accepts = true;  ///< ticks; false: none can follow what was written
   bool wants_start = false;
   bool stopping = false;
-  double last_tries_s = limits::last_tries_s;
+  double last_until_s = 0.0;  ///< once it stops: when trying again ends, by steady_now_s()
   StoreHealth health;
   std::string path;  ///< of the last part
   uint64_t ticks_written = 0;

@@ -219,7 +219,6 @@ void Recorder::State::begin_at(std::unique_ptr<RecordingWriter> made, Tick tick)
 /// The end of the recording: a part that waits for its world begins, and a file that is held, or that fails
 /// in any other way, may be written soon.
 void Recorder::State::try_last() {
-  const double until_s = steady_now_s() + last_tries_s;
   if (next != nullptr && !waiting.empty()) begin_part();
   while (writer != nullptr) {
     Result<void> done = write_waiting();
@@ -232,7 +231,7 @@ void Recorder::State::try_last() {
     }
     if (writer->is_spoiled()) return leave_off();
     const double pause_s = std::clamp(pause.next_s() - steady_now_s(), 0.0, limits::retry_held_max_s);
-    if (steady_now_s() + pause_s > until_s) return leave_off();
+    if (steady_now_s() + pause_s > last_until_s) return leave_off();
     std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
   }
   if (next == nullptr) return;

@@ -72,7 +72,7 @@ struct WorldSaver::State {
   void write(Due due);
   Result<void> open_anew();
   void note(Tick tick, double ms, const Result<void>& saved);
-  void try_last(const WorldMoment& moment, const ChunkNow& now);
+  void try_last(const WorldMoment& moment, const ChunkNow& now, double until_s);
   std::map<ChunkCoord, std::vector<BrickState>> whole_chunks(const ChunkNow& now) const;
 
   SaverConfig config;
@@ -221,6 +221,7 @@ void WorldSaver::save(WorldMoment moment, const ChunkNow& now) {
 
 Result<void> WorldSaver::finish(WorldMoment moment, const ChunkNow& now) {
   State& s = *state_;
+  const double until_s = steady_now_s() + s.config.last_tries_s;  // what is being written counts
   {
     const std::scoped_lock lock(s.mutex);
     if (!s.waiting) s.waiting = State::Due{};
@@ -232,7 +233,7 @@ Result<void> WorldSaver::finish(WorldMoment moment, const ChunkNow& now) {
   }
   s.changed.notify_all();
   if (s.thread.joinable()) s.thread.join();
-  s.try_last(moment, now);
+  s.try_last(moment, now, until_s);
   s.file.reset();
   if (s.status.health.ok()) return {};
   return fail(fmt::format(
@@ -241,8 +242,7 @@ Result<void> WorldSaver::finish(WorldMoment moment, const ChunkNow& now) {
 }
 
 /// Once the thread has ended: chunks that are lacking, and what fails, until the time for that is over.
-void WorldSaver::State::try_last(const WorldMoment& moment, const ChunkNow& now) {
-  const double until_s = steady_now_s() + config.last_tries_s;
+void WorldSaver::State::try_last(const WorldMoment& moment, const ChunkNow& now, double until_s) {
   bool was_whole = false;
   while (!status.health.ok()) {
     auto whole = whole_chunks(now);
