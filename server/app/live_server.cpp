@@ -250,7 +250,10 @@ LiveServer::~LiveServer() {
 
 Result<std::unique_ptr<LiveServer>> LiveServer::start(const LiveConfig& config) {
   auto state = std::make_unique<State>(config);
-  TRY(state->open());
+  if (auto opened = state->open(); !opened) {
+    if (state->net) state->net->stop();  // its thread asks for members that are destroyed before it
+    return tl::unexpected(opened.error());
+  }
   if (config.pacing == Pacing::real_time) state->thread = std::thread([s = state.get()] { s->run(); });
   return std::unique_ptr<LiveServer>(new LiveServer(std::move(state)));
 }
