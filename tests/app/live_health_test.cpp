@@ -87,7 +87,7 @@ TEST_F(LiveHealthTest, a_server_that_speaks_no_http_answers_a_program) {
   EXPECT_FALSE(read_health(nowhere));
 }
 
-TEST_F(LiveHealthTest, a_recording_that_cannot_be_written_is_a_fault_and_the_game_goes_on) {
+TEST_F(LiveHealthTest, a_log_of_events_that_cannot_be_written_is_a_fault_and_the_game_goes_on) {
   start([&](LiveConfig& config) { config.events_path = "/dev/full"; });
   RawClient client(server->port());
   ASSERT_TRUE(client.send(HelloMessage{protocol_version, "test", {0.0F, 2.0F, 0.0F}, 64.0F}));
