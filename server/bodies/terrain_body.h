@@ -41,11 +41,10 @@ class TerrainBody {
   /// Changes the way in which these bodies, all there are, find the terrain.
   void set_collider(TerrainColliderKind kind, std::map<PieceId, Body>& bodies);
 
-  /// Turns the body's hulls and, if it is awake, its points. Sets Body::awake and
-  /// needs_copy.
+  /// Turns the body's hulls and, if it is awake, its points. Sets Body::awake and needs_copy.
   void turn(Body& body) const;
-  /// Refills the contacts of the bodies that are awake; of those that
-  /// needed a copy of the terrain, or of the others.
+  /// Refills the contacts of the bodies that are awake; of those that needed a copy of the terrain, or of the
+  /// others.
   void refill(std::span<Body*> some, bool copying) const;
   /// Gives the contacts with the terrain its friction.
   void roughen(std::span<Body*> some) const;

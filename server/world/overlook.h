@@ -7,7 +7,7 @@
 
 namespace scree {
 
-/// A pure function of the ground, near its middle. It reads some hundred heights, which takes milliseconds.
+/// A pure function of the ground, near its middle. It reads about a thousand heights, which takes milliseconds.
 /// For a ground by heights its tiles must be there.
 Spawn overlook_of(const TerrainSource& source);
 

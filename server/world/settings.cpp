@@ -69,6 +69,15 @@ constexpr Setting number(std::string_view name, std::string_view help, NumberBou
   return {name, help, {}, bounds, tried, get_member<Member>, put_member<Member>};
 }
 
+/// The same of a limit of the machine.
+template <auto Member>
+constexpr Setting machine_limit(std::string_view name, std::string_view help, NumberBounds bounds,
+                                std::span<const std::string_view> tried = {}) {
+  Setting row = number<Member>(name, help, bounds, tried);
+  row.of_machine = true;
+  return row;
+}
+
 constexpr Setting text(std::string_view name, std::string_view help, const TextForm& form) {
   return {name, help, {}, {}, {}, nullptr, nullptr, form};
 }
@@ -84,15 +93,6 @@ Result<void> parse_spawn_choice(WorldConfig& config, std::string_view value) {
 }
 std::string print_spawn_choice(const WorldConfig& config) {
   return config.spawn ? text_of(*config.spawn) : std::string(auto_spawn);
-}
-
-/// The same of a limit of the machine.
-template <auto Member>
-constexpr Setting machine_limit(std::string_view name, std::string_view help, NumberBounds bounds,
-                                std::span<const std::string_view> tried = {}) {
-  Setting row = number<Member>(name, help, bounds, tried);
-  row.of_machine = true;
-  return row;
 }
 
 constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
