@@ -71,6 +71,12 @@ struct WorldFile::State {
   Result<void> write(const WorldMoment& moment);
   Result<void> put(const Statement& statement, uint64_t key, const std::vector<uint8_t>& data);
   Result<void> put_back();
+  /// Which world the file holds, as of which tick.
+  struct Standing {
+    uint64_t world = 0;
+    Tick tick = 0;
+  };
+  Result<Standing> standing();
 
   Database database;
   Statement put_header, put_moment, put_chunk, put_piece, delete_piece, get_chunk;
@@ -297,9 +303,29 @@ Result<std::unique_ptr<WorldFile>> WorldFile::opened_anew() {
   return file;
 }
 
+Result<WorldFile::State::Standing> WorldFile::State::standing() {
+  const auto row_of = [this](const char* table) -> Result<std::vector<uint8_t>> {
+    const auto statement = TRY(database.prepare(world_schema::one_of(table)));
+    auto row = database.get(statement, 0);
+    TRY(row);
+    if (!row->has_value()) return fail(fmt::format("{} has no {}", database.path(), table));
+    return std::move(**row);
+  };
+  const auto header_row = TRY(row_of("header"));
+  const auto moment_row = TRY(row_of("moment"));
+  const auto header = TRY(decode_world_header(header_row));
+  const auto moment = TRY(decode_world_moment(moment_row));
+  return Standing{header.world, moment.tick};
+}
+
+/// A backup that somebody put there has older rows, or another world's.
 void WorldFile::follow(std::unique_ptr<WorldFile>& file) {
   if (!file->state_->database.has_moved()) return;
-  if (auto put_back = open(file->path())) file = std::move(*put_back);
+  auto found = open(file->path());
+  if (!found) return;
+  const auto is = (*found)->state_->standing(), was = file->state_->standing();
+  if (!is || (was && (is->world != was->world || is->tick < was->tick))) return;
+  file = std::move(*found);
 }
 
 uint64_t WorldFile::bytes_written() const {

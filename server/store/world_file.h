@@ -83,7 +83,7 @@ class WorldFile {
   /// under its name as it was saved last; an error if another file has the name meanwhile.
   Result<std::unique_ptr<WorldFile>> opened_anew();
   /// For who reads a file that another object saves: opens the one that was put back. Leaves `file` alone
-  /// where there is none.
+  /// where there is none, or one of another world or of an earlier tick.
   static void follow(std::unique_ptr<WorldFile>& file);
   uint64_t bytes_written() const;  ///< in rows, since it was opened
 

@@ -2,6 +2,7 @@
 #include "server/store/world_file.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <gtest/gtest.h>
 #include <map>
 #include <thread>
@@ -284,6 +285,33 @@ TEST_F(WorldFileTest, chunks_that_were_read_are_taken_a_few_at_a_time) {
   }
   for (size_t i = 0; i < 3; ++i) EXPECT_EQ(came[i].chunk, chunks[i]);
   EXPECT_TRUE(fetcher.collect(2).empty());
+}
+
+TEST_F(WorldFileTest, a_reader_follows_the_file_that_was_put_back_and_no_backup_in_its_place) {
+  namespace fs = std::filesystem;
+  make();
+  const std::string backup = folder / "backup";
+  ASSERT_TRUE(file->copy_to(backup).has_value());
+  world->step({});
+  ASSERT_TRUE(file->save(world->moment(), {}).has_value());
+  auto reader = WorldFile::open(path);
+  ASSERT_TRUE(reader.has_value()) << reader.error().message;
+  const WorldFile* const before = reader->get();
+  const auto remove = [&] {
+    for (const char* end : {"", "-wal", "-shm"}) fs::remove(path + end);
+  };
+  remove();
+  fs::copy_file(backup, path);
+  WorldFile::follow(*reader);
+  EXPECT_EQ(reader->get(), before) << "it is of an earlier tick";
+  remove();
+  const auto put_back = file->opened_anew();
+  ASSERT_TRUE(put_back.has_value()) << put_back.error().message;
+  WorldFile::follow(*reader);
+  EXPECT_NE(reader->get(), before);
+  const auto rows = (*reader)->read_moment();
+  ASSERT_TRUE(rows.has_value()) << rows.error().message;
+  EXPECT_EQ(rows->world.moment.tick, world->tick());
 }
 
 }  // namespace
