@@ -6,6 +6,7 @@
 #include "server/store/database.h"
 #include "server/store/limits.h"
 #include "server/store/recorder_state.h"
+#include "server/store/schema.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
 #include "shared/base/wall_clock.h"
@@ -122,12 +123,12 @@ void Recorder::State::note_safe() {
   changed.notify_all();
 }
 
-/// The ring of this part is whole: it needs none before.
+/// The ring of this part is whole: it needs none before. Other files may have such a name, too.
 void Recorder::State::drop_older_parts() {
   dropped_older = true;
   for (const std::string& part : recording_parts(family)) {
     if (part == writer->path()) return;
-    remove_recording(part);
+    if (!is_foreign(part, schema::recording)) remove_recording(part);
   }
 }
 

@@ -319,6 +319,37 @@ TEST_F(RecordingPartsTest, a_part_that_begins_as_the_server_ends_has_its_last_ti
   }
 }
 
+TEST_F(RecordingPartsTest, a_ring_that_is_whole_drops_older_parts_and_no_other_files) {
+  {
+    auto earlier = Recorder::open(path, header(), nullptr);
+    ASSERT_TRUE(earlier.has_value()) << earlier.error().message;
+    ticks(**earlier, 10);
+  }
+  for (int tick = 0; tick < 5; ++tick) world.step({});
+  const std::string letter = recording_part(path, 2), ring = recording_part(path, 3);
+  write_file(letter, {'d', 'e', 'a', 'r'});
+  world.renew();
+  const RecordingStart from{world.moment(), world.keyframe()};
+  auto opened = Recorder::open(path, header(), &from, ring_limit_of("10s").value());
+  ASSERT_TRUE(opened.has_value()) << opened.error().message;
+  Recorder& recorder = **opened;
+  EXPECT_EQ(recorder.path(), ring);
+  for (int tick = 0; tick < 6000 && std::filesystem::exists(path); ++tick) {
+    const auto delta = world.step({});
+    std::shared_ptr<const WorldMoment> part;
+    if (recorder.wants_part() != PartWish::none) {
+      world.renew();
+      part = std::make_shared<const WorldMoment>(world.moment());
+    }
+    recorder.push(delta, {}, {}, std::move(part));
+    if (world.tick() % 15 == 0) recorder.commit_up_to(world.tick());
+  }
+  EXPECT_FALSE(std::filesystem::exists(path));
+  EXPECT_TRUE(std::filesystem::exists(letter)) << "it is no recording";
+  ASSERT_TRUE(recorder.finish().has_value());
+  EXPECT_EQ(verified(ring), world.tick());
+}
+
 TEST(RecordingParts, are_named_beside_the_first_one) {
   EXPECT_EQ(recording_part("a/session.scree", 1), "a/session.scree");
   EXPECT_EQ(recording_part("a/session.scree", 12), "a/session-12.scree");
