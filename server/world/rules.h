@@ -7,7 +7,7 @@
 namespace scree {
 
 namespace rules {
-/// Falls, cuts, merges and support are served as they come, as the world's own. Before 0.3.
+/// Falls, cuts, merges and support are served as they come, as the world's own. Files that name no rules.
 inline constexpr uint32_t as_they_come = 0;
 /// They belong to the party that caused them, and parties take turns (server/work/turn_queue.h).
 inline constexpr uint32_t by_party = 1;
