@@ -20,6 +20,9 @@ inline constexpr size_t socket_digits = 32;
 /// Attempts that failed and are remembered, so that their pages can ask why. Above: the oldest is forgotten.
 inline constexpr size_t socket_attempts_max = 256;
 
+/// Bytes of a page's origin in words: a scheme, the longest name of a host, and a port. Above: cut.
+inline constexpr size_t origin_bytes_max = 272;
+
 /// Files of the page, their bytes in memory with the compressed ones, and folders in folders. Above: the
 /// server does not start, and says which folder it is.
 inline constexpr size_t web_files_max = 512;

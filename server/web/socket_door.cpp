@@ -10,6 +10,7 @@
 #include "crypto/signing_key.h"
 #include "crypto/websocket_accept.h"
 #include "server/web/limits.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -80,8 +81,9 @@ std::string lost_on_the_way(const HttpRequest& request) {
          lines + " The page docs/host.md has whole configurations.";
 }
 
+/// The origin as text that may be shown: a field may have any bytes, and JSON has none that are no UTF-8.
 std::string foreign_to_here(const HttpRequest& request, const WebPeer& peer) {
-  const std::string origin = request.origin.value_or("");
+  const std::string origin = showable(request.origin.value_or(""), limits::origin_bytes_max);
   if (!peer.from_here) return "pages of " + origin + " may not join here (--web-origin)";
   return "The page is of " + origin +
          ", and the server does not know that name as its own. A proxy on its machine has to pass on name "

@@ -33,7 +33,8 @@ class SocketDoor {
   HttpResponse open(const HttpRequest& request, const WebPeer& peer);
   /// The answer to a page whose handshake failed.
   HttpResponse tell(const HttpRequest& request, const WebPeer& peer) const;
-  /// A handshake failed for this reason. `foreign`: the page did not show that it is of this site.
+  /// A handshake failed for this reason, a text that may be shown (shared/base/text.h). `foreign`: the page
+  /// did not show that it is of this site.
   void note(const HttpRequest& request, const std::string& words, bool foreign = false);
 
  private:

@@ -225,6 +225,26 @@ TEST_F(SiteTest, tells_a_page_what_was_missing_and_gives_it_a_pass_for_its_addre
   EXPECT_TRUE(holds(*ask_for("/session.json", second, ann).body, "\"seen\":false")) << "it is forgotten";
 }
 
+TEST_F(SiteTest, tells_of_an_origin_that_is_no_text_by_text) {
+  Site site(*WebFiles::load(folder.path()), {});
+  HttpRequest request;
+  request.path = "/session";
+  request.query = "attempt=" + std::string(32, 'a');
+  request.host = "game.example";
+  request.wants_websocket = true;
+  request.websocket_version = "13";
+  request.websocket_key = "dGhlIHNhbXBsZSBub25jZQ==";
+  for (const std::string& origin : {std::string("http://\xff\xc3"), "http://" + std::string(5000, 'a')}) {
+    request.origin = origin;
+    EXPECT_EQ(site.answer(request, {}).status, 403);
+    HttpRequest asks = request;
+    asks.path = "/session.json";
+    const std::string told = *site.answer(asks, {}).body;
+    EXPECT_TRUE(holds(told, "\"seen\":true,\"words\":\"pages of http://")) << told;
+    EXPECT_LT(told.size(), 1000U);
+  }
+}
+
 TEST_F(SiteTest, says_that_a_proxy_left_its_path_in) {
   EXPECT_TRUE(holds(*ask("/scree/main.js").body, "has to take that path away"));
   EXPECT_TRUE(holds(*ask("/scree/session").body, "has to take that path away"));
