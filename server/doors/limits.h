@@ -33,9 +33,11 @@ inline constexpr double door_connections_most = 65535.0;
 inline constexpr double door_connects_least = 0.1;
 inline constexpr double door_connects_most = 100000.0;
 
-/// Connections that are turned away and told so at once, in the language that their first bytes are in, and
-/// the seconds for which such bytes are waited for. Above: told in the protocol's and closed, at once.
+/// Connections that are held, at once and a second, until their first bytes say in which language they are
+/// turned away, and the seconds for which such bytes are waited for. TLS has its handshake first, which costs
+/// the network thread as much as many messages do. Above: told in the protocol's, and closed at once.
 inline constexpr size_t turned_away_max = 64;
+inline constexpr double turned_away_per_second_max = 32.0;
 inline constexpr double turned_away_seconds_max = 1.0;
 
 /// HTTP requests from one address, a second and at once: a page is about ten, and a status page asks once a

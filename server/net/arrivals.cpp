@@ -37,8 +37,7 @@ bool Arrivals::enter(std::shared_ptr<Transport> transport) {
 
 void Arrivals::turned_away(asio::ip::tcp::socket socket, const std::string& address, const Refused& refused) {
   count_turned_away(address, refused);
-  if (parts_.sessions.turned_away() + parts_.web.turned_away() >= limits::turned_away_max)
-    return tell_and_close(std::move(socket), refused);
+  if (!may_hold(steady_now_s())) return tell_and_close(std::move(socket), refused);
   begin(std::make_shared<TcpTransport>(std::move(socket)), {address, false, false, refused}, next_session_++);
 }
 
@@ -50,6 +49,11 @@ void Arrivals::count_turned_away(const std::string& peer, const Refused& refused
   changed_();
 }
 
+bool Arrivals::may_hold(double now_s) {
+  return parts_.sessions.turned_away() + parts_.web.turned_away() < limits::turned_away_max &&
+         held_.try_spend(now_s);
+}
+
 /// The place at the door becomes the client's, if the door has one for it.
 void Arrivals::named(uint64_t id, const std::string& ip, const std::string& peer) {
   SessionEntry* const entry = parts_.sessions.find(id);
@@ -59,7 +63,10 @@ void Arrivals::named(uint64_t id, const std::string& ip, const std::string& peer
   if (const auto no = parts_.door.enter(address, now_s)) {
     const Refused refused = door_refusal(*no);
     count_turned_away(address, refused);
-    return entry->session->turn_away(refused);
+    const bool held = may_hold(now_s);
+    entry->session->turn_away(refused);
+    if (!held) entry->session->refuse(refused);
+    return;
   }
   parts_.door.leave(entry->session->address(), now_s);
   entry->session->come_from(address, peer);

@@ -13,6 +13,7 @@
 
 #include "server/doors/authorizer.h"
 #include "server/doors/entrance.h"
+#include "server/doors/limits.h"
 #include "server/net/client_session.h"
 #include "server/net/host_log.h"
 #include "server/net/net_server.h"
@@ -20,6 +21,7 @@
 #include "server/net/session_table.h"
 #include "server/net/visitor.h"
 #include "server/net/web_connections.h"
+#include "shared/base/rate_limit.h"
 
 namespace scree {
 
@@ -65,12 +67,15 @@ class Arrivals final : public EntranceHost {
   void begin_http(uint64_t id, std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived);
   void named(uint64_t id, const std::string& ip, const std::string& peer);
   void count_turned_away(const std::string& peer, const Refused& refused);
+  /// Whether one more that is turned away may be held until it can be told so in its own language.
+  bool may_hold(double now_s);
   void close_oldest_outsider(const std::string& why);
 
   const Parts parts_;
   const std::function<void()> changed_;
   Entrance entrance_;
   uint64_t next_session_;  ///< 0 is the server itself
+  RateLimit held_{limits::turned_away_per_second_max, static_cast<double>(limits::turned_away_max)};
 };
 
 }  // namespace scree

@@ -4,6 +4,8 @@
 
 #include "client/mirror/mirror.h"
 #include "server/app/live_server.h"
+#include "server/doors/limits.h"
+#include "shared/base/timing.h"
 #include "tests/support/certificates.h"
 #include "tests/support/holds.h"
 #include "tests/support/net_server_fixture.h"
@@ -250,6 +252,27 @@ TEST_F(WebServerTest, counts_a_websocket_among_the_connections_of_its_address) {
   EXPECT_EQ(fourth.handshake().status, 429);
   EXPECT_EQ(server->stats().turned_away, 2U);
   EXPECT_EQ(server->stats().refusals.of(Refusal::connections_per_address), 2U) << "each is counted once";
+  expect_witness_unmoved();
+}
+
+TEST_F(WebServerTest, holds_few_of_those_that_it_turns_away_in_a_second) {
+  open([](NetConfig& config) {
+    config.door.loopback_is_free = false;
+    config.door.connections_max = 1;
+    config.door.connects_burst = 1000.0;
+  });
+  constexpr size_t tries = 150;
+  const double begun_s = steady_now_s();
+  size_t told = 0;
+  for (size_t i = 0; i < tries; ++i) {
+    HttpClient client(server->port());
+    if (client.get("/").status == 429) ++told;
+  }
+  const double most = static_cast<double>(limits::turned_away_max) +
+                      limits::turned_away_per_second_max * (steady_now_s() - begun_s) + 1.0;
+  EXPECT_GT(told, 0U);
+  EXPECT_LE(static_cast<double>(told), most) << "the others are told in the protocol's language";
+  EXPECT_EQ(server->stats().turned_away, tries);
   expect_witness_unmoved();
 }
 
