@@ -5,12 +5,12 @@
 // written as %20 and % as %25, because lines of the file are split at spaces.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <utility>
 #include <variant>
 
+#include "server/doors/ip_network.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -26,7 +26,7 @@ class BanTarget {
  public:
   /// An IPv4 address is banned itself, also where it is written as IPv6; an IPv6 address without bits stands
   /// for its network of 64 bits, because who has one address has them all. Networks have 8 bits at least, or
-  /// 16 of IPv6. The error says what can be banned.
+  /// 16 of IPv6 (limits::ban_bits_min_v4). The error says what can be banned.
   static Result<BanTarget> read(const std::string& text);
 
   bool fits(const BanSubject& subject) const;
@@ -36,20 +36,14 @@ class BanTarget {
   const char* words() const;
 
  private:
-  struct Network {
-    std::array<uint8_t, 16> bytes{};  ///< IPv4 addresses as IPv6 has them
-    unsigned bits = 0;                ///< of these bytes
-    bool is_v4 = false;
-  };
   struct Name {
     std::string name;
   };
   struct Token {
     uint64_t id = 0;
   };
-  using Target = std::variant<Network, Name, Token>;
+  using Target = std::variant<IpNetwork, Name, Token>;
   explicit BanTarget(Target target) : target_(std::move(target)) {}
-  static Result<Network> read_network(const std::string& text);
 
   Target target_;
 };

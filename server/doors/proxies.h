@@ -2,12 +2,11 @@
 // (transport/proxy_header.h) or by X-Forwarded-For. What others say of that is not looked at. A value.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "server/doors/ip_network.h"
 #include "shared/base/result.h"
 
 namespace scree {
@@ -25,12 +24,7 @@ class Proxies {
   std::string client_of(std::string_view forwarded_for, const std::string& sender) const;
 
  private:
-  using Bytes = std::array<uint8_t, 16>;  ///< IPv4 as IPv6 has it (RFC 4291, 2.5.5.2)
-  struct Network {
-    Bytes address{};
-    unsigned bits = 0;
-  };
-  std::vector<Network> networks_;
+  std::vector<IpNetwork> networks_;
 };
 
 }  // namespace scree

@@ -30,6 +30,11 @@ TEST(BanTarget, networks_hold_their_addresses_and_no_others) {
   EXPECT_FALSE(fits("2001:db8::/32", {"2001:db9::1"}));
   EXPECT_FALSE(fits("2001:db8::1/128", {"2001:db8::2"}));
   EXPECT_FALSE(fits("10.0.0.1", {"no address"}));
+  for (const char* wide : {"::2", "::/16", "::/64"}) {
+    EXPECT_TRUE(fits(wide, {"::3"})) << wide;
+    EXPECT_FALSE(fits(wide, {"203.0.113.9"}))
+        << wide << " holds the bytes of every IPv4 address, and none of them";
+  }
 }
 
 TEST(BanTarget, names_and_tokens_are_the_very_same) {

@@ -18,9 +18,12 @@ TEST(Proxies, are_networks_of_both_kinds) {
        {"11.0.0.1", "192.0.2.8", "172.32.0.0", "172.15.255.255", "2001:db8:2::7", "127.0.0.1", "unknown", ""})
     EXPECT_FALSE(proxies->contains(one)) << one;
   EXPECT_FALSE(Proxies().contains("127.0.0.1"));
+  EXPECT_TRUE(Proxies::parse({"::ffff:10.0.0.0/104"})->contains("10.1.2.3"));
+  EXPECT_TRUE(Proxies::parse({"::/8"})->contains("::2"));
+  EXPECT_FALSE(Proxies::parse({"::/8"})->contains("203.0.113.1")) << "IPv4 is a kind of its own";
   EXPECT_TRUE(Proxies::parse({"0.0.0.0/0"})->contains("203.0.113.1"));
-  for (const char* wrong :
-       {"10.0.0.0/33", "10.0.0.0/-1", "10.0.0.0/", "proxy.example", "", "::/129", "10.0.0.0/8/8"})
+  for (const char* wrong : {"10.0.0.0/33", "10.0.0.0/-1", "10.0.0.0/", "proxy.example", "", "::/129",
+                            "10.0.0.0/8/8", "::ffff:10.0.0.1/32"})
     EXPECT_FALSE(Proxies::parse({wrong})) << wrong;
 }
 
