@@ -31,12 +31,12 @@ bool is_for_people(const std::string& line) {
 
 }  // namespace
 
-/// Not strict: a line that is no ban stays as it is, so that nothing that somebody wrote is lost.
-Result<std::vector<Bans::Line>> Bans::read_file(bool is_strict) {
-  std::vector<Line> lines;
+/// A line that is no ban stays as it is, so that nothing that somebody wrote is lost.
+Result<Bans::File> Bans::read_file() const {
+  File read;
   std::error_code error;
-  const bool there = !path_.empty() && std::filesystem::exists(path_, error);
-  if (!there && !error) return lines;
+  read.is_there = !path_.empty() && std::filesystem::exists(path_, error);
+  if (!read.is_there && !error) return read;
   // Writing takes the place of what is there, so it has to be a file.
   if (!error && !std::filesystem::is_regular_file(path_, error))
     return fail(path_ + " is not a file (--bans)");
@@ -52,37 +52,39 @@ Result<std::vector<Bans::Line>> Bans::read_file(bool is_strict) {
   };
   size_t bans = 0;
   for (std::string text; std::getline(file, text);) {
-    Line& line = lines.emplace_back(Line{std::move(text)});
+    Line& line = read.lines.emplace_back(Line{std::move(text)});
     if (is_for_people(line.text)) continue;
     Result<void> parsed = parse(line);
     if (parsed && ++bans > limits::bans_max)
       parsed = fail(fmt::format("there are more than {} bans (limits.bans_max)", limits::bans_max));
     if (parsed) continue;
     line.key.clear();
-    if (is_strict) return fail(fmt::format("{}, line {}: {}", path_, lines.size(), parsed.error().message));
+    if (read.fault.empty())
+      read.fault = fmt::format("{}, line {}: {}", path_, read.lines.size(), parsed.error().message);
   }
-  return lines;
+  return read;
 }
 
 Result<Bans> Bans::open(const std::string& path) {
   Bans bans;
   bans.path_ = path;
-  const auto lines = TRY(bans.read_file(true));
-  bans.merge(lines);
+  const File file = TRY(bans.read_file());
+  if (!file.fault.empty()) return fail(file.fault);
+  bans.merge(file);
   return bans;
 }
 
 /// What differs from what was read or written last was done by hand. A file that is gone was moved away, and
-/// lifts nothing.
-void Bans::merge(const std::vector<Line>& lines) {
+/// lifts nothing; one that was emptied lifts all.
+void Bans::merge(const File& file) {
   List now;
-  for (const Line& line : lines)
+  for (const Line& line : file.lines)
     if (!line.key.empty()) now[line.key] = line.ban;
   for (const auto& [key, ban] : now) {
     const auto known = in_file_.find(key);
     if (known == in_file_.end() || !(known->second == ban)) bans_[key] = ban;
   }
-  if (!lines.empty())
+  if (file.is_there)
     for (const auto& [key, ban] : in_file_)
       if (!now.contains(key)) bans_.erase(key);
   in_file_ = std::move(now);
@@ -93,10 +95,9 @@ void Bans::merge(const std::vector<Line>& lines) {
 
 Result<void> Bans::read_again() {
   if (path_.empty()) return {};
-  const auto lines = TRY(read_file(false));
-  merge(lines);
-  const auto strict = read_file(true);
-  return strict ? Result<void>() : tl::unexpected(strict.error());
+  const File file = TRY(read_file());
+  merge(file);
+  return file.fault.empty() ? Result<void>() : fail(file.fault);
 }
 
 Result<void> Bans::add(const std::string& key, const Ban& ban, uint64_t now_s) {
@@ -131,11 +132,11 @@ Result<void> Bans::write() {
   if (path_.empty()) return {};
   const auto failed =
       fail(fmt::format("the bans cannot be written to {} (--bans): they hold until the server ends", path_));
-  const auto lines = read_file(false);
-  if (!lines) return failed;
+  const auto file_now = read_file();
+  if (!file_now) return failed;
   std::string text;
   std::set<std::string> written;
-  for (const Line& line : *lines) {
+  for (const Line& line : file_now->lines) {
     const auto ban = bans_.find(line.key);
     if (!line.key.empty() && (ban == bans_.end() || !written.insert(line.key).second)) continue;
     text += (line.key.empty() || ban->second == line.ban ? line.text : line_of(line.key, ban->second)) + "\n";

@@ -55,10 +55,15 @@ class Bans {
     std::string key{};
     Ban ban{};
   };
+  struct File {
+    bool is_there = false;
+    std::vector<Line> lines{};
+    std::string fault{};  ///< of the first line that is no ban; empty: there is none
+  };
   using List = std::map<std::string, Ban>;
 
-  Result<std::vector<Line>> read_file(bool is_strict);
-  void merge(const std::vector<Line>& lines);
+  Result<File> read_file() const;
+  void merge(const File& file);
   Result<void> write();
 
   std::string path_;

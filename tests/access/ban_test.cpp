@@ -104,6 +104,16 @@ TEST_F(BanFileTest, what_people_take_out_or_change_counts_and_nothing_that_they_
   EXPECT_EQ(text(), "10.0.0.2 99 changed\n10.0.0.3 0 c\n10.0.0.4 0 d\n") << "a file that is gone lifts none";
 }
 
+TEST_F(BanFileTest, who_empties_it_lifts_all) {
+  auto bans = Bans::open(path);
+  ASSERT_TRUE(bans->add("10.0.0.1", {0, "a"}, 50));
+  std::ofstream(path).close();
+  EXPECT_TRUE(bans->read_again());
+  EXPECT_FALSE(bans->find({"10.0.0.1"}, 60).has_value());
+  ASSERT_TRUE(bans->add("10.0.0.2", {0, "b"}, 60));
+  EXPECT_EQ(text(), "10.0.0.2 0 b\n");
+}
+
 TEST_F(BanFileTest, a_ban_that_is_made_again_has_one_line) {
   auto bans = Bans::open(path);
   ASSERT_TRUE(bans->add("10.0.0.1", {100, "a"}, 50));
