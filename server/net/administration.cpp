@@ -190,7 +190,7 @@ void Administration::end_banned() {
 
 void Administration::read_bans_again() {
   if (const auto read = authorizer_.bans().read_again(); !read)
-    spdlog::warn("a line of the bans does not count: {}", read.error().message);
+    spdlog::warn("not all bans were read again: {}", read.error().message);
   end_banned();
 }
 
