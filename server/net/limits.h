@@ -25,8 +25,8 @@ inline constexpr double linger_seconds_max = 2.0;
 inline constexpr size_t outsiders_max = 512;
 
 /// Sessions that take no place: administrators, and programs that administer alone. Above: of those that hold
-/// no token, the one that came first goes for the next; else the next is refused. So that somebody can always
-/// act, whatever is full.
+/// no token, the one that came first goes for the next, and for an administrator one of another role, too;
+/// else the next is refused. So that an administrator can always act, whatever is full of others.
 inline constexpr size_t administrators_max = 32;
 
 /// Descriptors that the process keeps for files and threads, beside connections.

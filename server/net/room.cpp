@@ -45,24 +45,31 @@ tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const
                 fmt::format("the server is full: {} sessions (sessions-max); try again later", most));
 }
 
-/// Nobody who plays goes for it, and no administrator; of the programs that came without a token, the first.
+/// Nobody who plays goes for it, and no administrator. Of the programs that came without a token, the first
+/// goes; an administrator also takes the room of a program whose token is of another role.
 tl::expected<void, Refused> Room::find_room_beside(const SessionTable& sessions, const Grant& grant) {
-  const SessionEntry* first = nullptr;
+  const SessionEntry* first_without_token = nullptr;
+  const SessionEntry* first_with_token = nullptr;
   size_t beside = 0;
   for (const auto& [id, entry] : sessions.entries()) {
     if (entry.session->phase() != ClientSession::Phase::joined || entry.needs_place()) continue;
     ++beside;
-    if (first == nullptr && !holds_token(entry.grant)) first = &entry;
+    if (entry.grant.role == Role::admin) continue;
+    const SessionEntry*& first = holds_token(entry.grant) ? first_with_token : first_without_token;
+    if (first == nullptr) first = &entry;
   }
   if (beside < limits::administrators_max) return {};
-  if (first != nullptr) {
-    first->session->refuse(
+  const bool is_administrator = grant.role == Role::admin;
+  const SessionEntry* const leaver =
+      first_without_token == nullptr && is_administrator ? first_with_token : first_without_token;
+  if (leaver != nullptr) {
+    leaver->session->refuse(
         {Refusal::idle_made_room, "another administrator came (limits.administrators_max)"});
     return {};
   }
-  return refuse(Refusal::sessions_max, "there are " + std::to_string(limits::administrators_max) +
-                                           " administrators already (limits.administrators_max)" +
-                                           (grant.role == Role::admin ? "" : "; try again later"));
+  return refuse(Refusal::sessions_max,
+                fmt::format("there are {} administrators already (limits.administrators_max){}",
+                            limits::administrators_max, is_administrator ? "" : "; try again later"));
 }
 
 bool Room::has_place(const SessionTable& sessions, double now_s) const {

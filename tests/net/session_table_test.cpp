@@ -128,6 +128,19 @@ TEST(Room, counts_those_alone_that_need_a_place) {
   EXPECT_TRUE(sessions.reasons.empty());
 }
 
+TEST(Room, programs_that_administer_by_any_token_keep_no_administrator_out) {
+  MemorySessions sessions;
+  for (uint64_t id = 1; id <= limits::administrators_max; ++id) {
+    sessions.join(id, "10.0.0.1", holder(id));
+    sessions.table.at(id).administers = true;
+  }
+  EXPECT_FALSE(Room::find_room_beside(sessions.table, holder(99)));
+  EXPECT_TRUE(sessions.reasons.empty());
+  EXPECT_TRUE(Room::find_room_beside(sessions.table, {.role = Role::admin}));
+  ASSERT_EQ(sessions.reasons.size(), 1U);
+  EXPECT_EQ(sessions.reasons.begin()->first, 1U) << "it came first";
+}
+
 class ReturnsTest : public ::testing::Test {
  protected:
   ReturnsTest() {
