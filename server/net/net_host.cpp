@@ -342,8 +342,11 @@ void NetHost::shut_down() {
 HealthMessage NetHost::health() {
   ServerHealth health = config_.health ? config_.health() : ServerHealth();
   if (stopping_) health.add(HealthKind::stopping, "the server stops");
-  if (!room_.has_place(sessions_, steady_now_s()))
-    health.add(HealthKind::full, fmt::format("all {} places are taken (sessions-max)", room_.sessions_max()));
+  const double now_s = steady_now_s();
+  if (!room_.has_place(sessions_, returns_.tickets().reserved_places(now_s), now_s))
+    health.add(HealthKind::full,
+               fmt::format("all {} places are taken, or kept for lost connections (sessions-max)",
+                           room_.sessions_max()));
   return health.as_of(publisher_.state().tick());
 }
 

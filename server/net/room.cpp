@@ -30,19 +30,24 @@ size_t Room::sessions_max() const {
   return std::min<size_t>(sessions_max_, std::max(descriptors_, taken + 1) - taken);
 }
 
-tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const ClientSession& newcomer,
-                                             const Grant& grant, size_t reserved, double now_s) const {
+bool Room::has_free_place(const SessionTable& sessions, size_t reserved) const {
   const size_t most = sessions_max();
   const auto kept_max = static_cast<size_t>(limits::places_kept_part * static_cast<double>(most));
-  if (sessions.placed() + std::min(reserved, kept_max) < most) return {};
+  return sessions.placed() + std::min(reserved, kept_max) < most;
+}
+
+tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const ClientSession& newcomer,
+                                             const Grant& grant, size_t reserved, double now_s) const {
+  if (has_free_place(sessions, reserved)) return {};
   if (const auto leaver = who_gives_way(sessions, newcomer, grant, now_s)) {
     leaver->session->refuse(
         {Refusal::idle_made_room,
          fmt::format("the server is full, and {}: another client has your place", leaver->why)});
     return {};
   }
-  return refuse(Refusal::sessions_max,
-                fmt::format("the server is full: {} sessions (sessions-max); try again later", most));
+  return refuse(
+      Refusal::sessions_max,
+      fmt::format("the server is full: {} sessions (sessions-max); try again later", sessions_max()));
 }
 
 /// Nobody who plays goes for it, and no administrator. Of the programs that came without a token, the first
@@ -72,8 +77,8 @@ tl::expected<void, Refused> Room::find_room_beside(const SessionTable& sessions,
                             limits::administrators_max, is_administrator ? "" : "; try again later"));
 }
 
-bool Room::has_place(const SessionTable& sessions, double now_s) const {
-  if (sessions.placed() < sessions_max()) return true;
+bool Room::has_place(const SessionTable& sessions, size_t reserved, double now_s) const {
+  if (has_free_place(sessions, reserved)) return true;
   return std::ranges::any_of(sessions.entries(), [&](const auto& one) {
     const SessionEntry& entry = one.second;
     return entry.needs_place() && !holds_token(entry.grant) && entry.session->may_make_room(now_s);

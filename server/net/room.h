@@ -30,10 +30,12 @@ class Room {
                                          const Grant& grant, size_t reserved, double now_s) const;
   /// Finds room for a newcomer that needs no place: an administrator, or a program that administers alone.
   static tl::expected<void, Refused> find_room_beside(const SessionTable& sessions, const Grant& grant);
-  /// Whether a newcomer without a token would find a place.
-  bool has_place(const SessionTable& sessions, double now_s) const;
+  /// Whether a newcomer without a token would find a place; `reserved`: as of find_place().
+  bool has_place(const SessionTable& sessions, size_t reserved, double now_s) const;
 
  private:
+  bool has_free_place(const SessionTable& sessions, size_t reserved) const;
+
   uint32_t sessions_max_ = 0;
   size_t descriptors_ = 0;  ///< for connections
   size_t outsiders_max_ = limits::outsiders_max;

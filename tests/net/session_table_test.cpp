@@ -106,7 +106,9 @@ TEST(Room, places_that_are_kept_are_no_newcomers_but_at_most_a_quarter_is_kept) 
   EXPECT_TRUE(finds_place(4));
   sessions.join(3, "10.0.0.1", viewer);
   EXPECT_FALSE(finds_place(4));
+  EXPECT_FALSE(room.has_place(sessions.table, 4, sessions.now_s)) << "and says so to who asks for its health";
   EXPECT_TRUE(finds_place(0));
+  EXPECT_TRUE(room.has_place(sessions.table, 0, sessions.now_s));
   room.bound(3);
   EXPECT_FALSE(finds_place(0));
 }
@@ -119,12 +121,12 @@ TEST(Room, counts_those_alone_that_need_a_place) {
   sessions.table.at(sessions.join(2, "10.0.0.2", viewer)->id()).administers = true;
   const auto newcomer = sessions.connect(9, "10.0.0.3");
   EXPECT_TRUE(room.find_place(sessions.table, *newcomer, viewer, 0, sessions.now_s));
-  EXPECT_TRUE(room.has_place(sessions.table, sessions.now_s));
+  EXPECT_TRUE(room.has_place(sessions.table, 0, sessions.now_s));
   sessions.join(3, "10.0.0.3", viewer);
   EXPECT_FALSE(room.find_place(sessions.table, *newcomer, viewer, 0, sessions.now_s));
-  EXPECT_FALSE(room.has_place(sessions.table, sessions.now_s));
+  EXPECT_FALSE(room.has_place(sessions.table, 0, sessions.now_s));
   sessions.now_s += limits::idle_seconds_max + 1.0;
-  EXPECT_TRUE(room.has_place(sessions.table, sessions.now_s)) << "who is idle would go";
+  EXPECT_TRUE(room.has_place(sessions.table, 0, sessions.now_s)) << "who is idle would go";
   EXPECT_TRUE(sessions.reasons.empty());
 }
 
