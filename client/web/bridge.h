@@ -155,7 +155,7 @@ const char* scree_catalogue();
 ///
 /// {"connection": {"phase": "connecting", "connected", "lost", or "refused", which is for good,
 ///                 "text", "replay", "role", "session", "retry_s": until the next attempt, when lost},
-///  "notice": the server's last refusal, for some seconds, or "",
+///  "notice": why the last request did nothing, for some seconds, or "",
 ///  "camera": as scree_camera(), "walks", "eye": whose eye one looks through, in words, or "",
 ///  "tick", "tick_rate_hz", "pace": 1 is as fast as the clock, "lost_ticks", "pieces_near", "predictions",
 ///  "joined": the edits around the camera have come, "loaded": and are drawn,

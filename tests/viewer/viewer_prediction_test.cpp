@@ -99,6 +99,23 @@ TEST_F(PredictingViewer, what_the_server_refuses_is_taken_back) {
   EXPECT_NE(session_->notice(steady_now_s()).find("pieces-max"), std::string::npos);
 }
 
+TEST_F(PredictingViewer, beyond_the_servers_reach_nothing_is_asked_for_and_that_is_said) {
+  start([](LiveConfig& config) { config.world.service.reach_m = 10.0; });
+  if (HasFatalFailure()) return;
+  until("a status", true, [&] { return session_->mirror()->status().has_value(); });
+  const Shape below = sphere({0.0F, 0.0F, 0.0F}, 1.0F);
+  EXPECT_TRUE(session_->is_beyond_reach(below, {0.0F, 11.5F, 0.0F}));
+  EXPECT_FALSE(session_->is_beyond_reach(below, {0.0F, 10.5F, 0.0F})) << "to its nearest point";
+  camera_.eye_m.y = 20.0F;
+  strike();
+  EXPECT_EQ(session_->predictions(), 0U);
+  const std::string said = session_->notice(steady_now_s());
+  EXPECT_NE(said.find("10 m from your eye (reach)"), std::string::npos) << said;
+  camera_.eye_m.y = 5.0F;
+  strike();
+  EXPECT_EQ(session_->predictions(), 1U);
+}
+
 TEST_F(PredictingViewer, a_lost_server_takes_it_back_and_another_world_knows_nothing_of_it) {
   start();
   if (HasFatalFailure()) return;

@@ -24,7 +24,7 @@ inline constexpr float report_distance_m = 1.0F;
 inline constexpr double cursor_interval_s = 0.1;
 inline constexpr float cursor_distance_m = 0.05F;
 
-/// Reach of a click, metres.
+/// Length of the ray by which a hand aims, metres. How far it may edit says the server.
 inline constexpr float carve_reach_m = 200.0F;
 
 /// Wait between `pieces>=N` and its screenshot, seconds, in which the pieces fly apart.

@@ -1,10 +1,13 @@
 #include "client/viewer/session/viewer_session.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "client/connection/come_again.h"
+#include "client/session/edit_reach.h"
 #include "client/viewer/base/limits.h"
 #include "proto/person_name.h"
 #include "shared/base/overloaded.h"
@@ -27,6 +30,14 @@ std::string told_of_paint(uint32_t bricks) {
     return "Nothing was painted: paint goes by bricks of 8 voxels a side, and this shape reaches no other "
            "rock";
   return std::to_string(bricks) + (bricks == 1 ? " brick was painted" : " bricks were painted");
+}
+
+std::string told_of_reach(float away_m, float most_m) {
+  std::array<char, 128> words{};
+  std::snprintf(words.data(), words.size(),
+                "This lies %.0f m away, and this server lets you edit %g m from your eye (reach): go nearer",
+                static_cast<double>(away_m), static_cast<double>(most_m));
+  return words.data();
 }
 
 }  // namespace
@@ -152,12 +163,13 @@ void ViewerSession::settle(const ReplyMessage& reply, double arrived_s, double n
     asked_s_.erase(asked);
   }
   if (reply.refusal.empty() && !reply.painted) return;
-  if (reply.refusal.empty()) {
-    notice_ = told_of_paint(*reply.painted);
-  } else {
-    timeline_.refused();
-    notice_ = reply.refusal;
-  }
+  if (reply.refusal.empty()) return show_notice(told_of_paint(*reply.painted), now_s);
+  timeline_.refused();
+  show_notice(reply.refusal, now_s);
+}
+
+void ViewerSession::show_notice(std::string words, double now_s) {
+  notice_ = std::move(words);
   notice_until_s_ = now_s + notice_s;
 }
 
@@ -239,10 +251,24 @@ std::optional<glm::vec3> ViewerSession::aim(glm::vec3 from_m, glm::vec3 directio
   return from_m + direction * (*hit * voxel_m);
 }
 
+std::optional<float> ViewerSession::reach_m() const {
+  const Mirror* const mirror = client_.mirror();
+  if (mirror == nullptr || welcome() == nullptr) return std::nullopt;
+  return edit_reach_m(mirror->status(), welcome()->role);
+}
+
+bool ViewerSession::is_beyond_reach(const Shape& shape, glm::vec3 from_m) const {
+  const std::optional<float> most_m = reach_m();
+  return most_m && distance(shape, from_m) > *most_m;
+}
+
 void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction, double now_s) {
   if (!connected()) return;
   const std::optional<glm::vec3> hit_m = aim(from_m, direction);
   if (!hit_m) return;
+  const Shape shape = shape_of(tool, *hit_m, direction);
+  if (is_beyond_reach(shape, from_m))
+    return show_notice(told_of_reach(distance(shape, from_m), *reach_m()), now_s);
   ++requests_;
   if (asked_s_.size() >= limits::own_requests_timed_max) asked_s_.erase(asked_s_.begin());
   asked_s_[requests_] = now_s;

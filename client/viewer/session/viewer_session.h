@@ -76,9 +76,12 @@ class ViewerSession {
   /// Whether any piece was made in this world.
   bool carved() const;
 
-  /// The point at which a ray (unit direction) meets rock within reach, metres.
+  /// The point at which a ray (unit direction) meets rock within limits::carve_reach_m, metres.
   std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
-  /// Requests what the tool does at the point where the ray meets rock; does nothing if it meets none.
+  /// Whether the server refuses an edit of this shape from there as too far away, as far as it has told so.
+  bool is_beyond_reach(const Shape& shape, glm::vec3 from_m) const;
+  /// Requests what the tool does at the point where the ray meets rock; does nothing if it meets none. Beyond
+  /// the server's reach there is a notice instead.
   void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction, double now_s);
   /// The way of the last request that was answered, by stages; none before the first.
   const std::optional<RequestLatency>& latency() const { return latency_; }
@@ -97,7 +100,8 @@ class ViewerSession {
   glm::vec3 interest_m() const { return client_.eye_m(); }
   float interest_radius_m() const { return choice_.interest_radius_m; }
 
-  /// For display: the state of the connection, in one line; the server's last refusal, for some seconds.
+  /// For display: the state of the connection, in one line; why the last request did nothing, for some
+  /// seconds.
   std::string description() const;
   std::string notice(double now_s) const;
   /// Whether the server refused for a reason that stays (may_come_again): there is no other attempt.
@@ -127,6 +131,8 @@ class ViewerSession {
   void lose(double now_s, const ConnectionEnd& end);
   void apply(const Client::Applied& applied, double now_s, SessionStep& step);
   void settle(const ReplyMessage& reply, double arrived_s, double now_s);
+  void show_notice(std::string words, double now_s);
+  std::optional<float> reach_m() const;
   void set_recorded_cursors(const RecordedCursorsMessage& recorded);
   void measure_rate(double now_s);
   void report(double now_s, glm::vec3 eye_m);

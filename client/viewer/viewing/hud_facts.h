@@ -35,7 +35,7 @@ struct HudFacts {
   std::optional<StatusMessage> status;  ///< the server's last
   double bytes_per_s = 0.0;
   uint64_t mismatches = 0;
-  std::string notice;                     ///< the server's last refusal, for a while
+  std::string notice;                     ///< why the last request did nothing, for a while
   std::optional<RequestLatency> latency;  ///< of one's own last request
   size_t predictions = 0;                 ///< own carves that the server has not answered
   std::string method;

@@ -7,6 +7,9 @@
 namespace scree {
 namespace {
 
+/// The colour of a shape that the server would refuse as too far away.
+constexpr LineColour beyond_reach_colour{140, 140, 140, 80};
+
 /// The colour of the shape in the person's hand.
 LineColour preview_colour(const Tool& tool) {
   constexpr uint8_t opacity = 150;
@@ -130,7 +133,11 @@ LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optio
   LineList lines;
   const glm::vec3 direction = camera.forward();
   const auto hit_m = session.aim(camera.eye_m, direction);
-  if (hit_m && !session.is_replay()) lines.shape(shape_of(tool, *hit_m, direction), preview_colour(tool));
+  if (hit_m && !session.is_replay()) {
+    const Shape shape = shape_of(tool, *hit_m, direction);
+    const bool is_far = session.is_beyond_reach(shape, camera.eye_m);
+    lines.shape(shape, is_far ? beyond_reach_colour : preview_colour(tool));
+  }
   session.figures(now_s).add_to(lines, camera.eye_m, looked_through);
   add_overlay(lines, overlay, now_s);
   return lines;
