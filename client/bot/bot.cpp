@@ -8,6 +8,7 @@
 #include "client/bot/tally.h"
 #include "client/cache/join_server.h"
 #include "client/connection/come_again.h"
+#include "client/session/edit_reach.h"
 #include "client/session/join_and_wait.h"
 #include "proto/spawn_direction.h"
 #include "shared/base/overloaded.h"
@@ -207,9 +208,11 @@ void Bot::ask(Clock::time_point now) {
   }
 }
 
-/// Servers refuse edits far from the eye.
+/// Servers refuse edits far from the eye. What is not known yet is as servers have it by default.
 void Bot::go_near(glm::vec3 place_m) {
-  if (glm::distance(eye_m_, place_m) <= limits::bot_reach_m) return;
+  const auto told_m = edit_reach_m(client_.mirror()->status(), report_.welcome.role);
+  const float reach_m = std::min(limits::bot_reach_m, told_m.value_or(limits::bot_reach_m));
+  if (glm::distance(eye_m_, place_m) <= reach_m) return;
   const float ground_m = ground_height_m(client_.mirror()->terrain(), place_m.x, place_m.z);
   set_interest({place_m.x, ground_m, place_m.z}, config_.interest_radius_m);
 }

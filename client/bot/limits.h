@@ -26,7 +26,7 @@ inline constexpr float bot_ahead_m = 22.0F;
 inline constexpr float bot_sight_m = 96.0F;
 
 /// Distance of a blow from the bot's eye above which it goes there first, metres: less than the reach that
-/// servers allow by default (ServiceLimits::reach_m).
+/// servers allow by default (ServiceLimits::reach_m). A server that allows less has its own distance.
 inline constexpr float bot_reach_m = 48.0F;
 
 }  // namespace scree::limits
