@@ -62,12 +62,9 @@ Result<BanTarget> BanTarget::read(const std::string& text) {
   return BanTarget(TRY(read_banned(text)));
 }
 
-bool BanTarget::fits(const BanSubject& subject) const {
+bool BanTarget::fits(const BanSubject& subject, const std::optional<IpAddress>& address) const {
   return std::visit(
-      Overloaded{[&](const IpNetwork& network) {
-                   const auto address = read_ip(subject.ip);
-                   return address && network.holds(*address);
-                 },
+      Overloaded{[&](const IpNetwork& network) { return address && network.holds(*address); },
                  [&](const Name& name) { return name.name == subject.name; },
                  [&](const Token& token) { return subject.token_id != 0 && token.id == subject.token_id; }},
       target_);

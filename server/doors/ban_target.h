@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -29,7 +30,9 @@ class BanTarget {
   /// 16 of IPv6 (limits::ban_bits_min_v4). The error says what can be banned.
   static Result<BanTarget> read(const std::string& text);
 
-  bool fits(const BanSubject& subject) const;
+  bool fits(const BanSubject& subject) const { return fits(subject, read_ip(subject.ip)); }
+  /// The same, for many targets. `address`: the subject's, as read_ip() reads it.
+  bool fits(const BanSubject& subject, const std::optional<IpAddress>& address) const;
   /// The only way to write it.
   std::string text() const;
   /// "this address", "this name" or "this token".

@@ -118,10 +118,11 @@ Result<void> Bans::lift(const std::string& key) {
 }
 
 std::optional<FoundBan> Bans::find(const BanSubject& subject, uint64_t now_s) const {
+  const auto address = read_ip(subject.ip);
   for (const auto& [key, target] : targets_) {
+    if (!target.fits(subject, address)) continue;
     const auto ban = bans_.find(key);
-    if (ban != bans_.end() && !has_ended(ban->second, now_s) && target.fits(subject))
-      return FoundBan{ban->second, target};
+    if (ban != bans_.end() && !has_ended(ban->second, now_s)) return FoundBan{ban->second, target};
   }
   return std::nullopt;
 }
