@@ -3,7 +3,7 @@
 //
 // These hold. As long as the client keeps to the rules, the bytes that arrive by the WebSocket are those that
 // were sent. Behind a handshake the server sends frames without a mask and in order, and nothing behind a
-// close. The values of a head are within their bounds.
+// close. The values of a head are within their bounds. Whatever was asked, a page may ask what became of it.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -77,7 +77,12 @@ class Server final : public HttpHost {
   HttpResponse answer(const HttpConnection& /*from*/, const HttpRequest& request) override {
     CHECK(request.path.starts_with('/') && request.path.size() < limits::http_head_bytes_max);
     CHECK(request.path.find_first_of(std::string_view("\0\r\n ?", 5)) == std::string::npos);
-    return site_.answer(request, {});
+    HttpResponse response = site_.answer(request, {});
+    HttpRequest asks = request;
+    asks.method = HttpMethod::get;
+    asks.path = "/session.json";
+    CHECK_EQ(site_.answer(asks, {}).status, 200);
+    return response;
   }
   void answered(const HttpResponse& response, size_t bytes) override {
     CHECK(bytes > 0 && response.status >= 101 && response.status < 600);
@@ -147,7 +152,8 @@ class Client {
     if (kind == 0) break_rules(input.packet());
     if (kind == 1) send_text("GET /" + input.text(20) + " HTTP/1.1\r\nHost: a\r\n\r\n");
     if (kind == 2) send_text("HEAD /healthz HTTP/1.1\r\nHost: a\r\n\r\n");
-    if (kind == 3) open_websocket();
+    if (kind == 3) open_websocket("");
+    if (kind == 12) open_websocket("Origin: http://" + input.text(40) + "\r\n");
     if (kind > 3 && kind < 9) send_frame(input);
     if (kind == 9) link_->read_on(input.flag());
     if (kind == 10) server_.check_time(now_s_ += input.byte() / 32.0);
@@ -177,10 +183,10 @@ class Client {
     keeps_rules_ = false;
     link_->send(bytes);
   }
-  void open_websocket() {
-    send_text(
-        "GET /session HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-        "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+  void open_websocket(const std::string& field) {
+    send_text("GET /session?attempt=" + std::string(limits::socket_digits, 'a') +
+              " HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n" + field +
+              "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
     asked_websocket_ = true;
   }
   void send_frame(FuzzInput& input) {
