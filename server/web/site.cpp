@@ -24,8 +24,6 @@ HttpResponse Site::answer(const HttpRequest& request, const WebPeer& peer) {
     return no;
   }
   if (request.path == "/session.json") return socket_door_.tell(request, peer);
-  if (request.path == "/healthz" || request.path == "/livez" || request.path == "/readyz")
-    return words(200, "ok");
   return file(request);
 }
 

@@ -22,7 +22,6 @@ class Site {
 
   /// From now on.
   void set_files(std::shared_ptr<const WebFiles> files) { files_ = std::move(files); }
-  /// The health is that of a server that does nothing but serve files.
   HttpResponse answer(const HttpRequest& request, const WebPeer& peer);
   /// A handshake that was to be answered by 101 is refused for this reason.
   void note_refused(const HttpRequest& request, const std::string& words) {

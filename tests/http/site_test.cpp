@@ -51,7 +51,6 @@ TEST_F(SiteTest, gives_the_page_and_its_files_by_their_types) {
   EXPECT_EQ(field(ask("/parts/style.css"), "Content-Type"), "text/css; charset=utf-8");
   EXPECT_EQ(field(ask("/client.0123abcd.wasm"), "Content-Type"), "application/wasm");
   EXPECT_EQ(*ask("/client.0123abcd.wasm").body, std::string("\0asm", 4));
-  EXPECT_EQ(*ask("/healthz").body, "ok\n");
   EXPECT_EQ(ask("/nothing.js").status, 404);
 }
 
@@ -114,7 +113,7 @@ TEST_F(SiteTest, says_what_to_do_without_a_page) {
   request.path = "/";
   EXPECT_EQ(site.answer(request, {true}).status, 404);
   EXPECT_TRUE(holds(*site.answer(request, {true}).body, "./scree web"));
-  request.path = "/healthz";
+  request.path = "/session.json";
   EXPECT_EQ(site.answer(request, {true}).status, 200);
 }
 
