@@ -44,4 +44,4 @@ wanted() {
 jq -r --slurpfile wanted <(wanted | jq -R .) \
   '($wanted | INDEX(.)) as $set | .[] | select($set[.file]) | .directory, .file, .command' \
   "$folder/compile_commands.json" | tr '\n' '\0' |
-  xargs -0 -n 3 -P "$(nproc)" bash -c 'read_source "$@"' read_source
+  xargs -0 -n 3 -P "$(nproc)" bash -c 'read_source "$@"' read_source || exit 1
