@@ -54,13 +54,17 @@ bool Arrivals::may_hold(double now_s) {
          held_.try_spend(now_s);
 }
 
-/// The place at the door becomes the client's, if the door has one for it.
+/// The place at the door becomes the client's, if the door has one for it. It may be another trusted proxy,
+/// which speaks for many as the first does.
 void Arrivals::named(uint64_t id, const std::string& ip, const std::string& peer) {
   SessionEntry* const entry = parts_.sessions.find(id);
   CHECK(entry != nullptr);  // as in begin_http()
   const double now_s = steady_now_s();
   const std::string address = relayed_address(ip);
-  if (const auto no = parts_.door.enter(address, now_s)) {
+  const bool is_proxy = parts_.config.proxies.contains(ip);
+  if (is_proxy) {
+    parts_.door.enter_unbounded(address, now_s);
+  } else if (const auto no = parts_.door.enter(address, now_s)) {
     const Refused refused = door_refusal(*no);
     count_turned_away(address, refused);
     const bool held = may_hold(now_s);
@@ -70,7 +74,7 @@ void Arrivals::named(uint64_t id, const std::string& ip, const std::string& peer
   }
   parts_.door.leave(entry->session->address(), now_s);
   entry->session->come_from(address, peer);
-  entry->relayed = false;
+  entry->relayed = is_proxy;
 }
 
 void Arrivals::accepting_failed(const std::string& why) {
