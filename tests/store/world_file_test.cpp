@@ -223,7 +223,9 @@ TEST_F(WorldFileTest, sql_that_came_with_a_file_does_not_run_and_the_file_is_ref
         const auto after = database->number("SELECT count(*) FROM chunks");
         EXPECT_TRUE(after.has_value() && *after == *before && **after > 0);
       }
-      if (kind == "view") EXPECT_FALSE(database->number("SELECT count(*) FROM pieces").has_value());
+      if (kind == "view") {
+        EXPECT_FALSE(database->number("SELECT count(*) FROM pieces").has_value());
+      }
     }
     const std::string said = refusal_of(path);
     EXPECT_NE(said.find("has a " + kind + " "), std::string::npos) << said;
