@@ -37,6 +37,11 @@ inline constexpr size_t recorder_wake_ticks = 60;
 /// Ticks that wait for the storage thread; above: the simulation waits for it, and the wait is counted.
 inline constexpr size_t recorder_queue_max = 600;
 
+/// How long the simulation waits for a disk that takes nothing of a full queue, seconds. Afterwards ticks are
+/// given up, and counted, until the disk answers: the game goes on. It is shorter than the time after which a
+/// simulation counts as stopped.
+inline constexpr double recorder_patience_s = 4.0;
+
 /// Lines of the log of events (--events) that wait for its thread, or are being written; above: they are
 /// lost, and counted.
 inline constexpr size_t event_lines_max = 4096;

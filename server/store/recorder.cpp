@@ -1,6 +1,7 @@
 #include "server/store/recorder.h"
 
 #include <algorithm>
+#include <chrono>
 #include <fmt/format.h>
 
 #include "server/store/limits.h"
@@ -9,6 +10,12 @@
 #include "shared/base/timing.h"
 
 namespace scree {
+
+namespace {
+
+constexpr std::chrono::duration<double> disk_patience(limits::recorder_patience_s);
+
+}  // namespace
 
 Recorder::Recorder(std::unique_ptr<State> state) : state_(std::move(state)) {}
 
@@ -20,9 +27,10 @@ void Recorder::commit_up_to(Tick tick) {
   std::unique_lock lock(state_->mutex);
   state_->wanted = std::max(state_->wanted, tick);
   state_->changed.notify_all();
-  state_->changed.wait(lock, [&] {
+  const bool is_known = state_->changed.wait_for(lock, disk_patience, [&] {
     return state_->safe >= tick || !state_->health.ok() || !state_->accepts || state_->ended;
   });
+  if (!is_known) state_->note_hanging();
 }
 
 void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command> commands,
@@ -35,7 +43,7 @@ void Recorder::push(std::shared_ptr<const TickDelta> delta, std::vector<Command>
     const auto is_full = [&] { return s.entries() >= limits::recorder_queue_max; };
     const auto may_go_on = [&] { return !is_full() || !s.health.ok() || !s.accepts || s.stopping; };
     if (!may_go_on()) ++s.waits;
-    s.changed.wait(lock, may_go_on);
+    if (!s.changed.wait_for(lock, disk_patience, may_go_on)) s.note_hanging();
     if (s.stopping) return;
     if (is_full()) s.accepts = false;  // the disk has failed for so long
     if (!s.accepts) {

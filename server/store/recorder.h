@@ -5,7 +5,8 @@
 // file, ticks wait in the queue, and nothing is lost as long as they fit. Otherwise the recording ends there,
 // playable up to its last commit, and goes on in another part beside it (recording_parts.h) as soon as a file
 // can be written: it asks for a world to begin that part with (wants_start()). Ticks in between are in no
-// part, and counted. The simulation goes on, and never waits for a disk that fails.
+// part, and counted. The simulation goes on, and never waits for a disk that fails; for one that hangs it
+// waits once, limits::recorder_patience_s.
 #pragma once
 
 #include <cstdint>

@@ -35,6 +35,8 @@ struct Recorder::State {
   double wake_s() const;
   void drop_older_parts();
   void note(const Result<void>& result);
+  /// With the mutex: the disk neither takes what waits nor refuses it. The next write that succeeds is well.
+  void note_hanging();
   void leave_off();
   void begin_part();
   void begin_with(const RecordingStart& start);

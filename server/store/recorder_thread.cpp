@@ -147,6 +147,14 @@ void Recorder::State::note(const Result<void>& result) {
   changed.notify_all();
 }
 
+void Recorder::State::note_hanging() {
+  if (!health.ok()) return;
+  health.since_unix_ms = unix_now_ms();
+  health.because =
+      fmt::format("the disk has not taken the recording for {:g} s", limits::recorder_patience_s);
+  changed.notify_all();
+}
+
 /// Ticks that wait cannot follow what was committed.
 void Recorder::State::leave_off() {
   {

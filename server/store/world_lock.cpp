@@ -37,7 +37,8 @@ bool is_plain(int file) {
 Result<WorldLock> WorldLock::acquire(const std::string& world_path) {
   std::error_code unknown;  // then the path is as it was given, and opening it says why
   const std::filesystem::path real = std::filesystem::weakly_canonical(world_path, unknown);
-  if (std::filesystem::hard_link_count(real, unknown) > 1 && !unknown)
+  if (!std::filesystem::is_directory(real, unknown) && std::filesystem::hard_link_count(real, unknown) > 1 &&
+      !unknown)
     return fail(world_path +
                 " has another name, too (a hard link), by which another server might use it: copy it, "
                 "and remove one of the names");

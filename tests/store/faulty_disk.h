@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <map>
 #include <sqlite3.h>
 #include <string>
+#include <thread>
 #include <vector>
 
 namespace scree {
@@ -37,6 +39,7 @@ class FaultyDisk {
   std::atomic<bool> full = false;       ///< nothing more fits
   std::atomic<bool> broken = false;     ///< writes and syncs fail
   std::atomic<bool> read_only = false;  ///< nothing may be written
+  std::atomic<bool> hangs = false;      ///< writes do not come back as long as it is so
   uint64_t dies_after = 0;              ///< writes until nothing works any more; 0: never
   uint64_t writes = 0;
   bool dead() const { return dies_after != 0 && writes > dies_after; }
@@ -92,6 +95,7 @@ class FaultyDisk {
   }
   static int write(sqlite3_file* file, const void* bytes, int count, sqlite3_int64 at) {
     FaultyDisk& disk = *current();
+    while (disk.hangs) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     ++disk.writes;
     if (disk.dead()) return SQLITE_IOERR_WRITE;
     if (disk.full) return SQLITE_FULL;

@@ -302,6 +302,34 @@ TEST_F(RecordingPartsTest, a_start_on_a_full_disk_records_once_there_is_room) {
   EXPECT_EQ(verified((*recorder)->path()), world.tick());
 }
 
+TEST_F(RecordingPartsTest, a_disk_that_hangs_holds_the_simulation_up_once_and_the_recording_goes_on) {
+  FaultyDisk disk;
+  auto recorder = Recorder::open(path, header(), nullptr);
+  ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+  ticks(**recorder, 60);
+  (*recorder)->commit_up_to(60);
+  disk.hangs = true;
+  const auto begin = Clock::now();
+  ticks(**recorder, static_cast<int>(limits::recorder_queue_max) + 200);
+  const std::chrono::duration<double> took = Clock::now() - begin;
+  const StoreHealth hanging = (*recorder)->health();
+  disk.hangs = false;
+  EXPECT_GE(took.count(), limits::recorder_patience_s) << "it did not hang";
+  EXPECT_LT(took.count(), 3.0 * limits::recorder_patience_s);
+  ASSERT_FALSE(hanging.ok());
+  EXPECT_TRUE(holds(*hanging.because, "has not taken the recording")) << *hanging.because;
+  EXPECT_GT(hanging.lost, 0U);
+  const auto deadline = Clock::now() + patience;
+  while (!(*recorder)->health().ok() && Clock::now() < deadline) {
+    tick(**recorder);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  ticks(**recorder, 40);
+  ASSERT_TRUE((*recorder)->finish().has_value());
+  EXPECT_GT(verified(path), 60U);
+  EXPECT_EQ(verified((*recorder)->path()), world.tick());
+}
+
 TEST_F(RecordingPartsTest, a_part_that_begins_as_the_server_ends_has_its_last_ticks) {
   for (int round = 0; round < 5; ++round) {  // the thread may be faster
     const std::string named = path + std::to_string(round);
