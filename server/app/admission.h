@@ -52,7 +52,7 @@ class Admission {
   Verdict admit_with(const Command& command, double added_bytes);
 
   std::deque<Held> held_;
-  /// Of commands that have no answer yet, by session and number, which a client may use again and again.
+  /// What commands without an answer hold, by session and number, which a client may use again and again.
   std::map<std::pair<uint64_t, uint32_t>, std::multiset<double>> reserved_bytes_;
   double reserved_sum_bytes_ = 0.0;
   uint64_t held_count_ = 0;

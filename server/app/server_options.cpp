@@ -5,7 +5,9 @@
 #include <array>
 #include <cctype>
 #include <cstdio>
+#include <cstdlib>
 #include <limits>
+#include <string_view>
 #include <unistd.h>
 
 #include "proto/messages.h"
@@ -297,6 +299,20 @@ std::string fault_of(const CLI::ConfigItem& item) {
   return {};
 }
 
+/// CLI11 reads the file of options before it reads variables, and so none that a variable names.
+std::vector<const char*> with_config_of_environment(std::vector<const char*> arguments) {
+  static constexpr std::string_view flag = "--config";
+  const auto is_given = [](const char* argument) {
+    const std::string_view text(argument);
+    return text == flag || (text.starts_with(flag) && text[flag.size()] == '=');
+  };
+  const char* const path = std::getenv("SCREE_CONFIG");
+  if (path == nullptr || *path == '\0' || arguments.empty() || std::ranges::any_of(arguments, is_given))
+    return arguments;
+  arguments.insert(arguments.begin() + 1, {flag.data(), path});
+  return arguments;
+}
+
 }  // namespace
 
 std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
@@ -312,7 +328,8 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   try {
     if (const std::string fault = fault_in_environment(variables, environ); !fault.empty())
       throw CLI::ValidationError(fault);
-    app.parse(argc, argv);
+    const std::vector<const char*> arguments = with_config_of_environment({argv, argv + argc});
+    app.parse(static_cast<int>(arguments.size()), arguments.data());
     if (const auto preset = kind_named<Preset>(raw.preset)) apply_preset(app, *preset, server_preset_options);
     refuse_shared_files(raw, named_file(*config));
     raw.doors.complete(raw.options.live.net);

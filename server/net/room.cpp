@@ -50,7 +50,7 @@ tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const
       fmt::format("the server is full: {} sessions (sessions-max); try again later", sessions_max()));
 }
 
-/// Nobody who plays goes for it, and no administrator. Of the programs that came without a token, the first
+/// Nobody who plays goes for it, and no administrator. The first of the programs that came without a token
 /// goes; an administrator also takes the room of a program whose token is of another role.
 tl::expected<void, Refused> Room::find_room_beside(const SessionTable& sessions, const Grant& grant) {
   const SessionEntry* first_without_token = nullptr;

@@ -7,8 +7,8 @@
 
 namespace scree {
 
-/// A pure function of the ground, near its middle. It reads about a thousand heights, which takes milliseconds.
-/// For a ground by heights its tiles must be there.
+/// A pure function of the ground, near its middle. It reads about a thousand heights, which takes
+/// milliseconds. For a ground by heights its tiles must be there.
 Spawn overlook_of(const TerrainSource& source);
 
 }  // namespace scree

@@ -200,6 +200,30 @@ TEST(ServerOptions, admin_token_comes_from_a_file_or_the_command_line) {
   EXPECT_EQ(std::get<ServerOptions>(from_line).live.net.admin_token, "token-on-the-line");
 }
 
+TEST(ServerOptions, a_variable_names_the_file_of_options_unless_a_flag_does) {
+  const TestFolder folder;
+  const std::string one = folder / "one.toml", two = folder / "two.toml";
+  std::ofstream(one) << "sessions-max = 7\n";
+  std::ofstream(two) << "sessions-max = 9\n";
+  const auto sessions_max = [](std::initializer_list<const char*> arguments) {
+    const auto parsed = parse(arguments);
+    return std::holds_alternative<ServerOptions>(parsed)
+               ? std::get<ServerOptions>(parsed).live.world.service.sessions_max
+               : 0;
+  };
+  ::setenv("SCREE_CONFIG", one.c_str(), 1);
+  EXPECT_EQ(sessions_max({}), 7U);
+  const std::string flag = "--config=" + two;
+  EXPECT_EQ(sessions_max({"--config", two.c_str()}), 9U);
+  EXPECT_EQ(sessions_max({flag.c_str()}), 9U);
+  EXPECT_EQ(sessions_max({"--sessions-max", "5"}), 5U);
+  ::setenv("SCREE_CONFIG", (folder / "none.toml").c_str(), 1);
+  EXPECT_EQ(exit_code({}), 2);
+  ::setenv("SCREE_CONFIG", "", 1);
+  EXPECT_EQ(sessions_max({"--sessions-max", "5"}), 5U);
+  ::unsetenv("SCREE_CONFIG");
+}
+
 TEST(ServerOptions, access_is_configured_like_everything_else) {
   const auto access = [](std::vector<const char*> arguments) {
     const auto parsed = parse(std::move(arguments));

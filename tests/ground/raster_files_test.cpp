@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
 
 #include "ground/ground_file.h"
+#include "tests/support/holds.h"
+#include "tests/support/test_folder.h"
 #include "tests/support/vrt_raster.h"
 #include "tools/import/gdal/raster_reader.h"
 #include "tools/import/heights_import.h"
@@ -100,6 +103,25 @@ TEST(RasterFiles, points_that_begin_in_the_south_are_turned_over) {
   EXPECT_EQ(grid.at(0, 4), 5.0) << "the south-west";
   EXPECT_EQ(grid.at(1, 4), 0.0);
   EXPECT_EQ(grid.at(0, 0), 45.0) << "the north-west";
+}
+
+TEST(RasterFiles, an_ascii_grid_with_a_word_that_is_no_number_or_too_few_heights_is_refused) {
+  const TestFolder folder;
+  const std::string path = folder / "grid.asc";
+  const auto read = [&](const std::string& heights) {
+    std::ofstream(path) << "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n"
+                        << heights;
+    return read_whole(path);
+  };
+  const auto refusal = [&](const std::string& heights) { return read(heights).refusal; };
+  EXPECT_TRUE(holds(refusal("1 2 3\n4 abc 6\n"), "'abc' is no height: row 2, column 2"));
+  EXPECT_TRUE(holds(refusal("1O0 2 3\n4 5 6\n"), "'1O0' is no height: row 1, column 1"));
+  EXPECT_TRUE(holds(refusal("1 2 3\n4 5\n"), "it has 5 heights, and its header says 3 × 2"));
+  EXPECT_TRUE(holds(refusal("1 2 3\n4 5 6 7\n"), "it has 7 heights"));
+  const WholeRaster whole = read("1.5 +2 3e0\n-4 5. -9999\n");
+  ASSERT_EQ(whole.refusal, "");
+  EXPECT_EQ(whole.at(0, 0), 1.5);
+  EXPECT_EQ(whole.at(0, 1), -4.0);
 }
 
 TEST(RasterFiles, a_file_with_several_rasters_lists_them) {

@@ -309,6 +309,8 @@ TEST_F(RecordingPartsTest, a_disk_that_hangs_holds_the_simulation_up_once_and_th
   ticks(**recorder, 60);
   (*recorder)->commit_up_to(60);
   disk.hangs = true;
+  ticks(**recorder, 1);
+  std::this_thread::sleep_for(std::chrono::duration<double>(2.0 * limits::seconds_per_commit));
   const auto begin = Clock::now();
   ticks(**recorder, static_cast<int>(limits::recorder_queue_max) + 200);
   const std::chrono::duration<double> took = Clock::now() - begin;

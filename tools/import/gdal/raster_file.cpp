@@ -11,6 +11,7 @@
 #include <optional>
 #include <string_view>
 
+#include "tools/import/gdal/ascii_grid.h"
 #include "tools/import/gdal/gdal_library.h"
 #include "tools/import/limits.h"
 
@@ -84,6 +85,10 @@ Result<Dataset> open(const std::string& address) {
       GDALOpenEx(address.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr,
                  nullptr)));
   if (!dataset) return fail("not an elevation model: " + gdal_words("GDAL does not know its format"));
+  const GDALDriver* const driver = dataset->GetDriver();
+  if (driver != nullptr && std::string_view(driver->GetDescription()) == "AAIGrid")
+    TRY(check_ascii_grid(address, static_cast<uint64_t>(dataset->GetRasterXSize()),
+                         static_cast<uint64_t>(dataset->GetRasterYSize())));
   return dataset;
 }
 

@@ -100,7 +100,7 @@ class Sorting {
     return bottom;
   }
 
-  /// Of parts with holes: whether they stay open bodies. Sheets are filled down or left out unless they are
+  /// Whether parts with holes stay open bodies. Sheets are filled down or left out unless they are
   /// to be closed.
   bool is_closed_by_windings(size_t at) const { return !sheets_[at] || rule_.sheet == SheetRule::close; }
 
