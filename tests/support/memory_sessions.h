@@ -14,6 +14,14 @@ namespace scree {
 
 class MemorySessions final : public SessionHost {
  public:
+  MemorySessions() = default;
+  MemorySessions(const MemorySessions&) = delete;
+  MemorySessions& operator=(const MemorySessions&) = delete;
+  /// What a link waits for holds its session, and the session holds the link.
+  ~MemorySessions() {
+    for (const auto& [id, link] : links) link->close();
+  }
+
   /// A session that has said nothing.
   std::shared_ptr<ClientSession> connect(uint64_t id, const std::string& ip) {
     links[id] = std::make_shared<MemoryTransport>(ip);
