@@ -13,7 +13,7 @@ import { pad_state } from './page/pad.js';
 import { picture_name } from './page/picture.js';
 import { Socket, ask_why, session_url, told_url, why_closed } from './page/socket.js';
 import { points } from './page/spark.js';
-import { heads, lists, stage_bars } from './page/status_figures.js';
+import { budget_text, heads, latency_bars, lists, stage_bars } from './page/status_figures.js';
 import { bytes, span, time, whole } from './page/words.js';
 
 test('an address says the view and says it back', () => {
@@ -35,6 +35,10 @@ test('a token in the address that is none is told of', () => {
 
 test('a link never has the token or the name', () => {
   assert.equal(format(parse('#token=secret&name=Ann&method=mesh')), '#method=mesh');
+});
+
+test('a link leaves the quality that a page chooses to the page that opens it', () => {
+  assert.equal(format({ quality: 'auto', view: '64.4' }), '#view=64');
 });
 
 test('the address is written after a rest, once', () => {
@@ -105,6 +109,7 @@ test('keys go to what has the focus first', () => {
   assert.equal(is_taken('Space', 'button'), true);
   assert.equal(is_taken('ArrowLeft', 'slider'), true);
   assert.equal(is_taken('ArrowLeft', null), false);
+  assert.equal(is_taken('KeyW', 'choice'), true);
   assert.equal(kind_of({ tagName: 'INPUT', type: 'range' }), 'slider');
   assert.equal(kind_of({ tagName: 'INPUT', type: 'password' }), 'text');
   assert.equal(kind_of({ tagName: 'CANVAS', getAttribute: () => null }), null);
@@ -282,6 +287,44 @@ test('a curve ends at its right, and its highest value is at the top', () => {
   assert.equal(points([], 100, 10), '');
 });
 
+/** The module as a page at that path has it, which reads its path once. */
+async function kept_at(pathname, storage) {
+  const before = Object.getOwnPropertyDescriptors(globalThis);
+  const set = (name, value) => Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
+  set('location', { pathname });
+  set('sessionStorage', storage);
+  set('localStorage', storage);
+  const module = await import(`./page/kept.js?${pathname}`);
+  if (before.location) Object.defineProperty(globalThis, 'location', before.location);
+  else delete globalThis.location;
+  return module;
+}
+
+function storage_of_nothing() {
+  const kept = new Map();
+  return { getItem: (key) => kept.get(key) ?? null, setItem: (key, value) => kept.set(key, value) };
+}
+
+test('a token is kept for one server of several behind a proxy', async () => {
+  const storage = storage_of_nothing();
+  const one = await kept_at('/one/', storage), page_of_one = await kept_at('/one/status.html', storage);
+  const other = await kept_at('/two/', storage);
+  one.token.keep('secret');
+  assert.equal(page_of_one.token.load(), 'secret');
+  assert.equal(other.token.load(), '');
+});
+
+test('choices of tool and view come back, and what is no choice is left out', async () => {
+  const { choices_of, keep, restore } = await kept_at('/', storage_of_nothing());
+  const tool = { kind: 'ball', use: 'carve', radius_m: 2, of_the_day: 1 }, view = { particles: false, look_speed: 1.5 };
+  keep(choices_of({ tool, view }));
+  keep({ tool: { ...choices_of({ tool, view }).tool, seeds: { many: true } } });
+  const told = [];
+  restore({ set: (wish, value) => told.push([wish, value]) });
+  assert.deepEqual(told,
+    [['tool', 'ball'], ['use', 'carve'], ['radius', 2], ['particles', false], ['look_speed', 1.5]]);
+});
+
 const status = {
   tick_rate_hz: 60, replay: false, version: '1',
   now: { tick: 600, clients: 2, pieces: 3, tick_median_ms: 20, tick_worst_ms: 30, stages_ms: { commands: 1, step: 8 }, work: { budget_us: 0, islands_put_off: 4 }, saving: 'failed', saved_tick: 1 },
@@ -299,4 +342,18 @@ test('the status page marks what is wrong', () => {
   assert.deepEqual(work, [['islands put off', '4']]);
   assert.deepEqual(wire, [['bytes sent', '5.0 kB']]);
   assert.deepEqual(stage_bars(status).map(({ part }) => part <= 1), [true, true]);
+});
+
+test('a bar of the status page ends at its right, and the longest there is goes that far', () => {
+  const slow = { ...status, report: { ...status.report, stages_ms: { step: { worst: 500 } } } };
+  assert.deepEqual(stage_bars(slow).map(({ worst }) => worst), [undefined, 1]);
+  const latency_ms = { waiting: { median: 8, worst: 16 }, sent: { median: 2, worst: 4 } };
+  const bars = latency_bars({ now: { latency_ms } });
+  assert.deepEqual(bars.map(({ part, worst }) => [part, worst]), [[0.5, 1], [0.125, 0.25]]);
+});
+
+test('the status page says the work of a tick in the unit of its length', () => {
+  const now = { ...status.now, work: { budget_us: 9000, worst_us: 1500 } };
+  assert.match(budget_text({ ...status, now }), /^A tick has 16.7 ms.*: 1.50 ms of 9.00 ms /);
+  assert.equal(budget_text(status), 'A tick has 16.7 ms.');
 });
