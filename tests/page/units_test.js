@@ -4,6 +4,7 @@ import { test } from 'node:test';
 
 import { AddressBar, format, parse } from './page/address.js';
 import { Backoff } from './page/backoff.js';
+import { all, brief } from './page/figures.js';
 import { STICK, TAP, Thumbs, tilt } from './page/gestures.js';
 import { terrain_part } from './page/gate.js';
 import { is_taken, kind_of } from './page/keyboard.js';
@@ -13,7 +14,7 @@ import { pad_state } from './page/pad.js';
 import { picture_name } from './page/picture.js';
 import { Socket, ask_why, session_url, told_url, why_closed } from './page/socket.js';
 import { points } from './page/spark.js';
-import { budget_text, heads, latency_bars, lists, stage_bars } from './page/status_figures.js';
+import { budget_text, heads, latency_bars, lists, session_row, stage_bars } from './page/status_figures.js';
 import { bytes, span, time, whole } from './page/words.js';
 
 test('an address says the view and says it back', () => {
@@ -142,6 +143,8 @@ test('places on a timeline and ticks are each other', () => {
 
 test('a timeline tells what is near', () => {
   assert.equal(events_near(0.51, 0.005, marks, playback), '1 fall, 3 carve');
+  assert.equal(events_near(0.524, 0.005, marks, playback), '3 carve');
+  assert.equal(events_near(0.496, 0.005, marks, playback), '1 fall');
   assert.equal(events_near(0.3, 0.005, marks, playback), '');
   assert.deepEqual([...rows_of(marks)], [['carve', 3], ['fall', 1]]);
 });
@@ -279,6 +282,7 @@ test('numbers read as people write them', () => {
   assert.equal(time(60 * 3600 * 2, 60), '2:00:00');
   assert.equal(whole(1234567), '1\u00a0234\u00a0567');
   assert.equal(span(90061), '1 d 1 h');
+  assert.equal(span(2 * 3600 + 3 * 60 + 59), '2 h 3 min');
   assert.equal(picture_name(new Date('2026-01-02T03:04:05Z')), 'scree-2026-01-02T03-04-05.png');
 });
 
@@ -356,4 +360,32 @@ test('the status page says the work of a tick in the unit of its length', () => 
   const now = { ...status.now, work: { budget_us: 9000, worst_us: 1500 } };
   assert.match(budget_text({ ...status, now }), /^A tick has 16.7 ms.*: 1.50 ms of 9.00 ms /);
   assert.equal(budget_text(status), 'A tick has 16.7 ms.');
+});
+
+test('a session without a name is called by its number', () => {
+  const session = { session: 7, name: '', role: 'viewer', address: '10.0.0.1', program: 'bot', seconds: 61,
+    sent_bytes: 1 };
+  assert.deepEqual(session_row(session), ['#7', 'viewer', '10.0.0.1', 'bot', '1 min', '1 B']);
+  assert.equal(session_row({ ...session, name: 'Ann' })[0], 'Ann');
+});
+
+const seen = {
+  frame: { median_ms: 20, worst_ms: 40 }, pieces_near: 3, complete: true, pace: 0.5, latency_ms: null, predictions: 0,
+  traffic: { received_bytes: 10, received_bytes_per_s: 1, sent_bytes: 5 }, connection: { replay: false }, status: null,
+  draw: { method: 'mesh', draws: 1, triangles: 2, kept: 3, waiting: 4, driver: '', gl_errors: 0, first_gl_error: '' },
+  mirror: { checks: 9, mismatches: 0, held_chunks: 1, edited_bricks: 2 },
+};
+
+test('a world that is slower than time is told of, but not a replay', () => {
+  const named = (state) => brief(state).map(([name]) => name);
+  assert.deepEqual(brief(seen).at(-1), ['time', '× 0.50']);
+  assert.ok(!named({ ...seen, pace: 1 }).includes('time'));
+  assert.ok(!named({ ...seen, connection: { replay: true } }).includes('time'));
+});
+
+test('rock that differed from the server, and what OpenGL refused, is marked', () => {
+  const bad = (state) => all(state).flatMap(([, rows]) => rows).filter((row) => row[2]).map(([name]) => name);
+  assert.deepEqual(bad(seen), []);
+  const mirror = { ...seen.mirror, mismatches: 1 }, draw = { ...seen.draw, gl_errors: 2, first_gl_error: 'lost' };
+  assert.deepEqual(bad({ ...seen, mirror, draw }), ['OpenGL errors', 'that differed']);
 });
