@@ -7,6 +7,8 @@
 
 #include "client/cache/cache_folder.h"
 #include "client/cache/limits.h"
+#include "client/cache/tile_folder.h"
+#include "crypto/sha256.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/tick_source.h"
@@ -197,6 +199,29 @@ TEST_F(CacheFolderTest, all_files_are_bounded_and_the_ones_written_longest_ago_g
   EXPECT_TRUE(narrow.read("b:1", std::nullopt));
   EXPECT_TRUE(narrow.read("c:1", std::nullopt));
   EXPECT_TRUE(fs::exists(folder / "cache/thesis.chunks")) << "another's file";
+}
+
+TEST_F(CacheFolderTest, tiles_of_grounds_and_chunks_are_bounded_together_by_their_age) {
+  in.write(a_server, {a_world, voxel_m, carved.cache.all()});
+  const fs::path chunks = files().front();
+  const TileFolder tiles(folder / "cache");
+  const auto older = [](const fs::path& file, int hours) {
+    fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::hours(hours));
+  };
+  std::vector<Digest> digests;
+  for (uint8_t i = 0; i < 3; ++i) {
+    const std::vector<uint8_t> bytes(100, i);
+    digests.push_back(sha256(bytes));
+    tiles.write(digests.back(), bytes);
+    older(folder / ("cache/" + hex_of(digests.back()) + tile_extension), 4 - i);
+  }
+  older(chunks, 1);
+  ASSERT_TRUE(tiles.read(digests[0])) << "the first is used now";
+  CacheFolder(folder / "cache", fs::file_size(chunks) + 250).bound();
+  EXPECT_TRUE(tiles.read(digests[0]));
+  EXPECT_FALSE(tiles.read(digests[1])) << "it is the oldest";
+  EXPECT_TRUE(tiles.read(digests[2]));
+  EXPECT_TRUE(fs::exists(chunks));
 }
 
 TEST_F(CacheFolderTest, a_file_that_was_never_finished_is_not_read_and_goes_in_time) {
