@@ -81,6 +81,22 @@ TEST(Room, those_without_a_token_give_way_first_then_the_idlest_and_administrato
   EXPECT_EQ(gives_way(holder(8)), 0U);
 }
 
+TEST(Room, who_holds_a_token_and_acts_keeps_his_place_from_others_who_hold_one) {
+  MemorySessions sessions;
+  sessions.join(1, "10.0.0.1", holder(7));
+  const auto newcomer = sessions.connect(9, "10.0.0.2");
+  const auto gives_way = [&] {
+    return who_gives_way(sessions.table, *newcomer, holder(8), sessions.now_s).has_value();
+  };
+  EXPECT_FALSE(gives_way()) << "he has just come";
+  sessions.now_s += limits::idle_seconds_max + 1.0;
+  sessions.links[1]->send(encode(ClientMessage(InterestMessage{{1.0F, 2.0F, 3.0F}, 64.0F})));
+  sessions.pump(1);
+  EXPECT_FALSE(gives_way()) << "he has just acted";
+  sessions.now_s += limits::idle_seconds_max + 1.0;
+  EXPECT_TRUE(gives_way());
+}
+
 TEST(Room, the_address_with_the_most_sessions_gives_way) {
   MemorySessions sessions;
   for (const uint64_t id : {1, 2, 3}) sessions.join(id, "10.0.0.1", viewer);

@@ -5,6 +5,7 @@
 #include <spdlog/spdlog.h>
 #include <sstream>
 
+#include "proto/limits.h"
 #include "server/net/limits.h"
 #include "tests/support/holds.h"
 #include "tests/support/net_server_fixture.h"
@@ -88,6 +89,17 @@ TEST(Talk, a_list_is_told_when_it_changed_and_not_too_often) {
   EXPECT_EQ(talk.untold(100.0 + limits::persons_interval_s), std::vector<uint64_t>{5});
   talk.leave(5);
   EXPECT_EQ(talk.untold(200.0), std::vector<uint64_t>{3});
+}
+
+TEST(Talk, a_list_that_not_all_fit_into_is_told_more_seldom) {
+  Talk talk(true);
+  for (uint64_t session = 1; session <= limits::persons_max + 2; ++session)
+    talk.join(session, session, "", Role::viewer);
+  EXPECT_EQ(talk.list().persons.size(), limits::persons_max);
+  EXPECT_EQ(talk.list().more, 2U);
+  talk.told(1, 10.0);
+  EXPECT_TRUE(talk.untold(10.0 + 0.9 * limits::persons_many_interval_s).empty());
+  EXPECT_EQ(talk.untold(10.0 + limits::persons_many_interval_s).size(), limits::persons_max + 1);
 }
 
 /// A client that meets others, and one as there were before.
