@@ -3,6 +3,10 @@
 #include <map>
 
 #include "bench/support/travels.h"
+#include "server/world/buried_stage.h"
+#include "server/world/limits.h"
+#include "server/world/merge_stage.h"
+#include "server/world/spawn.h"
 #include "server/world/world.h"
 #include "shared/field/piece.h"
 #include "tests/support/flat_world.h"
@@ -110,6 +114,85 @@ TEST_P(Buried, with_recombination_off_they_fall_once_they_are_dug_free) {
     if (glm::dot(way_m, way_m) > 0.01F) ++moved;
   }
   EXPECT_GT(moved, lay_m.size() / 2) << "of " << lay_m.size();
+}
+
+/// The state of a flat world with balls that were cut out of the rock, and lie elsewhere.
+class CutBalls : public ::testing::Test {
+ protected:
+  PieceId put_at(glm::vec3 place_m, float radius_m = 1.0F) {
+    const PieceId ball = state.next_piece;
+    const glm::vec3 from_m(-6.0F * static_cast<float>(ball), -6.0F, 0.0F);
+    const Applied cut = state.apply_and_record(
+        CarveOperation{sphere(from_m, radius_m), SeedPattern::uniform, 1, 1, from_m, ball}, 0, delta);
+    state.enter_removed(cut);
+    const auto elsewhere = [&](PieceId, const Volume&) {
+      Newborn born;
+      born.body.pose.position_m = place_m;
+      return born;
+    };
+    spawn(state, cut, elsewhere, delta);
+    return ball;
+  }
+  void look(Tick ticks = 60) {
+    for (Tick tick = 0; tick < ticks; ++tick) {
+      ++state.tick;
+      merge_buried(state, delta);
+    }
+  }
+
+  World::State state{flat_world(), 1};
+  TickDelta delta;
+};
+
+TEST_F(CutBalls, in_rock_become_terrain_but_not_while_they_are_frozen) {
+  const PieceId piece = put_at({12.0F, -6.0F, 0.0F});
+  state.bodies.freeze(piece);
+  look();
+  EXPECT_TRUE(state.sunk.empty()) << "nobody looks at it";
+  ASSERT_TRUE(state.pieces.contains(piece));
+  state.bodies.thaw_all();
+  look();
+  EXPECT_FALSE(state.pieces.contains(piece));
+}
+
+TEST_F(CutBalls, that_are_in_rock_for_less_than_two_looks_stay_pieces) {
+  const PieceId piece = put_at({12.0F, -6.0F, 0.0F});
+  look(state.config.tick_rate_hz / limits::buried_scan_hz);
+  ASSERT_TRUE(state.sunk.contains(piece)) << "it was looked at once";
+  EXPECT_TRUE(state.pieces.contains(piece));
+  look();
+  EXPECT_FALSE(state.pieces.contains(piece));
+}
+
+TEST_F(CutBalls, take_dust_with_them_when_they_become_terrain) {
+  const PieceId piece = put_at({12.0F, 1.0F, 0.0F});
+  const MassUnits mass = state.ledger.pieces, dust = 2 * mass;
+  state.ledger.dust = dust;
+  merge_pieces(state, {piece}, delta);
+  EXPECT_EQ(state.ledger.pieces, 0);
+  EXPECT_LE(state.ledger.dust, dust - mass / 64);
+  EXPECT_GE(state.ledger.dust, dust - mass / 32);
+}
+
+TEST_F(CutBalls, that_become_terrain_in_the_air_fall_once) {
+  merge_pieces(state, {put_at({12.0F, 6.0F, 0.0F})}, delta);
+  ASSERT_TRUE(state.pieces.empty());
+  drop_islands(state, delta);
+  ASSERT_EQ(state.pieces.size(), 1U);
+  merge_pieces(state, {state.pieces.begin()->first}, delta);
+  drop_islands(state, delta);
+  EXPECT_TRUE(state.pieces.empty()) << "or it would fall for ever";
+}
+
+TEST_F(CutBalls, in_the_volume_of_a_larger_one_become_terrain_before_it) {
+  const PieceId large = put_at({12.0F, 1.0F, 0.0F}, 1.5F), small = put_at({12.5F, 0.8F, 0.0F}, 0.5F);
+  const PieceId beside = put_at({12.0F, 1.0F, 5.0F}, 0.5F);
+  delta.operations.clear();
+  merge_pieces(state, {large}, delta);
+  ASSERT_EQ(delta.operations.size(), 2U);
+  EXPECT_EQ(pieces_ended_by(delta.operations[0].operation), std::vector<PieceId>{small});
+  EXPECT_EQ(pieces_ended_by(delta.operations[1].operation), std::vector<PieceId>{large});
+  EXPECT_TRUE(state.pieces.contains(beside));
 }
 
 std::string name_of_collider(const ::testing::TestParamInfo<TerrainColliderKind>& info) {

@@ -216,6 +216,14 @@ TEST(impact, soft_ground_dents_and_rock_does_not) {
   EXPECT_EQ(step_until<CarveOperation>(hard), nullptr);
 }
 
+TEST(impact, a_dent_is_of_the_party_whose_piece_fell) {
+  World world(flat_world());
+  step(world, hang_block({0.0F, 20.0F, 0.0F}, 1.0F, 1));
+  const auto dented = step_until<CarveOperation>(world);
+  ASSERT_NE(dented, nullptr);
+  for (const AppliedOperation& applied : dented->operations) EXPECT_EQ(applied.party, 1U);
+}
+
 TEST(impact, caps_on_generations_size_and_count_keep_the_mass) {
   WorldConfig config = flat_world();
   config.pieces_max = 40;

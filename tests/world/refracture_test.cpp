@@ -38,6 +38,14 @@ TEST(refracture, more_pieces_than_the_volume_has_room_for_come_to_an_end) {
   }
 }
 
+TEST(refracture, what_was_lifted_whole_is_cut_in_the_next_tick_whatever_that_costs) {
+  World world(flat_world());
+  auto delta = world.step({{{1, 1, ball(8.0F, 2000)}}});
+  ASSERT_EQ(delta->pieces.size(), 1U);
+  delta = world.step({});
+  EXPECT_GT(delta->pieces.size(), 1U);
+}
+
 TEST(refracture, pieces_that_froze_while_they_waited_are_cut) {
   WorldConfig config = flat_world();
   config.methods.recombine = Recombination::off;

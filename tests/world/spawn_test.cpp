@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "server/app/saved_world.h"
+#include "server/field/vdb_field.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
 #include "server/store/recorder.h"
@@ -58,6 +59,18 @@ TEST(Spawn, who_would_begin_in_rock_is_lifted_out_of_it) {
   dig.impact_m = at_m;
   const std::vector<Command> carve{{1, 3, dig}};
   EXPECT_EQ(world.step(carve)->spawn, chosen) << "somebody dug it free again";
+}
+
+TEST(Spawn, follows_the_terrain_when_a_replay_jumps) {
+  VdbField filled(flat_terrain), before(flat_terrain);
+  PieceTable pieces;
+  const Applied over = apply(FillOperation{box(chosen.eye_m, glm::vec3(3.0F))}, filled, pieces);
+  SpawnPlace place;
+  EXPECT_GT(place.find(filled, chosen).eye_m.y, chosen.eye_m.y);
+  TickDelta jump;
+  jump.reverted = over.changed;
+  place.follow(before, chosen, jump);
+  EXPECT_EQ(jump.spawn, chosen);
 }
 
 TEST(Spawn, is_saved_with_its_world) {

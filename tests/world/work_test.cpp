@@ -2,6 +2,7 @@
 // counted.
 #include "server/work/work.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>
@@ -118,6 +119,18 @@ TEST(work, a_client_that_asks_for_more_than_a_second_of_work_is_told_so_at_once)
   }
   EXPECT_GT(refused, 100U);
   EXPECT_LT(refused, 399U);
+}
+
+TEST(work, where_ticks_have_less_time_less_work_may_wait) {
+  const auto refused = [](uint32_t percent) {
+    World world({});
+    step(world, {{0, 0, SettingsRequest{{{"work-percent", std::to_string(percent)}}}}});
+    std::vector<Command> commands;
+    for (uint32_t i = 0; i < 400; ++i) commands.push_back({3, i, blows(world, 1, 64)[0].body});
+    const auto delta = step(world, commands);
+    return std::ranges::count(delta->replies, Refusal::requests_waiting, &Reply::reason);
+  };
+  EXPECT_GT(refused(limits::work_percent_max / 2), refused(limits::work_percent_max));
 }
 
 TEST(work, a_request_that_costs_several_ticks_is_paid_back_before_the_next) {
