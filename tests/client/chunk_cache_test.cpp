@@ -186,6 +186,13 @@ TEST_F(CacheFolderTest, a_file_of_another_world_under_this_ones_name_is_none) {
   EXPECT_FALSE(in.read(a_server, a_world));
 }
 
+TEST_F(CacheFolderTest, a_file_larger_than_the_bound_is_not_read) {
+  in.write(a_server, {a_world, voxel_m, carved.cache.all()});
+  const uintmax_t bytes = fs::file_size(files().front());
+  EXPECT_TRUE(CacheFolder(folder / "cache", bytes).read(a_server, a_world));
+  EXPECT_FALSE(CacheFolder(folder / "cache", bytes - 1).read(a_server, a_world));
+}
+
 TEST_F(CacheFolderTest, all_files_are_bounded_and_the_ones_written_longest_ago_go_first) {
   const CachedWorld cached{a_world, voxel_m, carved.cache.all()};
   in.write("a:1", cached);

@@ -123,6 +123,20 @@ TEST_F(GroundJoinTest, tiles_nobody_asked_for_and_tiles_of_another_hash_are_refu
   EXPECT_EQ(good.next_request({}, 64.0F).held.size(), good.tiles_received());
 }
 
+TEST_F(GroundJoinTest, coarse_tiles_are_asked_for_before_fine_ones) {
+  const HeightLayout& layout = ground_->layout();
+  ReceivedTiles tiles({layout, ground_->header().ground.top}, TileFolder({}));
+  bool mixed = false;
+  const auto next = [&] { return tiles.next_request({}, 64.0F).wanted; };
+  for (std::vector<TileKey> wanted = next(); !wanted.empty(); wanted = next()) {
+    EXPECT_TRUE(std::ranges::is_sorted(wanted, std::ranges::greater{}, &TileKey::level));
+    mixed = mixed || wanted.front().level != wanted.back().level;
+    for (const TileKey key : wanted) ASSERT_TRUE(tiles.accept({key, ground_->packed(key)}));
+    if (wanted.front().level == 1) tiles.tile({0, 0, 0});  // somebody misses a far one
+  }
+  EXPECT_TRUE(mixed);
+}
+
 /// The same with stored bricks over the hills.
 class BrickJoinTest : public GroundJoinTest {
  protected:

@@ -2,10 +2,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <set>
 #include <unistd.h>
 
 #include "client/mirror/mirror.h"
+#include "server/field/vdb_field.h"
 #include "server/store/recorder.h"
+#include "server/world/island_stage.h"
+#include "server/world/limits.h"
 #include "server/world/published_state.h"
 #include "server/world/world.h"
 #include "tests/support/flat_world.h"
@@ -187,6 +191,27 @@ TEST(falling, an_island_waits_while_there_are_as_many_pieces_as_there_may_be) {
   }
   EXPECT_EQ(islands, 1U);
   EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain);
+}
+
+TEST(falling, of_islands_that_wait_the_lowest_falls_first) {
+  VdbField field(flat_terrain);
+  PieceTable pieces;
+  std::set<BrickCoord> changed;
+  for (const float y_m : {6.0F, 18.0F, 12.0F}) {
+    const Applied poured = apply(FillOperation{box({0.0F, y_m, 0.0F}, glm::vec3(1.0F))}, field, pieces);
+    changed.insert(poured.changed.begin(), poured.changed.end());
+  }
+  IslandQueue islands;
+  islands.push(1, {changed.begin(), changed.end()});
+  SearchAllowance allowance{.bricks = limits::island_bricks_per_tick_max};
+  ASSERT_TRUE(islands.search(field, allowance));
+  std::vector<int> feet;
+  while (const Island* const next = islands.next()) {
+    feet.push_back(next->box.lo.y);
+    islands.pop(0.0F);
+  }
+  EXPECT_EQ(feet.size(), 3U);
+  EXPECT_TRUE(std::ranges::is_sorted(feet));
 }
 
 TEST(falling, what_waits_to_fall_and_is_propped_up_meanwhile_stays) {

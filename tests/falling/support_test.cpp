@@ -232,6 +232,20 @@ TEST(support, an_overhang_falls_from_a_thin_neck_and_hangs_on_a_thick_one) {
   EXPECT_EQ(thick.islands, 0U);
 }
 
+TEST(support, what_has_no_room_for_its_pieces_falls_when_there_is_some) {
+  WorldConfig config = supported();
+  config.pieces_max = 3;
+  World world(config);
+  Happened before, after;
+  for (const auto& commands : overhang(0.75F)) before.add(world, *step(world, commands));
+  for (int tick = 0; tick < 20; ++tick) before.add(world, *step(world));
+  EXPECT_EQ(before.islands, 0U);
+  step(world, {{1, 3, SettingsRequest{{{"pieces-max", "500"}}}}});
+  for (int tick = 0; tick < 40; ++tick) after.add(world, *step(world));
+  EXPECT_GE(after.islands, 1U);
+  EXPECT_TRUE(before.exact && after.exact);
+}
+
 TEST(support, carving_flat_ground_is_the_same_with_it_and_without) {
   WorldConfig off = supported();
   off.methods.support = false;
