@@ -110,6 +110,17 @@ TEST(Room, the_address_with_the_most_sessions_gives_way) {
   EXPECT_EQ(sessions.reasons.begin()->second, Refusal::idle_made_room);
 }
 
+TEST(Room, of_those_who_may_go_one_of_the_address_with_the_most_sessions_goes) {
+  MemorySessions sessions;
+  sessions.join(1, "10.0.0.2", viewer);
+  sessions.now_s += limits::inert_seconds_max + 1.0;
+  for (const uint64_t id : {2, 3, 4}) sessions.join(id, "10.0.0.1", viewer);
+  const auto newcomer = sessions.connect(9, "10.0.0.9");
+  const auto leaver = who_gives_way(sessions.table, *newcomer, viewer, sessions.now_s);
+  ASSERT_TRUE(leaver);
+  EXPECT_EQ(leaver->session->address(), "10.0.0.1") << "though the other one is idle for longer";
+}
+
 TEST(Room, places_that_are_kept_are_no_newcomers_but_at_most_a_quarter_is_kept) {
   MemorySessions sessions;
   Room room;
