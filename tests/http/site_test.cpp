@@ -1,7 +1,11 @@
 // What a site answers: the page's files and nothing else, handshakes of WebSockets, by whose page asks.
 #include "server/web/site.h"
 
+#include <array>
+#include <climits>
+#include <filesystem>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include "server/web/limits.h"
 #include "tests/support/holds.h"
@@ -124,6 +128,11 @@ TEST_F(SiteTest, bounds_what_a_folder_may_hold) {
   for (int depth = 0; depth < limits::web_folders_max; ++depth) deep += "a/";
   folder.write(deep + "deep.js", "deep");
   EXPECT_EQ(ask("/" + deep + "deep.js").status, 404);
+  folder.write("whole.bin", "");
+  std::filesystem::resize_file(folder.path() + "whole.bin", limits::web_bytes_max);
+  EXPECT_FALSE(WebFiles::load(folder.path())) << "there are others beside it";
+  std::filesystem::remove(folder.path() + "whole.bin");
+  EXPECT_TRUE(WebFiles::load(folder.path()));
   for (size_t i = 0; i < limits::web_files_max; ++i) folder.write("f" + std::to_string(i) + ".txt", "");
   EXPECT_FALSE(WebFiles::load(folder.path()));
 }
@@ -178,6 +187,9 @@ TEST_F(SiteTest, distrusts_names_that_lead_from_this_machine_to_itself) {
   };
   for (const char* host : {"localhost:4177", "127.0.0.1:4177", "[::1]:4177", "192.168.0.7"})
     EXPECT_EQ(from(host), 101) << host;
+  std::array<char, HOST_NAME_MAX + 1> own{};
+  ASSERT_EQ(gethostname(own.data(), own.size() - 1), 0);
+  EXPECT_EQ(from(std::string(own.data()) + ":4177"), 101) << "its own name";
   EXPECT_EQ(from("rebound.example:4177"), 403);
   EXPECT_EQ(open_websocket({}, true), 101) << "a program that is no browser";
   origins = {"http://rebound.example:4177"};
@@ -254,7 +266,8 @@ TEST_F(SiteTest, says_that_a_proxy_left_its_path_in) {
 TEST(WebFileNames, hold_a_hash_between_two_dots) {
   for (const char* name : {"a.0123abcd.js", "a.b.0123456789abcdef.wasm"})
     EXPECT_TRUE(holds_hash(name)) << name;
-  for (const char* name : {"index.html", "a.0123abc.js", "0123abcd.js", "a.0123abcd", "a.0123abcg.js"})
+  for (const char* name :
+       {"index.html", "a.0123abc.js", "0123abcd.js", "a.0123abcd", "a.0123abcg.js", "a.20261231.js"})
     EXPECT_FALSE(holds_hash(name)) << name;
 }
 

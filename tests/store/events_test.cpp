@@ -110,6 +110,26 @@ TEST(EventDeriver, merges_near_each_other_within_a_second_are_one_event) {
   EXPECT_EQ(events[1].pieces, 9U);
 }
 
+TEST(EventDeriver, a_carve_is_told_as_what_made_it_and_later_cuts_of_one_are_not_told) {
+  const auto told = [](const Operation& operation, TickStage stage) {
+    TickDelta delta;
+    delta.tick = 1;
+    AppliedOperation applied;
+    applied.operation = operation;
+    applied.stage = stage;
+    delta.operations.push_back(applied);
+    std::vector<EventKind> kinds;
+    for (const Event& event : EventDeriver(0.25F, {}).events_of(delta)) kinds.push_back(event.kind);
+    return kinds;
+  };
+  const CarveOperation carve{.shape = sphere({}, 1.0F)};
+  EXPECT_EQ(told(carve, TickStage::requests), std::vector{EventKind::carve});
+  EXPECT_EQ(told(carve, TickStage::impacts), std::vector{EventKind::dent});
+  EXPECT_EQ(told(carve, TickStage::support), std::vector{EventKind::crush});
+  EXPECT_EQ(told(ShatterOperation{}, TickStage::impacts), std::vector{EventKind::broke});
+  EXPECT_TRUE(told(ShatterOperation{}, TickStage::refracture).empty());
+}
+
 TEST_F(EventsTest, a_change_of_settings_is_an_event_and_the_first_tick_is_none) {
   World world(small_world());
   for (Tick tick = 1; tick <= 5; ++tick) {
