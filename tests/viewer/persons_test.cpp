@@ -90,6 +90,8 @@ TEST(Figures, are_bodies_under_the_eye_but_not_around_ones_own) {
   lines.clear();
   figures.add_to(lines, {0.1F, 2.0F, 0.0F});
   EXPECT_TRUE(lines.corners().empty());
+  figures.add_to(lines, {5.0F, 2.0F, 0.0F}, 3);
+  EXPECT_TRUE(lines.corners().empty()) << "nor around the eye that one looks through";
 }
 
 }  // namespace

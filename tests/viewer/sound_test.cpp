@@ -141,6 +141,13 @@ TEST_F(PieceWatchTest, pieces_crack_off_strike_and_settle_once_each) {
   EXPECT_TRUE(step({}).empty());
 }
 
+TEST_F(PieceWatchTest, the_heaviest_of_a_frame_come_first) {
+  step({});
+  const std::vector<PieceEvent> cracks = step(broken_off_);
+  ASSERT_GT(cracks.size(), 2U);
+  EXPECT_TRUE(std::ranges::is_sorted(cracks, std::ranges::greater{}, &PieceEvent::impulse_n_s));
+}
+
 TEST_F(PieceWatchTest, a_world_that_is_shown_for_the_first_time_is_silent) {
   EXPECT_TRUE(step(broken_off_).empty());
   piece_events_.begin();
