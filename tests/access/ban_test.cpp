@@ -1,10 +1,11 @@
-// Bans of networks, names and tokens, and the file that people and the server write both.
+// Bans of networks, names and tokens, the file that people and the server write both, and who goes for it.
 #include <fstream>
 #include <gtest/gtest.h>
 
 #include "auth/access_token.h"
 #include "server/doors/bans.h"
 #include "server/doors/limits.h"
+#include "tests/support/access_fixture.h"
 #include "tests/support/holds.h"
 #include "tests/support/test_folder.h"
 
@@ -122,6 +123,31 @@ TEST_F(BanFileTest, a_ban_that_is_made_again_has_one_line) {
   ASSERT_TRUE(bans->add("10.0.0.2", {70, "short"}, 60));
   ASSERT_TRUE(bans->add("10.0.0.3", {0, ""}, 80));
   EXPECT_EQ(text(), "10.0.0.1 0 for ever\n10.0.0.3 0\n") << "those that ended go";
+}
+
+using BanServerTest = AccessTest;
+
+TEST_F(BanServerTest, who_is_banned_by_hand_goes_when_the_files_are_read_again) {
+  config.access.bans_path = folder / "bans";
+  start();
+  const auto client = join(token(Role::builder, 0x15), Role::builder);
+  const auto other = join(token(Role::builder, 0x16), Role::builder);
+  std::ofstream(folder / "bans") << "token:0000000000000015 0 griefing\n";
+  ASSERT_TRUE(server->reload());
+  const auto refused = client->receive_as<RefusalMessage>();
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->reason, "this token is banned from the server: griefing");
+  ASSERT_TRUE(other->send(AdminMessage{9, "", ListBansRequest{}}));
+  EXPECT_TRUE(other->receive_as<ReplyMessage>()) << "no other goes";
+}
+
+TEST_F(BanServerTest, bans_that_have_ended_are_not_listed) {
+  config.access.bans_path = folder / "bans";
+  std::ofstream(folder / "bans") << "10.0.0.1 1 long ago\n10.0.0.2 0 for ever\n";
+  start();
+  const auto bans = list_bans(admin(the_admin_token));
+  ASSERT_TRUE(bans) << bans.error().message;
+  EXPECT_EQ(*bans, (std::vector<BanRow>{{"10.0.0.2", 0, "for ever"}}));
 }
 
 }  // namespace

@@ -325,29 +325,6 @@ TEST_F(RoleTest, who_is_banned_stays_out_over_a_restart_until_it_is_lifted) {
   EXPECT_TRUE(list_bans(admin(the_admin_token))->empty());
 }
 
-TEST_F(RoleTest, who_is_banned_by_hand_goes_when_the_files_are_read_again) {
-  config.access.bans_path = folder / "bans";
-  start();
-  const auto client = join(token(Role::builder, 0x15), Role::builder);
-  const auto other = join(token(Role::builder, 0x16), Role::builder);
-  std::ofstream(folder / "bans") << "token:0000000000000015 0 griefing\n";
-  ASSERT_TRUE(server->reload());
-  const auto refused = client->receive_as<RefusalMessage>();
-  ASSERT_TRUE(refused);
-  EXPECT_EQ(refused->reason, "this token is banned from the server: griefing");
-  ASSERT_TRUE(other->send(AdminMessage{9, "", ListBansRequest{}}));
-  EXPECT_TRUE(other->receive_as<ReplyMessage>()) << "no other goes";
-}
-
-TEST_F(RoleTest, bans_that_have_ended_are_not_listed) {
-  config.access.bans_path = folder / "bans";
-  std::ofstream(folder / "bans") << "10.0.0.1 1 long ago\n10.0.0.2 0 for ever\n";
-  start();
-  const auto bans = list_bans(admin(the_admin_token));
-  ASSERT_TRUE(bans) << bans.error().message;
-  EXPECT_EQ(*bans, (std::vector<BanRow>{{"10.0.0.2", 0, "for ever"}}));
-}
-
 TEST_F(RoleTest, networks_names_and_tokens_are_banned_apart) {
   start();
   const std::string one = token(Role::builder, 0x15), other = token(Role::builder, 0x16);
