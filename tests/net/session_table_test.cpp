@@ -12,7 +12,7 @@
 namespace scree {
 namespace {
 
-constexpr Grant viewer{.role = Role::viewer};
+const Grant viewer{.role = Role::viewer};
 
 Grant holder(uint64_t token_id) {
   return {.role = Role::builder, .token_id = token_id};
