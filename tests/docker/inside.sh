@@ -40,6 +40,11 @@ tell() { scree-admin --json "$@"; }
 carve() { /tools/scree-bot --host 127.0.0.1 --carves 5 --rate 5 --seed 7 --linger --check-hash --timeout 120 --quiet --report - "$@"; }
 
 start
+# The log may come later than the health.
+for ((i = 0; i < 100; ++i)); do
+  grep -q 'an admin token was made' server.log && break
+  sleep 0.1
+done
 grep -q 'an admin token was made' server.log || fail "the first start says nothing of its token"
 token=$(head -n 1 "$SCREE_ADMIN_TOKEN_FILE")
 ((${#token} >= 16)) || fail "the token has ${#token} characters"
