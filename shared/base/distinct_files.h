@@ -16,8 +16,7 @@ struct NamedFile {
 };
 
 /// Refuses two names of one file, by whatever path or link, when it is written for one of them, and names of
-/// files that a database keeps beside it. Devices and
-/// pipes take anything. Nothing is created.
+/// files that a database keeps beside it. Devices and pipes take anything. Nothing is created.
 Result<void> check_distinct(std::span<const NamedFile> files);
 
 }  // namespace scree

@@ -100,8 +100,8 @@ class Sorting {
     return bottom;
   }
 
-  /// Whether parts with holes stay open bodies. Sheets are filled down or left out unless they are
-  /// to be closed.
+  /// Whether parts with holes stay open bodies. Sheets are filled down or left out,
+  /// unless they are to be closed.
   bool is_closed_by_windings(size_t at) const { return !sheets_[at] || rule_.sheet == SheetRule::close; }
 
   /// A cavity in a part with holes belongs to that part's winding numbers.
