@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "crypto/sha256.h"
+#include "ground/whole_file.h"
 #include "proto/byte_stream.h"
 #include "proto/height_codec.h"
 #include "proto/stored_codec.h"
@@ -16,7 +17,7 @@ namespace scree {
 
 GroundWriter::GroundWriter(std::string path, const HeightLayout& layout, float zero_m)
     : path_(std::move(path)),
-      unfinished_(path_ + "." + std::to_string(getpid()) + ".unfinished"),
+      unfinished_(unfinished_name(path_)),
       levels_(static_cast<size_t>(layout.levels())),
       index_(layout.tiles()) {
   header_.ground.layout = layout;

@@ -19,9 +19,13 @@ struct Unfinished {
 
 }  // namespace
 
+std::string unfinished_name(const std::string& path) {
+  return path + "." + std::to_string(getpid()) + ".unfinished";
+}
+
 Result<uint64_t> write_whole(const std::string& path,
                              const std::function<Result<void>(const std::string& unfinished)>& write) {
-  const Unfinished unfinished{path + "." + std::to_string(getpid()) + ".unfinished"};
+  const Unfinished unfinished{unfinished_name(path)};
   auto written = write(unfinished.path);
   std::error_code error;
   const uint64_t bytes = written ? std::filesystem::file_size(unfinished.path, error) : 0;

@@ -9,8 +9,11 @@
 
 namespace scree {
 
-/// Calls write(unfinished) with the name of a file beside `path`, which becomes it when all went well and is
-/// removed otherwise. Returns the file's bytes. The error names `path`, and says why.
+/// The name beside `path` under which this process writes it before it is whole.
+std::string unfinished_name(const std::string& path);
+
+/// Calls write(unfinished_name(path)); that file becomes `path` when all went well and is removed otherwise.
+/// Returns the file's bytes. The error names `path`, and says why.
 Result<uint64_t> write_whole(const std::string& path,
                              const std::function<Result<void>(const std::string& unfinished)>& write);
 

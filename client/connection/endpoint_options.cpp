@@ -89,6 +89,11 @@ Result<void> EndpointOptions::check_host() const {
                           host.substr(colon + 1)));
 }
 
+void EndpointOptions::drop_token() {
+  token_path_.clear();
+  endpoint_.token.clear();
+}
+
 Result<void> EndpointOptions::complete() {
   if (names_server()) TRY(parse_server());
   TRY(check_host());

@@ -28,6 +28,9 @@ class EndpointOptions {
 
   /// After the parsing: reads the token's file and the link, and understands what to trust as a wish for TLS.
   Result<void> complete();
+  /// Before complete(): what needs no token reads none, and is not refused for a file of it that is not
+  /// there.
+  void drop_token();
   /// Whether there was a --server.
   bool names_server() const { return !server_.empty(); }
 

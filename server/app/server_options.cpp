@@ -299,6 +299,17 @@ std::string fault_of(const CLI::ConfigItem& item) {
   return {};
 }
 
+/// A variable that says no to a flag counts for CLI11 as the flag, and what the flag needs would be missing.
+/// Flags that need nothing may be on without a word, and no turns them off.
+void forget_flags_that_say_no(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options()) {
+    const char* const value = std::getenv(option->get_envname().c_str());
+    if (value == nullptr || option->get_items_expected_max() != 0 || option->get_needs().empty()) continue;
+    bool is_wanted = true;
+    if (CLI::detail::lexical_cast(value, is_wanted) && !is_wanted) unsetenv(option->get_envname().c_str());
+  }
+}
+
 /// CLI11 reads the file of options before it reads variables, and so none that a variable names.
 std::vector<const char*> with_config_of_environment(std::vector<const char*> arguments) {
   static constexpr std::string_view flag = "--config";
@@ -328,6 +339,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   try {
     if (const std::string fault = fault_in_environment(variables, environ); !fault.empty())
       throw CLI::ValidationError(fault);
+    forget_flags_that_say_no(app);
     const std::vector<const char*> arguments = with_config_of_environment({argv, argv + argc});
     app.parse(static_cast<int>(arguments.size()), arguments.data());
     if (const auto preset = kind_named<Preset>(raw.preset)) apply_preset(app, *preset, server_preset_options);

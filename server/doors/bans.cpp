@@ -69,7 +69,6 @@ Result<Bans> Bans::open(const std::string& path) {
   Bans bans;
   bans.path_ = path;
   const File file = TRY(bans.read_file());
-  if (!file.fault.empty()) return fail(file.fault);
   bans.merge(file);
   return bans;
 }
@@ -77,6 +76,7 @@ Result<Bans> Bans::open(const std::string& path) {
 /// What differs from what was read or written last was done by hand. A file that is gone was moved away, and
 /// lifts nothing; one that was emptied lifts all.
 void Bans::merge(const File& file) {
+  fault_ = file.fault;
   List now;
   for (const Line& line : file.lines)
     if (!line.key.empty()) now[line.key] = line.ban;
@@ -97,7 +97,7 @@ Result<void> Bans::read_again() {
   if (path_.empty()) return {};
   const File file = TRY(read_file());
   merge(file);
-  return file.fault.empty() ? Result<void>() : fail(file.fault);
+  return fault_.empty() ? Result<void>() : fail(fault_);
 }
 
 Result<void> Bans::add(const std::string& key, const Ban& ban, uint64_t now_s) {

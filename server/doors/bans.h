@@ -32,9 +32,11 @@ struct FoundBan {
 
 class Bans {
  public:
-  /// Without a path: kept nowhere. A file that is not there holds none; one that cannot be read is an error,
-  /// which names the line.
+  /// Without a path: kept nowhere. A file that is not there holds none; one that cannot be read is an error.
+  /// A line that is no ban is not: a server that did not start would refuse everybody for it.
   static Result<Bans> open(const std::string& path);
+  /// The first line of the file that is no ban, and why, as it was read last; empty: there is none.
+  const std::string& fault() const { return fault_; }
 
   /// The error of these two: the file could not be written, and the ban holds until the server ends (is
   /// lifted until then); or there are limits::bans_max already. `key`: as of ban_key().
@@ -67,6 +69,7 @@ class Bans {
   Result<void> write();
 
   std::string path_;
+  std::string fault_;
   List bans_;
   List in_file_;  ///< as it was read or written last
   std::map<std::string, BanTarget> targets_;

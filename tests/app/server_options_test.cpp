@@ -162,6 +162,14 @@ TEST(ServerOptions, support_without_islands_is_a_mistake_in_either_order) {
   ASSERT_TRUE(std::holds_alternative<ServerOptions>(parse({"--islands", "false", "--support", "false"})));
 }
 
+TEST(ServerOptions, a_variable_that_says_no_needs_nothing) {
+  ::setenv("SCREE_LOOP", "false", 1);
+  EXPECT_TRUE(std::holds_alternative<ServerOptions>(parse({})));
+  ::setenv("SCREE_LOOP", "true", 1);
+  EXPECT_EQ(exit_code({}), 2) << "there is no replay";
+  ::unsetenv("SCREE_LOOP");
+}
+
 TEST(ServerOptions, flag_wins_over_file_over_environment) {
   const auto path =
       std::filesystem::temp_directory_path() / ("scree_options_" + std::to_string(::getpid()) + ".toml");

@@ -41,6 +41,18 @@ TEST_F(ImportProgram, never_writes_over_what_it_reads) {
   expect_one_file(house + " -o " + ground + " --on " + ground);
 }
 
+/// A box of 400 m, whose surface is 42 million voxels: a second is not enough for it, and enough to read it.
+TEST_F(ImportProgram, ends_at_its_limit_of_time_and_leaves_nothing) {
+  const std::string box = folder_ / "box.obj", ground = folder_ / "box.ground";
+  std::ofstream(box) << "v 0 0 0\nv 400 0 0\nv 400 400 0\nv 0 400 0\nv 0 0 400\nv 400 0 400\nv 400 400 400\n"
+                        "v 0 400 400\nf 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+  const auto [code, said] = run(box + " -o " + ground + " --voxel-size 0.15 --time-max 1 --memory-max 8192");
+  EXPECT_EQ(code, 1) << said;
+  EXPECT_NE(said.find("within 1 s (--time-max)"), std::string::npos) << said;
+  for (const auto& left : std::filesystem::directory_iterator(folder_ / "."))
+    EXPECT_EQ(left.path().filename().string().find(".ground"), std::string::npos) << left.path();
+}
+
 TEST_F(ImportProgram, prints_names_that_are_no_text) {
   const auto [code, said] = run(hill_ + " -o " + (folder_ / "hill_\xFF.ground"));
   EXPECT_EQ(code, 0) << said;

@@ -230,6 +230,25 @@ TEST_F(MeshKinds, a_plate_thinner_than_a_voxel_is_refused_in_its_own_words) {
   EXPECT_FALSE(words_on_difference(*read, 2.39));
 }
 
+/// The two ends of a drum are fans of slivers that lie askew and all meet in the middle.
+TEST_F(MeshKinds, fans_of_slivers_have_their_volume) {
+  constexpr int sides = 3000;
+  constexpr double radius = 9.0, height = 6.0;
+  std::vector<std::array<double, 3>> points = {{0, 0, 0}, {0, height, 0}};
+  std::vector<Face> faces;
+  for (int i = 0; i < sides; ++i) {
+    const double angle = 2.0 * M_PI * i / sides, x = radius * std::cos(angle), z = radius * std::sin(angle);
+    points.push_back({x, 0, z});
+    points.push_back({x, height, z});
+    const int low = 3 + 2 * i, next = 3 + 2 * ((i + 1) % sides);
+    faces.push_back({{1, low, next}});
+    faces.push_back({{2, next + 1, low + 1}});
+    faces.push_back({{low, low + 1, next + 1, next}});
+  }
+  const double own_m3 = M_PI * radius * radius * height;
+  EXPECT_NEAR(imported(obj(points, faces)).volume_m3, own_m3, 0.01 * own_m3);
+}
+
 TEST_F(MeshKinds, binary_ply_files_may_begin_with_any_byte) {
   expect_words(refusal(data + std::string("segfault.ply")), "its header has no end");
   const Imported cube = imported(data + std::string("cube_first_byte_0a.ply"));

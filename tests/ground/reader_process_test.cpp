@@ -4,14 +4,18 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <numeric>
 #include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
+#include "tests/support/test_folder.h"
 #include "tools/import/process/sanitized.h"
+#include "tools/import/process/time_limit.h"
 
 namespace scree {
 namespace {
@@ -149,6 +153,28 @@ TEST(ReaderProcess, dies_with_its_owner) {
     EXPECT_TRUE(std::filesystem::exists("/proc/" + std::to_string(child)));
   }
   EXPECT_FALSE(std::filesystem::exists("/proc/" + std::to_string(child)));
+}
+
+// ---- limits of time
+
+TEST(TimeLimit, ends_the_program_in_words_and_removes_what_is_unfinished) {
+  const TestFolder folder;
+  const std::string unfinished = folder / "unfinished";
+  std::ofstream(unfinished) << "half";
+  EXPECT_EXIT(
+      {
+        const TimeLimit limit(std::chrono::milliseconds(50), "too late", unfinished);
+        std::this_thread::sleep_for(std::chrono::minutes(10));
+      },
+      testing::ExitedWithCode(1), "too late");
+  EXPECT_FALSE(std::filesystem::exists(unfinished));
+}
+
+TEST(TimeLimit, that_is_over_ends_nothing) {
+  const TestFolder folder;
+  { const TimeLimit limit(std::chrono::milliseconds(20), "too late", folder / "none"); }
+  std::this_thread::sleep_for(std::chrono::milliseconds(60));
+  { const TimeLimit again(std::chrono::hours(1), "too late", folder / "none"); }
 }
 
 }  // namespace

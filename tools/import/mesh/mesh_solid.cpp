@@ -23,6 +23,9 @@ constexpr int band_around = 4;
 /// surface of a closed mesh. Voxels.
 constexpr float near_voxels = 2.0F;
 
+/// Voxels up to here from a triangle are looked at, with room for rounding.
+constexpr double near_rows_voxels = 2.1;
+
 /// So many voxels is a whole winding where no triangle is near.
 constexpr float voxels_per_winding = 4.0F;
 
@@ -219,9 +222,17 @@ class MeshSolid final : public Solid {
     for (const uint32_t i : triangles) {
       const auto& t = mesh_.triangles[i];
       const VoxelBox part = common(voxels_of(t).grown(static_cast<int>(near_voxels)), box);
+      const NearRows rows(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]],
+                          near_rows_voxels * voxel_m_);
       for (int x = part.lo.x; x < part.hi.x; ++x)
-        for (int y = part.lo.y; y < part.hi.y; ++y)
-          for (int z = part.lo.z; z < part.hi.z; ++z) {
+        for (int y = part.lo.y; y < part.hi.y; ++y) {
+          const auto [first_m, last_m] = rows.at(x * voxel_m_, y * voxel_m_);
+          const auto first =
+              static_cast<int>(std::ceil(std::clamp(first_m / voxel_m_, 1.0 * part.lo.z, 1.0 * part.hi.z)));
+          const auto end =
+              1 +
+              static_cast<int>(std::floor(std::clamp(last_m / voxel_m_, part.lo.z - 1.0, part.hi.z - 1.0)));
+          for (int z = first; z < end; ++z) {
             float& nearest = distances[(static_cast<size_t>(x - box.lo.x) * static_cast<size_t>(size.y) +
                                         static_cast<size_t>(y - box.lo.y)) *
                                            static_cast<size_t>(size.z) +
@@ -230,6 +241,7 @@ class MeshSolid final : public Solid {
                 distance_to(metres({x, y, z}), mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]]);
             nearest = std::min(nearest, static_cast<float>(m / voxel_m_));
           }
+        }
     }
   }
 

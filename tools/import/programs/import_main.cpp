@@ -3,13 +3,16 @@
 #include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
 #include "ground/ground_header.h"
+#include "ground/whole_file.h"
 #include "shared/base/distinct_files.h"
 #include "shared/base/limits.h"
 #include "shared/base/program_output.h"
+#include "shared/base/text.h"
 #include "tools/import/file_forms.h"
 #include "tools/import/files/solid_files.h"
 #include "tools/import/gdal/gdal_raster.h"
@@ -17,12 +20,16 @@
 #include "tools/import/heights_import.h"
 #include "tools/import/process/reader_process.h"
 #include "tools/import/process/sanitized.h"
+#include "tools/import/process/time_limit.h"
 #include "tools/import/programs/program.h"
 
 namespace scree {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Bytes of a file's name in words; cut above.
+constexpr size_t name_bytes_max = 4096;
 
 struct Options {
   std::vector<std::string> files;
@@ -124,7 +131,8 @@ void declare(CLI::App& app, Options& options) {
       ->check(CLI::Range(256, 1 << 20))
       ->capture_default_str();
   app.add_option("--time-max", options.time_max_s,
-                 "limit of the time to read a file, seconds; a file that takes longer is refused")
+                 "limit of the time to read a file, and to import solids in all, seconds; what takes longer "
+                 "is refused")
       ->check(CLI::Range(0.1, 1e6))
       ->capture_default_str();
   declare_heights(app, options);
@@ -273,6 +281,12 @@ Result<void> run_solids(const Options& options) {
   }
   SolidsImport solids = options.solids;
   solids.reader = reader_limits(options);
+  const TimeLimit time_limit(solids.reader.time,
+                             fmt::format("scree-import: {}: the import did not finish within {:.6g} s "
+                                         "(--time-max): bad places of a mesh may "
+                                         "make it large, and larger voxels make less work (--voxel-size)",
+                                         showable(options.files.front(), name_bytes_max), options.time_max_s),
+                             unfinished_name(options.out));
   solids.sheet = kind_named<SheetRule>(options.sheet).value_or(SheetRule::refuse);
   solids.level_m = options.level_m;
   solids.material = kind_named<Material>(options.material);
