@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "proto/limits.h"
 #include "server/publish/limits.h"
 #include "shared/base/check.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "proto/limits.h"
 #include "server/publish/limits.h"
 #include "shared/base/check.h"
 
