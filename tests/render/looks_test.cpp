@@ -1,4 +1,6 @@
 // What vertices say of their looks: how worn the ground is, its layers, its paint.
+#include <gtest/gtest.h>
+
 #include "client/render/levels/block_windows.h"
 #include "shared/field/edit.h"
 #include "shared/field/paint.h"

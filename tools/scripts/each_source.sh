@@ -2,7 +2,7 @@
 # Reads each source of the libraries, programs and tests by itself, without its neighbours and without precompiled
 # headers, and prints those that miss an include. Nothing is compiled, so this takes a fraction of a build.
 # usage: tools/scripts/each_source.sh [--newest N] [PATTERN]
-#   --newest N  only the N sources that were committed last: a source takes some 2.5 s of processor time
+#   --newest N  only the N sources that were committed last, or include what was: a source takes some 2.5 s of processor time
 #   PATTERN     only sources whose path matches the extended regular expression
 # Exit status: 0 when all can be read, 1 when not.
 set -euo pipefail
@@ -34,11 +34,13 @@ read_source() {
 export -f read_source
 export compiler
 
-# wanted: the sources' paths, those committed last first.
+# wanted: the sources' paths, those committed last first. A header that changed may have taken an include away from the
+# sources that name it, so they follow it.
 wanted() {
-  git log --format= --name-only --diff-filter=d -- '*.cpp' | awk '!seen[$0]++' | while read -r file; do
-    [[ ! -e $file ]] || printf '%s/%s\n' "$PWD" "$file"
-  done | grep -E -- "$pattern" | head -n "${newest:--0}"
+  git log --format= --name-only --diff-filter=d -- '*.cpp' '*.h' | awk '!seen[$0]++' | while read -r file; do
+    [[ -e $file ]] || continue
+    if [[ $file == *.h ]]; then git grep -l "#include \"$file\"" -- '*.cpp' || true; else printf '%s\n' "$file"; fi
+  done | awk -v folder="$PWD" '!seen[$0]++ { print folder "/" $0 }' | grep -E -- "$pattern" | head -n "${newest:--0}"
 }
 
 jq -r --slurpfile wanted <(wanted | jq -R .) \
