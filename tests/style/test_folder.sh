@@ -27,6 +27,7 @@ for argument in "$@"; do
   [[ $argument != --gtest_output=xml:* ]] || file=${argument#--gtest_output=xml:}
 done
 tests=3 failures=0
+[[ ${GTEST_SHARD_INDEX:-0} == 0 ]] || tests=0
 case $* in
   *--gtest_filter=\*nothing\**) tests=0 ;;
   *--gtest_filter=\*bad\**) failures=1 ;;
@@ -62,6 +63,7 @@ expect 0 'runs dev' field --gtest_list_tests
 expect 1 'no test ran' field nothing
 expect 1 'tests failed: 1; 2 passed' field bad
 expect 1 'ended with 134' field crash
+expect 1 'tests failed: 1' field crash
 expect 1 'There are: field' golden
 expect 1 'There are: field' no_such_folder
 expect 1 'there is no preset' --preset no_such field
