@@ -229,14 +229,16 @@ int export_lines(const Options& options) {
   if (options.ticks_path.empty() && options.requests_path.empty()) return 0;
   const auto recording = RecordingReader::open(options.path);
   if (!recording) return complain(recording.error());
-  for (const auto& [path, write_all] :
-       {std::pair(&options.ticks_path, &export_ticks), std::pair(&options.requests_path, &export_requests)}) {
-    if (path->empty()) continue;
-    const auto written = write_lines(*path, [&](const LineSink& write_line) {
-      return write_all(**recording, format_of(*path), write_line);
+  const auto export_to = [&](const std::string& path, auto* write_all) -> Result<void> {
+    if (path.empty()) return {};
+    return write_lines(path, [&](const LineSink& write_line) {
+      return write_all(**recording, format_of(path), write_line);
     });
-    if (!written) return complain(written.error());
-  }
+  };
+  if (const auto written = export_to(options.ticks_path, &export_ticks); !written)
+    return complain(written.error());
+  if (const auto written = export_to(options.requests_path, &export_requests); !written)
+    return complain(written.error());
   return 0;
 }
 
