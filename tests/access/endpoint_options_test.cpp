@@ -33,6 +33,17 @@ Parsed parse(std::vector<std::string> arguments, const std::string& token_enviro
   return parsed;
 }
 
+TEST(EndpointOptions, what_needs_no_token_reads_no_file_of_it) {
+  CLI::App app;
+  ServerEndpoint endpoint;
+  EndpointOptions options(app, endpoint);
+  app.parse("--token-file /no/such/file");
+  EXPECT_FALSE(options.complete());
+  options.drop_token();
+  EXPECT_TRUE(options.complete());
+  EXPECT_EQ(endpoint.token, "");
+}
+
 TEST(EndpointOptions, are_plain_on_this_machine_unless_said_otherwise) {
   const Parsed parsed = parse({});
   EXPECT_EQ(parsed.error, "");

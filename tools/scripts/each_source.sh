@@ -2,7 +2,8 @@
 # Reads each source of the libraries, programs and tests by itself, without its neighbours and without precompiled
 # headers, and prints those that miss an include. Nothing is compiled, so this takes a fraction of a build.
 # usage: tools/scripts/each_source.sh [--newest N] [PATTERN]
-#   --newest N  only the N sources that were committed last, or include what was: a source takes some 2.5 s of processor time
+#   --newest N  only the N sources that were committed last, or include what was: a source takes some 2.5 s of processor
+#               time
 #   PATTERN     only sources whose path matches the extended regular expression
 # Exit status: 0 when all can be read, 1 when not.
 set -euo pipefail
