@@ -50,7 +50,7 @@ Result<Bans::File> Bans::read_file() const {
     line.key = TRY(ban_key(target));
     return {};
   };
-  size_t bans = 0;
+  size_t bans = 0, faults = 0;
   for (std::string text; std::getline(file, text);) {
     Line& line = read.lines.emplace_back(Line{std::move(text)});
     if (is_for_people(line.text)) continue;
@@ -59,9 +59,10 @@ Result<Bans::File> Bans::read_file() const {
       parsed = fail(fmt::format("there are more than {} bans (limits.bans_max)", limits::bans_max));
     if (parsed) continue;
     line.key.clear();
-    if (read.fault.empty())
+    if (++faults == 1)
       read.fault = fmt::format("{}, line {}: {}", path_, read.lines.size(), parsed.error().message);
   }
+  if (faults > 1) read.fault += fmt::format(" (and {} more such lines)", faults - 1);
   return read;
 }
 

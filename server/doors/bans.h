@@ -35,7 +35,8 @@ class Bans {
   /// Without a path: kept nowhere. A file that is not there holds none; one that cannot be read is an error.
   /// A line that is no ban is not: a server that did not start would refuse everybody for it.
   static Result<Bans> open(const std::string& path);
-  /// The first line of the file that is no ban, and why, as it was read last; empty: there is none.
+  /// The first line of the file that is no ban, why, and how many more there are, as it was read last; empty:
+  /// there is none.
   const std::string& fault() const { return fault_; }
 
   /// The error of these two: the file could not be written, and the ban holds until the server ends (is
@@ -60,7 +61,7 @@ class Bans {
   struct File {
     bool is_there = false;
     std::vector<Line> lines{};
-    std::string fault{};  ///< of the first line that is no ban; empty: there is none
+    std::string fault{};  ///< as of fault()
   };
   using List = std::map<std::string, Ban>;
 

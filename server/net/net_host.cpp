@@ -59,7 +59,7 @@ Result<void> NetHost::listen() {
   TRY(authorizer_.open());
   log_access(authorizer_.access());
   if (const std::string& fault = authorizer_.bans().fault(); !fault.empty())
-    spdlog::warn("a ban does not hold, and all others do: {}", fault);
+    spdlog::warn("not all lines of the file of bans hold: {}", fault);
   for (const std::string& open : open_doors(config_.access, config_.bind)) spdlog::warn("open: {}", open);
   TRY(web_.open());
   TRY(arrivals_.listen());

@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -43,6 +44,13 @@ std::string NumberWithin::operator()(const std::string& text) const {
                     (whole ? number == std::floor(number) && within<double>(number, least, most)
                            : within<float>(number, least, most));
   return good ? std::string() : "'" + text + "' is not " + says();
+}
+
+std::string check_finite(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  return end != text.c_str() && !std::isfinite(number) ? "'" + text + "' is not a finite number"
+                                                       : std::string();
 }
 
 NumberWithin whole_within(double least, double most) {

@@ -39,6 +39,17 @@ void refuse_empty(App& app) {
       option->check([](const std::string& value) { return value.empty() ? "must not be empty" : ""; }, "");
 }
 
+/// What is wrong with a number that is none, or without an end; nothing with any other text.
+std::string check_finite(const std::string& text);
+
+/// Refuses "nan" and "inf" for all options of numbers with fractions: comparisons, as those of CLI11's
+/// checks, pass nan.
+template <typename App>
+void refuse_not_finite(App& app) {
+  for (auto* option : app.get_options())
+    if (option->get_type_name().find("FLOAT") != std::string::npos) option->check(check_finite, "");
+}
+
 /// A file can be written where the path says. What is there stays, and nothing is left behind.
 Result<void> can_be_written(const std::string& path);
 

@@ -363,10 +363,11 @@ TEST(BanList, keeps_time_and_its_limits) {
   for (size_t i = 0; i < limits::bans_max; ++i) ASSERT_TRUE(full.add("key" + std::to_string(i), {0, ""}, 50));
   EXPECT_TRUE(holds(full.add("one more", {0, ""}, 50).error().message, "limits.bans_max"));
   EXPECT_TRUE(full.add("key7", {0, "again"}, 50)) << "one that is there may change";
-  std::ofstream(folder / "bad") << "10.0.0.1 0 fine\n10.0.0.2 tomorrow\n";
+  std::ofstream(folder / "bad") << "10.0.0.1 0 fine\n10.0.0.2 tomorrow\n\x01junk\n";
   const auto with_bad = Bans::open(folder / "bad");
   ASSERT_TRUE(with_bad) << "a bad line keeps no server from its start";
   EXPECT_TRUE(holds(with_bad->fault(), "bad, line 2"));
+  EXPECT_TRUE(holds(with_bad->fault(), "and 1 more"));
   EXPECT_TRUE(with_bad->find({"10.0.0.1"}, 99));
   std::filesystem::create_symlink(folder / "loop", folder / "loop");
   EXPECT_TRUE(holds(Bans::open(folder / "loop").error().message, "cannot be read")) << "it may hold some";

@@ -53,6 +53,14 @@ TEST_F(ImportProgram, ends_at_its_limit_of_time_and_leaves_nothing) {
     EXPECT_EQ(left.path().filename().string().find(".ground"), std::string::npos) << left.path();
 }
 
+TEST_F(ImportProgram, refuses_numbers_that_are_none) {
+  for (const char* option :
+       {"--time-max=nan", "--cell=nan", "--zero=inf", "--voxel-size=-nan", "--level=inf", "--at=0,nan,0"}) {
+    const auto [code, said] = run(hill_ + " -o " + (folder_ / "hill.ground") + " " + option);
+    EXPECT_EQ(code, 2) << option << ": " << said;
+  }
+}
+
 TEST_F(ImportProgram, prints_names_that_are_no_text) {
   const auto [code, said] = run(hill_ + " -o " + (folder_ / "hill_\xFF.ground"));
   EXPECT_EQ(code, 0) << said;

@@ -8,6 +8,7 @@
 #include <string>
 #include <unistd.h>
 
+#include "shared/base/option_check.h"
 #include "shared/base/progress_bar.h"
 #include "shared/base/result.h"
 
@@ -25,6 +26,7 @@ inline int refuse(const CLI::App& app, const Error& error) {
 
 /// Parses; nothing when the program goes on, else its exit status: --help and --version end it, too.
 inline std::optional<int> parse(CLI::App& app, int argc, char** argv) {
+  refuse_not_finite(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
