@@ -222,6 +222,8 @@ class MeshSolid final : public Solid {
     for (const uint32_t i : triangles) {
       const auto& t = mesh_.triangles[i];
       const VoxelBox part = common(voxels_of(t).grown(static_cast<int>(near_voxels)), box);
+      // A triangle of a chunk around may not reach the box.
+      if (part.empty()) continue;
       const NearRows rows(mesh_.points[t[0]], mesh_.points[t[1]], mesh_.points[t[2]],
                           near_rows_voxels * voxel_m_);
       for (int x = part.lo.x; x < part.hi.x; ++x)
