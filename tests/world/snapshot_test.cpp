@@ -48,29 +48,31 @@ std::unique_ptr<World> restored(const WorldSnapshot& value) {
   return world ? std::move(*world) : nullptr;
 }
 
-TEST(snapshot, what_goes_on_from_a_value_goes_the_same_way_every_time) {
-  const Storm storms[] = {{TerrainColliderKind::field, Recombination::stamp, true},
-                          {TerrainColliderKind::mesh, Recombination::slices, false},
-                          {TerrainColliderKind::rays, Recombination::sphere, false},
-                          {TerrainColliderKind::field, Recombination::off, false}};
-  for (const Storm& storm : storms) {
-    SCOPED_TRACE(static_cast<int>(storm.recombine));
-    const auto world = raging_world(storm, 50);
-    const WorldSnapshot value = world->snapshot();
-    EXPECT_GT(value.moment.pieces.size(), 20U);
-    const auto decoded = decode_world(encode(value));
-    ASSERT_TRUE(decoded.has_value()) << decoded.error().message;
-    const auto one = restored(value), other = restored(*decoded);
-    ASSERT_TRUE(one && other);
-    EXPECT_EQ(encode(one->snapshot()), encode(value));
-    for (Tick tick = 51; tick <= 51 + ticks_compared; ++tick) {
-      const auto a = step(*one, storm_commands(*one, tick)), b = step(*other, storm_commands(*other, tick));
-      ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
-      ASSERT_EQ(a->ledger.error(), 0);
-    }
-    EXPECT_EQ(one->measure_terrain(), one->moment().ledger.terrain);
+class SnapshotOfStorm : public testing::TestWithParam<Storm> {};
+
+TEST_P(SnapshotOfStorm, goes_on_the_same_way_every_time) {
+  const auto world = raging_world(GetParam(), 50);
+  const WorldSnapshot value = world->snapshot();
+  EXPECT_GT(value.moment.pieces.size(), 20U);
+  const auto decoded = decode_world(encode(value));
+  ASSERT_TRUE(decoded.has_value()) << decoded.error().message;
+  const auto one = restored(value), other = restored(*decoded);
+  ASSERT_TRUE(one && other);
+  EXPECT_EQ(encode(one->snapshot()), encode(value));
+  for (Tick tick = 51; tick <= 51 + ticks_compared; ++tick) {
+    const auto a = step(*one, storm_commands(*one, tick)), b = step(*other, storm_commands(*other, tick));
+    ASSERT_EQ(a->state_hash, b->state_hash) << "tick " << tick;
+    ASSERT_EQ(a->ledger.error(), 0);
   }
+  EXPECT_EQ(one->measure_terrain(), one->moment().ledger.terrain);
 }
+
+INSTANTIATE_TEST_SUITE_P(merges, SnapshotOfStorm,
+                         testing::Values(Storm{TerrainColliderKind::field, Recombination::stamp, true},
+                                         Storm{TerrainColliderKind::mesh, Recombination::slices, false},
+                                         Storm{TerrainColliderKind::rays, Recombination::sphere, false},
+                                         Storm{TerrainColliderKind::field, Recombination::off, false}),
+                         [](const auto& storm) { return std::string(row_of(storm.param.recombine).name); });
 
 TEST(snapshot, requests_and_cuts_that_wait_are_answered_by_the_restored_world) {
   World world({});
