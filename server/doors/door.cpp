@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "server/doors/crowd.h"
 #include "server/doors/limits.h"
 
 namespace scree {
@@ -37,15 +38,16 @@ bool Door::is_free(const std::string& address) const {
   return rules_.loopback_is_free && address == this_machine;
 }
 
-Door::Visitor& Door::visitor(const std::string& address, double now_s) {
+Door::Visitor& Door::visitor(const std::string& address, double now_s, size_t addresses) {
+  const auto times = static_cast<double>(addresses);
   const auto known = visitors_.find(address);
   if (known == visitors_.end() && visitors_.size() >= limits::door_addresses_max) forget_the_gone(now_s);
-  Visitor& found =
-      visitors_
-          .try_emplace(address,
-                       Visitor{.connects = RateLimit(rules_.connects_per_second, rules_.connects_burst),
-                               .requests = RateLimit(rules_.requests_per_second, rules_.requests_burst)})
-          .first->second;
+  Visitor& found = visitors_
+                       .try_emplace(address, Visitor{.connects = RateLimit(times * rules_.connects_per_second,
+                                                                           times * rules_.connects_burst),
+                                                     .requests = RateLimit(times * rules_.requests_per_second,
+                                                                           times * rules_.requests_burst)})
+                       .first->second;
   found.seen_s = now_s;
   return found;
 }
@@ -66,23 +68,50 @@ void Door::forget_the_gone(double now_s) {
 }
 
 std::optional<Refusal> Door::enter(const std::string& address, double now_s) {
-  Visitor& from = visitor(address, now_s);
-  if (!is_free(address)) {
-    if (!from.connects.try_spend(now_s)) return Refusal::connects_per_second;
-    if (from.connections >= rules_.connections_max) return Refusal::connections_per_address;
+  if (is_free(address)) {
+    enter_unbounded(address, now_s);
+    return std::nullopt;
   }
-  ++from.connections;
-  return std::nullopt;
+  std::vector<Visitor*> entered;
+  const auto enter = [&](const std::string& network, size_t addresses) -> std::optional<Refusal> {
+    Visitor& from = visitor(network, now_s, addresses);
+    if (!from.connects.try_spend(now_s)) return Refusal::connects_per_second;
+    if (from.connections >= addresses * rules_.connections_max) return Refusal::connections_per_address;
+    ++from.connections;
+    entered.push_back(&from);
+    return std::nullopt;
+  };
+  auto refused = enter(address, 1);
+  for (const WideNetwork& wide : wide_networks(address))
+    if (!refused && !wide.text.empty()) refused = enter(wide.text, wide.addresses);
+  if (refused)
+    for (Visitor* const from : entered) --from->connections;
+  return refused;
+}
+
+void Door::enter_unbounded(const std::string& address, double now_s) {
+  ++visitor(address, now_s).connections;
+  for (const WideNetwork& wide : wide_networks(address))
+    if (!wide.text.empty()) ++visitor(wide.text, now_s, wide.addresses).connections;
 }
 
 void Door::leave(const std::string& address, double now_s) {
-  Visitor& from = visitor(address, now_s);
-  CHECK(from.connections > 0);
-  --from.connections;
+  const auto leave = [&](const std::string& network, size_t addresses) {
+    Visitor& from = visitor(network, now_s, addresses);
+    CHECK(from.connections > 0);
+    --from.connections;
+  };
+  leave(address, 1);
+  for (const WideNetwork& wide : wide_networks(address))
+    if (!wide.text.empty()) leave(wide.text, wide.addresses);
 }
 
 bool Door::may_request(const std::string& address, double now_s) {
-  return is_free(address) || visitor(address, now_s).requests.try_spend(now_s);
+  if (is_free(address)) return true;
+  if (!visitor(address, now_s).requests.try_spend(now_s)) return false;
+  return std::ranges::all_of(wide_networks(address), [&](const WideNetwork& wide) {
+    return wide.text.empty() || visitor(wide.text, now_s, wide.addresses).requests.try_spend(now_s);
+  });
 }
 
 double Door::wait_for_guess_s(const std::string& address, double now_s) const {

@@ -2,8 +2,10 @@
 // it has guessed at a token. No sockets; time is an argument (seconds). Not thread-safe.
 //
 // An address is a whole IPv4 address, or the first 64 bits of an IPv6 one, which is what one customer is
-// given. This machine's own addresses may hold and open as many connections as they like: who can run
-// programs here needs no network to do harm. Guesses at tokens are slowed down from everywhere.
+// given. The /56 and the /48 around that one are bounded, too, as several addresses are (wide_networks()):
+// one customer may be given as much. This machine's own addresses may hold and open as many connections as
+// they like: who can run programs here needs no network to do harm. Guesses at tokens are slowed down from
+// everywhere.
 #pragma once
 
 #include <cstddef>
@@ -41,7 +43,7 @@ class Door {
   /// A connection has come. With a reason it is not let in, and not to be given back.
   std::optional<Refusal> enter(const std::string& address, double now_s);
   /// A connection of a trusted proxy has come, who speaks for many: no bound holds.
-  void enter_unbounded(const std::string& address, double now_s) { ++visitor(address, now_s).connections; }
+  void enter_unbounded(const std::string& address, double now_s);
   /// A connection that was let in has ended.
   void leave(const std::string& address, double now_s);
 
@@ -73,7 +75,8 @@ class Door {
     double guess_after_s = 0.0;
     double seen_s = 0.0;
   };
-  Visitor& visitor(const std::string& address, double now_s);
+  /// `addresses`: for how many addresses it stands.
+  Visitor& visitor(const std::string& address, double now_s, size_t addresses = 1);
   void forget_the_gone(double now_s);
 
   Rules rules_;

@@ -33,6 +33,12 @@ inline constexpr double door_connections_most = 65535.0;
 inline constexpr double door_connects_least = 0.1;
 inline constexpr double door_connects_most = 100000.0;
 
+/// Addresses (Door) for which the /56 and the /48 around one of IPv6 may stand: a site is given a /56, and a
+/// provider's customers may share a /48. All addresses of such a network together may hold and open as many
+/// connections as so many addresses. Above: turned away, and first to make room.
+inline constexpr size_t addresses_of_a_site = 4;
+inline constexpr size_t addresses_of_a_provider = 16;
+
 /// Connections that are held, at once and a second, until their first bytes say in which language they are
 /// turned away, and the seconds for which such bytes are waited for. TLS has its handshake first, which costs
 /// the network thread as much as many messages do. Above: told in the protocol's, and closed at once.
@@ -69,7 +75,8 @@ inline constexpr int accept_pause_ms = 100;
 /// Seconds after the end of its connection for which a session can go on by its ticket.
 inline constexpr double ticket_seconds_max = 60.0;
 
-/// Sessions without a connection that can go on; above: those that ended first are forgotten.
+/// Sessions without a connection that can go on; above: of the address or network that has the most of them,
+/// those that were there for the shortest time are forgotten, a sixteenth of all.
 inline constexpr size_t departed_max = 4096;
 
 /// Seconds for which a full server keeps the place of a lost connection, and the part of all places that it

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
+#include <tuple>
 #include <vector>
 
 #include "crypto/signing_key.h"
@@ -27,13 +29,20 @@ std::string bytes_of(uint64_t number) {
 }  // namespace
 
 std::string Tickets::issue(uint64_t session) {
-  departed_.erase(session);
+  erase_departed(session);
   const std::string& secret = secrets_[session] = bytes_of(random_number()) + bytes_of(random_number());
   return bytes_of(session) + secret;
 }
 
+void Tickets::erase_departed(uint64_t session) {
+  const auto departed = departed_.find(session);
+  if (departed == departed_.end()) return;
+  crowd_.remove(departed->second.origin);
+  departed_.erase(departed);
+}
+
 void Tickets::forget(uint64_t session) {
-  departed_.erase(session);
+  erase_departed(session);
   if (secrets_.erase(session) != 0) over_(session);
 }
 
@@ -49,10 +58,21 @@ std::optional<uint64_t> Tickets::session_of(const std::string& ticket) const {
 
 void Tickets::depart(Departed departed) {
   if (!secrets_.contains(departed.session)) return;
-  departed_.insert_or_assign(departed.session, std::move(departed));
+  erase_departed(departed.session);
+  crowd_.add(departed.origin);
+  departed_.emplace(departed.session, std::move(departed));
   if (departed_.size() <= limits::departed_max) return;
-  const auto since = [](const auto& entry) { return entry.second.departed_s; };
-  forget(std::ranges::min_element(departed_, {}, since)->first);
+  // Several at once: looking at all of them for each one would let who comes and goes keep the server busy.
+  const auto rank = [this](const Departed* one) {
+    return std::tuple(crowd_.weight(one->origin), one->joined_s - one->departed_s, -one->departed_s);
+  };
+  std::vector<const Departed*> all;
+  for (const auto& [session, one] : departed_) all.push_back(&one);
+  const auto kept = all.begin() + static_cast<ptrdiff_t>(limits::departed_max - limits::departed_max / 16);
+  std::ranges::nth_element(all, kept, std::ranges::less{}, rank);
+  std::vector<uint64_t> sessions;
+  for (auto one = kept; one != all.end(); ++one) sessions.push_back((*one)->session);
+  for (const uint64_t session : sessions) forget(session);
 }
 
 const Departed* Tickets::departed(uint64_t session) const {

@@ -2,7 +2,9 @@
 // and gives no right: who comes with it is looked at as anybody is. Times are seconds of steady_now_s(). Not
 // thread-safe.
 //
-// Invariant: of sessions whose connection has ended, at most limits::departed_max are known, the last ones.
+// Invariant: of sessions whose connection has ended, at most limits::departed_max are known. Above: of those
+// of the address or network that has the most (Crowd), those that were there for the shortest time are
+// forgotten, so that nobody voids another's ticket by coming and going.
 #pragma once
 
 #include <cstdint>
@@ -12,6 +14,7 @@
 #include <string>
 
 #include "server/doors/access.h"
+#include "server/doors/crowd.h"
 #include "shared/base/rate_limit.h"
 
 namespace scree {
@@ -21,6 +24,7 @@ struct Departed {
   uint64_t session = 0;
   Grant grant;
   std::string ip;  ///< from which it was connected
+  Origin origin;
   RateLimit requests;
   double joined_s = 0.0;
   uint64_t party = 0;  ///< Parties
@@ -51,9 +55,12 @@ class Tickets {
   size_t reserved_places(double now_s) const;
 
  private:
+  void erase_departed(uint64_t session);
+
   std::function<void(uint64_t session)> over_;
   std::map<uint64_t, std::string> secrets_;  ///< by session
   std::map<uint64_t, Departed> departed_;    ///< likewise, those of them without a connection
+  Crowd crowd_;                              ///< of these
 };
 
 /// Whether the departed session's place is still kept.

@@ -77,7 +77,7 @@ Result<const PlayerCursor*> Administration::person_at(const ClientSession& sessi
     const SessionEntry* const entry = sessions_.find(id);
     const bool meant = number.empty() ? entry != nullptr && entry->session->ip() == session.ip()
                                       : number == std::to_string(id);
-    if (meant) here.push_back(&cursor);
+    if (meant) here.push_back(&cursor.cursor);
   }
   if (here.size() == 1) return here.front();
   const std::string way_out = ": say whose eye it is (spawn here SESSION; scree admin sessions lists them)";

@@ -79,7 +79,7 @@ void Arrivals::named(uint64_t id, const std::string& ip, const std::string& peer
 
 void Arrivals::accepting_failed(const std::string& why) {
   parts_.log.say(spdlog::level::warn, "accept", "cannot accept connections: " + why);
-  close_oldest_outsider("the server lacks descriptors: " + why);
+  close_an_outsider("the server lacks descriptors: " + why);
 }
 
 void Arrivals::begin(std::shared_ptr<Transport> transport, const Visitor& from, uint64_t id) {
@@ -103,7 +103,7 @@ void Arrivals::begin_session(std::shared_ptr<Transport> transport, const Visitor
   parts_.sessions.add(session, from.relayed).at_door = from.at_door;
   spdlog::debug("session {}: {} connected", id, session->peer());
   if (parts_.sessions.outsiders() + parts_.web.size() > parts_.room.outsiders_max())
-    close_oldest_outsider("too many connections that have not said hello (limits.outsiders_max)");
+    close_an_outsider("too many connections that have not said hello (limits.outsiders_max)");
   session->start();
 }
 
@@ -118,14 +118,14 @@ void Arrivals::begin_http(uint64_t id, std::shared_ptr<Transport> stream, std::s
   parts_.web.begin(id, from, std::move(stream), arrived);
 }
 
-/// An idle HTTP connection goes first, then the connection that has been silent for longest, or was refused
-/// first.
-void Arrivals::close_oldest_outsider(const std::string& why) {
-  const std::optional<uint64_t> outsider = parts_.sessions.oldest_outsider();
-  const std::optional<uint64_t> http = parts_.web.oldest();
-  if (http && (!outsider || *http < *outsider || parts_.web.any_idle())) return parts_.web.close_one();
-  if (!outsider) return;
-  const auto session = parts_.sessions.at(*outsider).session;
+void Arrivals::close_an_outsider(const std::string& why) {
+  std::vector<Outsider> outsiders;
+  parts_.sessions.list_outsiders(outsiders);
+  parts_.web.list_outsiders(outsiders);
+  if (outsiders.empty()) return;
+  const uint64_t leaver = who_leaves(outsiders).id;
+  if (parts_.web.make_room(leaver)) return;
+  const auto session = parts_.sessions.at(leaver).session;
   if (session->phase() == ClientSession::Phase::refused) return session->close("refused before");
   session->disconnect(Refusal::outsiders_max, why);
 }

@@ -69,7 +69,7 @@ class Arrivals final : public EntranceHost {
   void count_turned_away(const std::string& peer, const Refused& refused);
   /// Whether one more that is turned away may be held until it can be told so in its own language.
   bool may_hold(double now_s);
-  void close_oldest_outsider(const std::string& why);
+  void close_an_outsider(const std::string& why);
 
   const Parts parts_;
   const std::function<void()> changed_;

@@ -19,6 +19,7 @@ ClientSession::ClientSession(std::shared_ptr<Transport> transport, std::string a
       times_(times),
       peer_(endpoint_text(transport_->address(), transport_->port())),
       address_(std::move(address)),
+      origin_(address_),
       phase_since_s_(now_s),
       progress_s_(now_s),
       now_s_(now_s),
@@ -59,6 +60,7 @@ void ClientSession::read_failed(const StreamEnd& end) {
 
 void ClientSession::read_done(size_t bytes) {
   now_s_ = times_.now_s();
+  heard_ = true;
   if (phase_ == Phase::hello && turned_away_) refuse(*turned_away_);
   if (phase_ != Phase::refused && !bytes_.try_spend(now_s_, static_cast<double>(bytes)))
     refuse({Refusal::bytes_per_second,

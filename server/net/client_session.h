@@ -19,6 +19,7 @@
 #include "proto/limits.h"
 #include "proto/messages.h"
 #include "server/command/refusal.h"
+#include "server/doors/crowd.h"
 #include "server/net/reading_pace.h"
 #include "server/publish/encode_cache.h"
 #include "server/publish/publisher.h"
@@ -97,6 +98,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   /// Its proxy has said for whom it speaks; `address` as of Door.
   void come_from(const std::string& address, const std::string& peer) {
     address_ = address;
+    origin_ = Origin(address);
     peer_ = peer;
   }
   /// It goes on as another session, which has no connection any more.
@@ -105,6 +107,9 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   const std::string& peer() const { return peer_; }
   /// As of Door.
   const std::string& address() const { return address_; }
+  const Origin& origin() const { return origin_; }
+  /// Whether none of its bytes has come yet.
+  bool is_silent() const { return !heard_ && !transport_->encrypted(); }
   /// The IP address.
   const std::string& ip() const { return transport_->address(); }
   /// Seconds since it did anything but apply frames.
@@ -160,6 +165,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   SessionTimes times_;
   std::string peer_;
   std::string address_;
+  Origin origin_;
   Phase phase_ = Phase::hello;
   std::optional<Refusal> disconnect_reason_;
   std::optional<Refused> turned_away_;
@@ -167,6 +173,7 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   double progress_s_;  ///< the last time at which the client read something, or had nothing to read
   double now_s_;
   double acted_s_;
+  bool heard_ = false;
   bool inert_ = true;  ///< it has sent nothing but its hello
   RateLimit messages_;
   RateLimit bytes_;

@@ -34,7 +34,7 @@ std::vector<glm::vec3> HostFigures::eyes_m() const {
 std::vector<PlayerCursor> HostFigures::cursors() const {
   std::vector<PlayerCursor> cursors;
   const std::scoped_lock lock(mutex_);
-  for (const auto& [session, cursor] : cursors_) cursors.push_back(cursor);
+  for (const auto& [session, cursor] : cursors_) cursors.push_back(cursor.cursor);
   return cursors;
 }
 

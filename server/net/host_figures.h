@@ -32,7 +32,7 @@ class HostFigures {
   NetStats stats_;  ///< guarded by mutex_, as all below
   LatencyCounts latency_;
   std::vector<glm::vec3> eyes_m_;
-  std::map<uint64_t, PlayerCursor> cursors_;
+  std::map<uint64_t, PartyCursor> cursors_;
 };
 
 }  // namespace scree

@@ -20,9 +20,17 @@ inline constexpr double hello_seconds_max = 5.0;
 inline constexpr double linger_seconds_max = 2.0;
 
 /// All connections that are no sessions: they have not said hello, or were refused and may still read why.
-/// Above: the oldest of them is closed for the newest, so that a client that says hello at once always comes
-/// in.
-inline constexpr size_t outsiders_max = 512;
+/// Above: one of them is closed for the newest (server/net/outsider.h), so that a client that says hello at
+/// once always comes in. So many that a handshake over a slow link ends in time beside a thousand newcomers a
+/// second.
+inline constexpr size_t outsiders_max = 1024;
+
+/// Such connections of one address beyond which it makes room first: a browser opens six.
+inline constexpr size_t outsiders_of_an_address = 8;
+
+/// Sessions of one address that another address's newcomer never makes go, however full the server is: a
+/// household.
+inline constexpr size_t sessions_of_a_household = 2;
 
 /// Sessions that take no place: administrators, and programs that administer alone. Above: of those that hold
 /// no token, the one that came first goes for the next, and for an administrator one of another role, too;
@@ -45,15 +53,19 @@ inline constexpr double requests_burst_s = 2.0;
 inline constexpr double messages_per_second_max = 500.0;
 inline constexpr double messages_burst_max = 1000.0;
 
-/// Lines of chat that a session may say, a second and at once after a silence; all sessions of a party, so
-/// that none silences the others; and all sessions together, because each goes to everybody. Above: not
-/// passed on, and the speaker is told.
+/// Lines of chat that a session may say, a second and at once after a silence, and all sessions of a party;
+/// no more than the party's even share of what all together may say, so that none silences the others. Above:
+/// not passed on, and the speaker is told.
 inline constexpr double lines_per_second_max = 0.5;
 inline constexpr double lines_burst_max = 5.0;
 inline constexpr double lines_per_second_party = 2.0;
 inline constexpr double lines_burst_party = 10.0;
+
+/// Each line goes to everybody: so many a second reach persons, all together, at least so many lines a
+/// second, and at once as many as in so many seconds. A hundred persons may all talk without a pause.
+inline constexpr double lines_heard_per_second = 40000.0;
 inline constexpr double lines_per_second_all = 10.0;
-inline constexpr double lines_burst_all = 40.0;
+inline constexpr double lines_burst_s = 4.0;
 
 /// Seconds after its last line for which it is known what a party has said: longer than any of its limits
 /// remembers, so that nobody may say more by coming again.

@@ -170,7 +170,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           [&](const CursorMessage& cursor) -> Done {
             SessionEntry& entry = sessions_.at(session.id());
             entry.eye_m = cursor.eye_m;
-            publisher_.set_cursor({session.id(), entry.name, cursor.eye_m, cursor.aim_m});
+            publisher_.set_cursor({session.id(), entry.name, cursor.eye_m, cursor.aim_m}, entry.party);
             return {};
           },
           [&](const SayMessage& said) -> Done {

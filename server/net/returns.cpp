@@ -44,8 +44,8 @@ uint64_t Returns::join_party(const ClientSession& session, const Grant& grant, u
 void Returns::closed(const SessionEntry& entry, double now_s) {
   const ClientSession& session = *entry.session;
   if (session.may_go_on())
-    tickets_.depart({session.id(), entry.grant, session.ip(), entry.requests, entry.joined_s, entry.party,
-                     now_s, session.was_lost() && entry.needs_place()});
+    tickets_.depart({session.id(), entry.grant, session.ip(), session.origin(), entry.requests,
+                     entry.joined_s, entry.party, now_s, session.was_lost() && entry.needs_place()});
   else
     tickets_.forget(session.id());
   if (entry.party != 0) parties_.leave(entry.party, now_s);

@@ -17,7 +17,7 @@ void Room::fit(uint32_t sessions_max) {
   const size_t granted = raise_descriptors(wanted);
   descriptors_ = std::max(granted, 2 * limits::descriptors_reserved) - limits::descriptors_reserved;
   outsiders_max_ = std::min(limits::outsiders_max, descriptors_ / 4);
-  if (granted >= wanted) return;
+  if (granted >= wanted || this->sessions_max() == sessions_max) return;
   spdlog::warn(
       "this process may open {} files: room for {} sessions, not {} (sessions-max); ulimit -n, or "
       "LimitNOFILE of a "
@@ -39,7 +39,7 @@ bool Room::has_free_place(const SessionTable& sessions, size_t reserved) const {
 tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const ClientSession& newcomer,
                                              const Grant& grant, size_t reserved, double now_s) const {
   if (has_free_place(sessions, reserved)) return {};
-  if (const auto leaver = who_gives_way(sessions, newcomer, grant, now_s)) {
+  if (const auto leaver = who_gives_way(sessions, newcomer.origin(), grant, now_s)) {
     leaver->session->refuse(
         {Refusal::idle_made_room,
          fmt::format("the server is full, and {}: another client has your place", leaver->why)});
@@ -78,24 +78,20 @@ tl::expected<void, Refused> Room::find_room_beside(const SessionTable& sessions,
 }
 
 bool Room::has_place(const SessionTable& sessions, size_t reserved, double now_s) const {
-  if (has_free_place(sessions, reserved)) return true;
-  return std::ranges::any_of(sessions.entries(), [&](const auto& one) {
-    const SessionEntry& entry = one.second;
-    return entry.needs_place() && !holds_token(entry.grant) && entry.session->may_make_room(now_s);
-  });
+  return has_free_place(sessions, reserved) || who_gives_way(sessions, Origin(), Grant(), now_s).has_value();
 }
 
 bool holds_token(const Grant& grant) {
   return grant.token_id != 0 || grant.role == Role::admin;
 }
 
-std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const ClientSession& newcomer,
+std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const Origin& newcomer,
                                       const Grant& grant, double now_s) {
-  std::map<std::string, size_t> held;
+  Crowd held;
   for (const auto& [id, entry] : sessions.entries())
     if (entry.session->phase() == ClientSession::Phase::joined && entry.needs_place())
-      ++held[entry.session->address()];
-  const size_t few = held[newcomer.address()] + sessions.placed() / 4;
+      held.add(entry.session->origin());
+  const size_t few = std::max(held.weight(newcomer) + 1, limits::sessions_of_a_household);
   // Why a session gives way; null: it stays. Who needs no place has none to give, and holders of tokens give
   // way to such alone.
   const auto why = [&](const SessionEntry& entry) -> const char* {
@@ -105,10 +101,12 @@ std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const Client
       return idle && holds_token(grant) ? "you were idle for a long time" : nullptr;
     if (idle) return "you were idle for a long time";
     if (holds_token(grant)) return "clients with a token have priority";
-    return held[entry.session->address()] > few ? "your address has many clients" : nullptr;
+    return held.weight(entry.session->origin()) > few
+               ? "your address, or the network around it, has the most clients"
+               : nullptr;
   };
   const auto rank = [&](const SessionEntry& entry) {
-    return std::tuple(!holds_token(entry.grant), held[entry.session->address()],
+    return std::tuple(!holds_token(entry.grant), held.weight(entry.session->origin()),
                       entry.session->idle_s(now_s));
   };
   const SessionEntry* least = nullptr;

@@ -30,7 +30,8 @@ class Room {
                                          const Grant& grant, size_t reserved, double now_s) const;
   /// Finds room for a newcomer that needs no place: an administrator, or a program that administers alone.
   static tl::expected<void, Refused> find_room_beside(const SessionTable& sessions, const Grant& grant);
-  /// Whether a newcomer without a token would find a place; `reserved`: as of find_place().
+  /// Whether a newcomer without a token, of an address that holds none, would find a place; `reserved`: as of
+  /// find_place().
   bool has_place(const SessionTable& sessions, size_t reserved, double now_s) const;
 
  private:
@@ -47,9 +48,10 @@ struct GivesWay {
   std::string why;
 };
 
-/// The session to end for a newcomer with that grant: one without a token if there is any, of the address
-/// with the most sessions, the idlest of these. Nothing when all stay.
-std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const ClientSession& newcomer,
+/// The session to end for a newcomer with that grant: one without a token if there is any, of the address or
+/// network (Crowd) with the most sessions, the idlest of these. One that is not idle goes only if its address
+/// holds more than the newcomer's then will, and more than a household. Nothing when all stay.
+std::optional<GivesWay> who_gives_way(const SessionTable& sessions, const Origin& newcomer,
                                       const Grant& grant, double now_s);
 
 /// Whether the grant was given for a token, an access token or the admin token.

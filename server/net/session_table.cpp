@@ -82,8 +82,12 @@ size_t SessionTable::turned_away() const {
       outsiders_, [this](uint64_t id) { return entries_.at(id).session->turned_away().has_value(); }));
 }
 
-std::optional<uint64_t> SessionTable::oldest_outsider() const {
-  return outsiders_.empty() ? std::nullopt : std::optional(*outsiders_.begin());
+void SessionTable::list_outsiders(std::vector<Outsider>& outsiders) const {
+  for (const uint64_t id : outsiders_) {
+    const ClientSession& session = *entries_.at(id).session;
+    outsiders.push_back(
+        {id, session.origin(), session.phase() == ClientSession::Phase::refused, session.is_silent()});
+  }
 }
 
 std::vector<SessionRow> SessionTable::rows(double now_s) const {

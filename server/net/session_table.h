@@ -14,6 +14,7 @@
 
 #include "server/doors/authorizer.h"
 #include "server/net/client_session.h"
+#include "server/net/outsider.h"
 #include "shared/base/rate_limit.h"
 
 namespace scree {
@@ -74,8 +75,8 @@ class SessionTable {
   size_t placed() const;
   /// Outsiders that the door turned away.
   size_t turned_away() const;
-  /// The outsider that came first.
-  std::optional<uint64_t> oldest_outsider() const;
+  /// Adds the outsiders to a list.
+  void list_outsiders(std::vector<Outsider>& outsiders) const;
 
   /// The sessions that have joined, for administrators.
   std::vector<SessionRow> rows(double now_s) const;

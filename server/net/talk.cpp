@@ -19,7 +19,14 @@ std::string trimmed(const std::string& text) {
 
 }  // namespace
 
-Talk::Talk(bool chat) : chat_(chat), all_lines_(limits::lines_per_second_all, limits::lines_burst_all) {}
+Talk::Talk(bool chat)
+    : chat_(chat),
+      all_lines_(limits::lines_per_second_all, limits::lines_per_second_all * limits::lines_burst_s) {}
+
+double Talk::lines_per_second() const {
+  const double persons = std::max(1.0, static_cast<double>(persons_.size()));
+  return std::max(limits::lines_per_second_all, limits::lines_heard_per_second / persons);
+}
 
 void Talk::join(uint64_t session, uint64_t party, const std::string& name, Role role) {
   const RateLimit lines(limits::lines_per_second_max, limits::lines_burst_max);
@@ -38,6 +45,9 @@ bool Talk::may_say(Entry& speaker, double now_s) {
   const RateLimit whole(limits::lines_per_second_party, limits::lines_burst_party);
   PartyLines& party = parties_.try_emplace(speaker.party, PartyLines{whole, now_s}).first->second;
   party.said_s = now_s;
+  const double share = lines_per_second() / static_cast<double>(parties_.size());
+  party.lines.change(std::min(limits::lines_per_second_party, share),
+                     std::clamp(share * limits::lines_burst_s, 1.0, limits::lines_burst_party));
   return party.lines.try_spend(now_s);
 }
 
@@ -53,6 +63,7 @@ std::optional<Talk::Heard> Talk::say(uint64_t session, const std::string& text, 
         fmt::format("more than {} lines at once, or more than {} a second, or too many from your address or "
                     "token: this line was not sent",
                     limits::lines_burst_max, limits::lines_per_second_max));
+  all_lines_.change(lines_per_second(), lines_per_second() * limits::lines_burst_s);
   if (!all_lines_.try_spend(now_s)) return answer("too many people write at once: this line was not sent");
   return Heard{{session, speaker->second.name, std::move(line)}, true};
 }
@@ -68,9 +79,20 @@ std::vector<uint64_t> Talk::untold(double now_s) const {
 PersonsMessage Talk::list() const {
   PersonsMessage message;
   message.chat = chat_;
-  for (const auto& [session, entry] : persons_) {
-    if (message.persons.size() == limits::persons_max) break;
-    message.persons.push_back({session, entry.name, entry.role});
+  const auto add = [&](const auto& one) {
+    if (message.persons.size() < limits::persons_max)
+      message.persons.push_back({one.first, one.second.name, one.second.role});
+  };
+  if (persons_.size() <= limits::persons_max) {
+    std::ranges::for_each(persons_, add);
+  } else {
+    // One of each party first, so that nobody hides the others by being many.
+    std::map<uint64_t, size_t> turns;
+    std::map<size_t, std::vector<uint64_t>> by_turn;
+    for (const auto& [session, entry] : persons_) by_turn[turns[entry.party]++].push_back(session);
+    for (const auto& [turn, sessions] : by_turn)
+      for (const uint64_t session : sessions) add(*persons_.find(session));
+    std::ranges::sort(message.persons, {}, &Person::session);
   }
   message.more = static_cast<uint32_t>(persons_.size() - message.persons.size());
   return message;

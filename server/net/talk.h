@@ -52,6 +52,8 @@ class Talk {
     double said_s = 0.0;
   };
   bool may_say(Entry& speaker, double now_s);
+  /// Lines that all together may say a second.
+  double lines_per_second() const;
 
   bool chat_;
   std::map<uint64_t, Entry> persons_;

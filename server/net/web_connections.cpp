@@ -72,25 +72,18 @@ size_t WebConnections::turned_away() const {
       connections_, [](const auto& one) { return one.second.from.turned_away.has_value(); }));
 }
 
-WebConnections::Connections::const_iterator WebConnections::idle() const {
-  return std::ranges::find_if(connections_, [](const auto& one) { return one.second.connection->is_idle(); });
+void WebConnections::list_outsiders(std::vector<Outsider>& outsiders) const {
+  for (const auto& [id, entry] : connections_)
+    outsiders.push_back({id, Origin(entry.from.address), entry.connection->is_idle(), false});
 }
 
-bool WebConnections::any_idle() const {
-  return idle() != connections_.end();
-}
-
-std::optional<uint64_t> WebConnections::oldest() const {
-  return connections_.empty() ? std::nullopt : std::optional(connections_.begin()->first);
-}
-
-void WebConnections::close_one() {
-  CHECK(!connections_.empty());
-  const auto found = idle();
-  const bool is_idle = found != connections_.end();
-  const auto connection = (is_idle ? found : connections_.cbegin())->second.connection;
-  if (!is_idle) disconnect(*connection, Refusal::outsiders_max);
+bool WebConnections::make_room(uint64_t id) {
+  const auto found = connections_.find(id);
+  if (found == connections_.end()) return false;
+  const auto connection = found->second.connection;
+  if (!connection->is_idle()) disconnect(*connection, Refusal::outsiders_max);
   connection->close();
+  return true;
 }
 
 WebConnections::Asker WebConnections::asker_of(const HttpConnection& from, const HttpRequest& request) const {

@@ -12,11 +12,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "server/doors/authorizer.h"
 #include "server/doors/door.h"
 #include "server/net/host_log.h"
 #include "server/net/net_server.h"
+#include "server/net/outsider.h"
 #include "server/net/visitor.h"
 #include "server/web/http_connection.h"
 #include "server/web/site.h"
@@ -59,12 +61,12 @@ class WebConnections final : public HttpHost {
   size_t size() const { return connections_.size(); }
   /// Those that the door turned away.
   size_t turned_away() const;
-  /// Whether a browser's connection waits without a request; it opens another one when it needs to.
-  bool any_idle() const;
-  /// The number of the oldest connection.
-  std::optional<uint64_t> oldest() const;
-  /// Closes an idle connection, else the oldest, which counts as cut off. There must be one.
-  void close_one();
+  /// Adds all of them to a list. A browser whose connection waits without a request opens another one when it
+  /// needs to.
+  void list_outsiders(std::vector<Outsider>& outsiders) const;
+  /// Closes this connection, which must be there; unless it is idle it counts as cut off. False: there is
+  /// none of that number.
+  bool make_room(uint64_t id);
 
  private:
   struct Entry {
@@ -93,7 +95,6 @@ class WebConnections final : public HttpHost {
   HttpResponse answer_health(const HttpRequest& request);
   HttpResponse status_json(const Asker& asker, const HttpRequest& request);
   tl::expected<void, Refused> may_see_status(const Asker& asker, const HttpRequest& request);
-  Connections::const_iterator idle() const;
 
   const NetConfig& config_;
   Authorizer& authorizer_;

@@ -1,20 +1,37 @@
 #include "server/publish/interest_filter.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "proto/limits.h"
 
 namespace scree {
 
-std::vector<PlayerCursor> cursors_for(uint64_t session, const std::map<uint64_t, PlayerCursor>& cursors,
+std::vector<PlayerCursor> cursors_for(uint64_t session, const std::map<uint64_t, PartyCursor>& cursors,
                                       glm::vec3 eye_m, float radius_m) {
-  std::vector<PlayerCursor> near;
-  for (const auto& [other, cursor] : cursors) {
-    const bool seen =
-        glm::distance(cursor.eye_m, eye_m) <= radius_m || glm::distance(cursor.aim_m, eye_m) <= radius_m;
-    if (other != session && seen && near.size() < limits::cursors_max) near.push_back(cursor);
+  struct Near {
+    size_t turn = 0;
+    float distance_m = 0.0F;
+    const PartyCursor* of = nullptr;
+  };
+  std::vector<Near> near;
+  for (const auto& [other, one] : cursors) {
+    const float distance_m =
+        std::min(glm::distance(one.cursor.eye_m, eye_m), glm::distance(one.cursor.aim_m, eye_m));
+    if (other != session && distance_m <= radius_m) near.push_back({0, distance_m, &one});
   }
-  return near;
+  const auto session_of = [](const Near& one) { return one.of->cursor.session; };
+  if (near.size() > limits::cursors_max) {
+    std::ranges::stable_sort(near, {}, &Near::distance_m);
+    std::map<uint64_t, size_t> turns;
+    for (Near& one : near) one.turn = turns[one.of->party]++;
+    std::ranges::stable_sort(near, {}, &Near::turn);
+    near.resize(limits::cursors_max);
+    std::ranges::sort(near, {}, session_of);
+  }
+  std::vector<PlayerCursor> seen;
+  for (const Near& one : near) seen.push_back(one.of->cursor);
+  return seen;
 }
 
 PhysicsMessage physics_for(const PhysicsMessage& physics, const PublishedState& state, float voxel_size_m,

@@ -61,8 +61,9 @@ void Publisher::set_interest(uint64_t session, glm::vec3 eye_m, float radius_m) 
   if (ClientFeed* client = find(session)) client->view().set_interest(eye_m, radius_m);
 }
 
-void Publisher::set_cursor(PlayerCursor cursor) {
-  if (clients_.contains(cursor.session)) cursors_.insert_or_assign(cursor.session, std::move(cursor));
+void Publisher::set_cursor(PlayerCursor cursor, uint64_t party) {
+  const uint64_t session = cursor.session;
+  if (clients_.contains(session)) cursors_.insert_or_assign(session, PartyCursor{std::move(cursor), party});
 }
 
 void Publisher::set_control_refusal(uint64_t session, const std::string& refusal) {

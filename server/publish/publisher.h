@@ -73,9 +73,9 @@ class Publisher {
   void set_latency(const LatencyStatus& latency) { board_.set_latency(latency); }
   /// Sets how the world is saved, for the status.
   void set_saving(Saving saving) { board_.set_saving(std::move(saving)); }
-  /// Sets the eye and aim of the session's person, for other clients.
-  void set_cursor(PlayerCursor cursor);
-  const std::map<uint64_t, PlayerCursor>& cursors() const { return cursors_; }
+  /// Sets the eye and aim of the session's person, for other clients. `party`: as of Command.
+  void set_cursor(PlayerCursor cursor, uint64_t party);
+  const std::map<uint64_t, PartyCursor>& cursors() const { return cursors_; }
   /// Why the client may not control a replay, for PlaybackMessage; empty: it may.
   void set_control_refusal(uint64_t session, const std::string& refusal);
   /// What all clients are told alike, of the last second.
@@ -123,7 +123,7 @@ class Publisher {
   PublishedState state_;
   Motions motions_;
   Clients clients_;
-  std::map<uint64_t, PlayerCursor> cursors_;
+  std::map<uint64_t, PartyCursor> cursors_;
   EncodeCache cache_;
   GroundStream ground_;
   TileStream tiles_;

@@ -8,6 +8,7 @@
 #include "proto/messages.h"
 #include "server/publish/client_view.h"
 #include "server/publish/encode_cache.h"
+#include "server/publish/interest_filter.h"
 
 namespace scree {
 
@@ -27,7 +28,7 @@ struct ServedTick {
   const TickChanges& changes;
   EncodeCache& cache;
   const StatusMessage& status;
-  const std::map<uint64_t, PlayerCursor>& cursors;
+  const std::map<uint64_t, PartyCursor>& cursors;
   const PublishRates& rates;
 
   Tick tick() const { return changes.delta.tick; }

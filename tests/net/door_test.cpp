@@ -1,5 +1,6 @@
 #include "server/doors/door.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "server/doors/limits.h"
@@ -29,6 +30,24 @@ TEST(Door, connections_are_bounded_in_number_and_in_rate_for_each_address_alone)
   door.leave("a", 0.5);
   EXPECT_EQ(door.enter("a", 0.5), Refusal::connects_per_second);
   EXPECT_EQ(door.enter("a", 1.5), std::nullopt);
+}
+
+TEST(Door, a_site_of_ipv6_has_what_a_few_addresses_have_and_its_neighbours_have_theirs) {
+  Door door(rules);
+  const auto enter_from = [&](const std::string& prefix) {
+    size_t entered = 0;
+    for (int i = 0; i < 64; ++i)
+      entered += door.enter(door_address(prefix + fmt::format("{:02x}::1", i)), 0.0) ? 0U : 1U;
+    return entered;
+  };
+  EXPECT_EQ(enter_from("2001:db8:1:1"), limits::addresses_of_a_site * rules.connections_max);
+  EXPECT_EQ(enter_from("2001:db8:1:2"), limits::addresses_of_a_site * rules.connections_max);
+  EXPECT_EQ(enter_from("2001:db8:1:3"), limits::addresses_of_a_site * rules.connections_max);
+  EXPECT_EQ(enter_from("2001:db8:1:4"), limits::addresses_of_a_site * rules.connections_max);
+  EXPECT_EQ(enter_from("2001:db8:1:5"), 0U) << "its /48 is full";
+  EXPECT_EQ(enter_from("2001:db8:2:1"), limits::addresses_of_a_site * rules.connections_max);
+  for (int i = 0; i < 8; ++i) door.leave(door_address(fmt::format("2001:db8:1:1{:02x}::1", i)), 100.0);
+  EXPECT_EQ(door.enter(door_address("2001:db8:1:500::1"), 100.0), std::nullopt);
 }
 
 TEST(Door, this_machine_is_free_unless_told_otherwise) {

@@ -2,6 +2,9 @@
 // what is queued.
 #include "server/net/session_table.h"
 
+#include <fmt/format.h>
+#include <functional>
+
 #include "server/doors/limits.h"
 #include "server/net/flush_queue.h"
 #include "server/net/limits.h"
@@ -25,7 +28,6 @@ TEST(SessionTable, a_session_is_an_outsider_until_it_joins_and_again_once_it_is_
   sessions.connect(2, "10.0.0.1");
   EXPECT_EQ(table.outsiders(), 2U);
   EXPECT_EQ(table.joined(), 0U);
-  EXPECT_EQ(table.oldest_outsider(), 1U);
   const auto joined = sessions.join(3, "10.0.0.1");
   EXPECT_EQ(table.joined(), 1U);
   EXPECT_EQ(table.rows(sessions.now_s).size(), 1U);
@@ -67,7 +69,7 @@ TEST(Room, those_without_a_token_give_way_first_then_the_idlest_and_administrato
   sessions.join(3, "10.0.0.3", viewer);
   const auto newcomer = sessions.connect(9, "10.0.0.3");
   const auto gives_way = [&](const Grant& grant) -> uint64_t {
-    const auto leaver = who_gives_way(sessions.table, *newcomer, grant, sessions.now_s);
+    const auto leaver = who_gives_way(sessions.table, newcomer->origin(), grant, sessions.now_s);
     return leaver ? leaver->session->id() : 0;
   };
   EXPECT_EQ(gives_way(viewer), 0U) << "all have just come";
@@ -86,7 +88,7 @@ TEST(Room, who_holds_a_token_and_acts_keeps_his_place_from_others_who_hold_one) 
   sessions.join(1, "10.0.0.1", holder(7));
   const auto newcomer = sessions.connect(9, "10.0.0.2");
   const auto gives_way = [&] {
-    return who_gives_way(sessions.table, *newcomer, holder(8), sessions.now_s).has_value();
+    return who_gives_way(sessions.table, newcomer->origin(), holder(8), sessions.now_s).has_value();
   };
   EXPECT_FALSE(gives_way()) << "he has just come";
   sessions.now_s += limits::idle_seconds_max + 1.0;
@@ -110,13 +112,62 @@ TEST(Room, the_address_with_the_most_sessions_gives_way) {
   EXPECT_EQ(sessions.reasons.begin()->second, Refusal::idle_made_room);
 }
 
+/// A full server whose places these addresses hold, and how many of `knocks` newcomers, each of an address of
+/// its own, come in.
+size_t let_in(size_t places, size_t knocks, const std::function<std::string(size_t)>& holder_of) {
+  MemorySessions sessions;
+  Room room;
+  room.fit(static_cast<uint32_t>(places));
+  uint64_t id = 1;
+  for (size_t i = 0; i < places; ++i) sessions.join(id++, holder_of(i), viewer);
+  size_t came_in = 0;
+  for (size_t i = 0; i < knocks; ++i) {
+    const auto newcomer = sessions.connect(id++, fmt::format("198.51.100.{}", i));
+    if (!room.find_place(sessions.table, *newcomer, viewer, 0, sessions.now_s)) continue;
+    ++came_in;
+    for (const auto& [gone, reason] : sessions.reasons)
+      if (const auto* const entry = sessions.table.find(gone)) entry->session->close("gone");
+    newcomer->close("it joins");
+    sessions.join(id++, fmt::format("198.51.100.{}", i), viewer);
+  }
+  return came_in;
+}
+
+TEST(Room, neither_a_few_addresses_nor_the_networks_of_one_site_hold_a_server) {
+  EXPECT_EQ(let_in(64, 15, [](size_t i) { return fmt::format("203.0.113.{}", i % 4); }), 15U);
+  EXPECT_EQ(let_in(64, 15, [](size_t i) { return fmt::format("2001:db8:1:1{:02x}::1", i); }), 15U);
+  EXPECT_EQ(let_in(64, 15, [](size_t i) { return fmt::format("2001:db8:1:{:x}01::1", i + 1); }), 15U)
+      << "of a /48";
+}
+
+TEST(Room, households_and_single_persons_keep_their_places_while_they_play) {
+  EXPECT_EQ(let_in(64, 15, [](size_t i) { return fmt::format("203.0.113.{}", i / 2); }), 0U);
+  EXPECT_EQ(let_in(64, 15, [](size_t i) { return fmt::format("2001:db8:{:x}:1::1", i); }), 0U);
+}
+
+TEST(Outsiders, those_of_whom_there_are_most_leave_first_then_the_silent_then_the_oldest) {
+  std::vector<Outsider> outsiders;
+  uint64_t id = 1;
+  const auto add = [&](const std::string& ip, bool is_done, bool is_silent) {
+    outsiders.push_back({id++, Origin(door_address(ip)), is_done, is_silent});
+  };
+  add("198.51.100.1", false, true);
+  add("198.51.100.2", false, false);
+  EXPECT_EQ(who_leaves(outsiders).id, 1U) << "it is silent";
+  add("198.51.100.3", true, false);
+  EXPECT_EQ(who_leaves(outsiders).id, 3U) << "nobody waits for it";
+  add("198.51.100.4", true, true);
+  for (int i = 0; i < 64; ++i) add(fmt::format("2001:db8:1:1{:02x}::1", i), false, false);
+  EXPECT_EQ(who_leaves(outsiders).id, 5U) << "one site holds most";
+}
+
 TEST(Room, of_those_who_may_go_one_of_the_address_with_the_most_sessions_goes) {
   MemorySessions sessions;
   sessions.join(1, "10.0.0.2", viewer);
   sessions.now_s += limits::inert_seconds_max + 1.0;
   for (const uint64_t id : {2, 3, 4}) sessions.join(id, "10.0.0.1", viewer);
   const auto newcomer = sessions.connect(9, "10.0.0.9");
-  const auto leaver = who_gives_way(sessions.table, *newcomer, viewer, sessions.now_s);
+  const auto leaver = who_gives_way(sessions.table, newcomer->origin(), viewer, sessions.now_s);
   ASSERT_TRUE(leaver);
   EXPECT_EQ(leaver->session->address(), "10.0.0.1") << "though the other one is idle for longer";
 }
@@ -129,9 +180,9 @@ TEST(Room, places_that_are_kept_are_no_newcomers_but_at_most_a_quarter_is_kept) 
   const auto finds_place = [&](size_t reserved) {
     return room.find_place(sessions.table, *newcomer, viewer, reserved, sessions.now_s).has_value();
   };
-  for (const uint64_t id : {1, 2}) sessions.join(id, "10.0.0.1", viewer);
+  for (const uint64_t id : {1, 2}) sessions.join(id, fmt::format("10.0.1.{}", id), viewer);
   EXPECT_TRUE(finds_place(4));
-  sessions.join(3, "10.0.0.1", viewer);
+  sessions.join(3, "10.0.1.3", viewer);
   EXPECT_FALSE(finds_place(4));
   EXPECT_FALSE(room.has_place(sessions.table, 4, sessions.now_s)) << "and says so to who asks for its health";
   EXPECT_TRUE(finds_place(0));

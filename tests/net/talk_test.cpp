@@ -42,12 +42,43 @@ TEST(Talk, who_says_too_much_is_told_so_alone_and_may_go_on_later) {
 TEST(Talk, all_together_say_no_more_than_everybody_can_be_sent) {
   Talk talk(true);
   int count = 0;
-  for (uint64_t session = 1; session <= 100; ++session) {
-    talk.join(session, session, "", Role::viewer);
+  for (uint64_t session = 1; session <= 4096; ++session) talk.join(session, session, "", Role::viewer);
+  for (uint64_t session = 1; session <= 4096; ++session) {
     const auto heard = talk.say(session, "all at once", 5.0);
     count += heard && heard->by_all ? 1 : 0;
   }
-  EXPECT_EQ(count, static_cast<int>(limits::lines_burst_all));
+  EXPECT_EQ(count, static_cast<int>(limits::lines_per_second_all * limits::lines_burst_s));
+}
+
+TEST(Talk, a_hundred_parties_that_write_without_a_pause_silence_nobody) {
+  Talk talk(true);
+  for (uint64_t session = 1; session <= 401; ++session)
+    talk.join(session, session == 401 ? 1000 : session % 100, "", Role::viewer);
+  size_t honest = 0, others = 0;
+  for (int tenth = 0; tenth < 300; ++tenth) {
+    const double now_s = 10.0 + 0.1 * tenth;
+    for (uint64_t session = 1; session <= 400; ++session) {
+      const auto heard = talk.say(session, "flood", now_s);
+      others += heard && heard->by_all ? 1U : 0U;
+    }
+    if (tenth % 33 != 20) continue;
+    const auto heard = talk.say(401, "mind the edge", now_s);
+    ASSERT_TRUE(heard);
+    honest += heard->by_all ? 1U : 0U;
+  }
+  EXPECT_EQ(honest, 9U);
+  EXPECT_LE(static_cast<double>(others),
+            (30.0 + limits::lines_burst_s) * limits::lines_heard_per_second / 401.0 + 100.0);
+}
+
+TEST(Talk, who_is_many_does_not_hide_the_others_from_the_list) {
+  Talk talk(true);
+  for (uint64_t session = 1; session <= 2 * limits::persons_max; ++session)
+    talk.join(session, 7, "many", Role::viewer);
+  talk.join(9999, 8, "Ann", Role::viewer);
+  const PersonsMessage list = talk.list();
+  EXPECT_EQ(list.persons.size(), limits::persons_max);
+  EXPECT_EQ(list.persons.back().name, "Ann");
 }
 
 TEST(Talk, those_of_one_party_do_not_silence_the_others_nor_say_more_by_coming_again) {

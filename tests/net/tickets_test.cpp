@@ -11,8 +11,8 @@ namespace scree {
 namespace {
 
 Departed departed(uint64_t session, double at_s, bool reserves_place = false) {
-  return {session,       {}, "10.0.0." + std::to_string(session % 256), RateLimit(1.0, 1.0), 0.0, 0, at_s,
-          reserves_place};
+  const std::string ip = "10.0.0." + std::to_string(session % 256);
+  return {session, {}, ip, Origin(ip), RateLimit(1.0, 1.0), 0.0, 0, at_s, reserves_place};
 }
 
 TEST(Tickets, a_ticket_is_its_sessions_until_the_next_is_issued) {
@@ -61,18 +61,39 @@ TEST(Tickets, hold_for_a_minute_after_the_connections_end) {
   EXPECT_EQ(tickets.departed(7), nullptr);
 }
 
-TEST(Tickets, of_too_many_departed_sessions_those_that_ended_first_are_forgotten) {
+TEST(Tickets, of_too_many_departed_sessions_those_that_were_there_for_the_shortest_time_are_forgotten) {
   Tickets tickets;
   std::vector<std::string> all;
   for (uint64_t id = 0; id <= limits::departed_max; ++id) {
     all.push_back(tickets.issue(id));
-    tickets.depart(departed(id, 1e6 - static_cast<double>(id)));
+    Departed one = departed(id, 1e6 - static_cast<double>(id));
+    one.origin = Origin("203.0.113.7");
+    tickets.depart(one);
   }
-  EXPECT_EQ(tickets.session_of(all.back()), std::nullopt) << "it ended first";
+  EXPECT_EQ(tickets.session_of(all.back()), std::nullopt) << "it was there for the shortest time";
   EXPECT_EQ(tickets.session_of(all.front()), 0U);
   tickets.forget_departed([](const Departed& one) { return one.ip == "10.0.0.1"; });
   EXPECT_EQ(tickets.session_of(all[1]), std::nullopt);
   EXPECT_EQ(tickets.session_of(all[2]), 2U);
+}
+
+TEST(Tickets, who_comes_and_goes_voids_no_ticket_of_another_not_even_on_the_same_machine) {
+  Tickets tickets;
+  const std::string far = tickets.issue(1), near = tickets.issue(2);
+  Departed one = departed(1, 1000.0), other = departed(2, 1000.0);
+  one.origin = Origin("203.0.113.7");
+  other.origin = Origin("loopback");
+  tickets.depart(one);
+  tickets.depart(other);
+  for (uint64_t id = 3; id < 3 + 3 * limits::departed_max; ++id) {
+    tickets.issue(id);
+    Departed churn = departed(id, 1001.0);
+    churn.origin = Origin("loopback");
+    churn.joined_s = 1000.99;
+    tickets.depart(churn);
+  }
+  EXPECT_EQ(tickets.session_of(far), 1U);
+  EXPECT_EQ(tickets.session_of(near), 2U);
 }
 
 TEST(Tickets, the_place_of_a_lost_connection_is_kept_for_a_while) {

@@ -1,4 +1,5 @@
 // Who is shown whose cursor, and who is told what the bodies do: over loopback, tick by tick.
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -14,20 +15,28 @@ namespace {
 constexpr float radius_m = 32.0F;
 
 TEST(Watching, cursors_are_those_of_others_within_interest) {
-  const std::map<uint64_t, PlayerCursor> cursors{{1, {1, "me", {}, {}}},
-                                                 {2, {2, "near", {5, 0, 0}, {500, 0, 0}}},
-                                                 {3, {3, "aims here", {500, 0, 0}, {0, 5, 0}}},
-                                                 {4, {4, "far", {500, 0, 0}, {400, 0, 0}}}};
+  const std::map<uint64_t, PartyCursor> cursors{{1, {{1, "me", {}, {}}, 1}},
+                                                {2, {{2, "near", {5, 0, 0}, {500, 0, 0}}, 2}},
+                                                {3, {{3, "aims here", {500, 0, 0}, {0, 5, 0}}, 3}},
+                                                {4, {{4, "far", {500, 0, 0}, {400, 0, 0}}, 4}}};
   const std::vector<PlayerCursor> seen = cursors_for(1, cursors, {}, radius_m);
   ASSERT_EQ(seen.size(), 2U);
   EXPECT_EQ(seen[0].name, "near");
   EXPECT_EQ(seen[1].name, "aims here");
 }
 
-TEST(Watching, crowds_are_cut_to_what_a_message_holds) {
-  std::map<uint64_t, PlayerCursor> cursors;
-  for (uint64_t id = 1; id < 200; ++id) cursors[id] = {id, "", {}, {}};
-  EXPECT_EQ(cursors_for(7, cursors, {}, radius_m).size(), limits::cursors_max);
+TEST(Watching, crowds_are_cut_to_what_a_message_holds_and_hide_nobody_who_is_alone_or_near) {
+  std::map<uint64_t, PartyCursor> cursors;
+  for (uint64_t id = 1; id < 200; ++id) cursors[id] = {{id, "", {2, 0, 0}, {2, 0, 0}}, 1};
+  cursors[300] = {{300, "alone", {30, 0, 0}, {30, 0, 0}}, 2};
+  for (uint64_t id = 400; id < 600; ++id) cursors[id] = {{id, "", {20, 0, 0}, {20, 0, 0}}, id};
+  cursors[700] = {{700, "near", {1, 0, 0}, {1, 0, 0}}, 700};
+  const auto seen = cursors_for(7, cursors, {}, radius_m);
+  EXPECT_EQ(seen.size(), limits::cursors_max);
+  EXPECT_EQ(seen.back().name, "near");
+  EXPECT_EQ(std::ranges::count(seen, "alone", &PlayerCursor::name), 0) << "others of their own are nearer";
+  std::erase_if(cursors, [](const auto& one) { return one.first >= 400 && one.first < 700; });
+  EXPECT_EQ(std::ranges::count(cursors_for(7, cursors, {}, radius_m), "alone", &PlayerCursor::name), 1);
 }
 
 TEST(Watching, physics_is_what_lies_within_interest) {
