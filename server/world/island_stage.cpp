@@ -255,13 +255,14 @@ void fall_in_turn(World::State& state, TickDelta& delta) {
     }
     const float cost = lift_price_us(island.box);
     const bool fits = state.work.affords(cost) && !is_crowding(state, party);
-    if (!fits && (!in_order || state.tick - state.island_at < rest)) {
+    const Tick wait = wait_for_room(state, party, cost, rest);
+    if (!fits && (!in_order || state.tick - state.island_at < wait)) {
       in_order = false;
       state.islands.pass_over();
       continue;
     }
     if (in_order) state.island_at = state.tick;
-    state.islands.pop(fits ? cost : std::max(cost, rest_us));
+    state.islands.pop(fits ? cost : std::max(cost, part_of(rest_us, wait, rest)));
     drop(state, island, party, delta);
     state.work.spend(cost);
   }

@@ -113,7 +113,8 @@ void refracture_pieces(World::State& state, TickDelta& delta) {
                                      static_cast<float>(state.pieces.at(pending.piece)->window.codes.size()),
                                      operation.seeds);
     // A whole volume is thrown when it is cut, so it is next.
-    const Tick wait = pending.thrown_by != nullptr ? 1 : rest;
+    const Tick pause = wait_for_room(state, pending.party, price, rest);
+    const Tick wait = pending.thrown_by != nullptr ? 1 : pause;
     const bool fits = state.work.affords(price) && !is_crowding(state, pending.party);
     if (!fits && (!in_order || state.tick - state.refractured_at < wait)) {
       in_order = false;
@@ -121,7 +122,7 @@ void refracture_pieces(World::State& state, TickDelta& delta) {
       continue;
     }
     if (in_order) state.refractured_at = state.tick;
-    state.refractures.pop(fits ? price : std::max(price, rest_us));
+    state.refractures.pop(fits ? price : std::max(price, part_of(rest_us, pause, rest)));
     refracture_piece(state, pending, operation, delta);
     state.work.spend(price);
   }

@@ -11,8 +11,10 @@ namespace rules {
 inline constexpr uint32_t as_they_come = 0;
 /// They belong to the party that caused them, and parties take turns (server/work/turn_queue.h).
 inline constexpr uint32_t by_party = 1;
+/// Also, a fall or a cut that fits into no tick comes as soon as ticks with time to spare have paid for it.
+inline constexpr uint32_t spare_time = 2;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = by_party;
+inline constexpr uint32_t newest = spare_time;
 }  // namespace rules
 
 }  // namespace scree

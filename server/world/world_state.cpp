@@ -1,6 +1,7 @@
 #include "server/world/world_state.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "server/work/limits.h"
 #include "server/work/memory.h"
@@ -54,6 +55,13 @@ Loose left_by(const Operation& operation) {
 }
 
 }  // namespace
+
+Tick wait_for_room(const World::State& state, uint64_t party, float price_us, Tick rest) {
+  const float left_us = state.work.left_us();
+  if (state.config.rules < rules::spare_time || is_crowding(state, party) || left_us <= 0.0F) return rest;
+  const float ticks = std::ceil(price_us / left_us);
+  return ticks < static_cast<float>(rest) ? static_cast<Tick>(ticks) : rest;
+}
 
 float client_us_per_s(const WorkBudget& work, const WorldConfig& config) {
   return limits::requests_share * work.budget_us() * static_cast<float>(config.tick_rate_hz);

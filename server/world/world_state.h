@@ -119,6 +119,15 @@ inline bool is_crowding(const World::State& state, uint64_t party) {
   return state.work.crowded() && !state.shares.holds_little(party);
 }
 
+/// Ticks that must lie between two falls or cuts of a kind where the next, of this price, does not fit into
+/// the tick: `rest` at most; fewer where the rest of each tick is free, as many as pay for it.
+Tick wait_for_room(const World::State& state, uint64_t party, float price_us, Tick rest);
+
+/// What all could have done in that wait, from what they could do in `rest`.
+inline float part_of(float rest_us, Tick wait, Tick rest) {
+  return wait < rest ? rest_us * static_cast<float>(wait) / static_cast<float>(rest) : rest_us;
+}
+
 /// Estimated work that all clients together get a second.
 float client_us_per_s(const WorkBudget& work, const WorldConfig& config);
 

@@ -323,7 +323,7 @@ std::vector<Command> lone_builder(Tick tick) {
 
 TEST(fairness, a_client_that_is_alone_is_served_as_it_always_was) {
   for (const bool support : {false, true}) {
-    WorldConfig old = flat_world_by(rules::as_they_come), fair = flat_world();
+    WorldConfig old = flat_world_by(rules::as_they_come), fair = flat_world_by(rules::by_party);
     old.methods.support = fair.methods.support = support;
     World one(old), other(fair);
     for (Tick tick = 0; tick < 5 * second; ++tick) {
