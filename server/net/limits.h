@@ -53,9 +53,9 @@ inline constexpr double requests_burst_s = 2.0;
 inline constexpr double messages_per_second_max = 500.0;
 inline constexpr double messages_burst_max = 1000.0;
 
-/// Lines of chat that a session may say, a second and at once after a silence, and all sessions of a party;
-/// no more than the party's even share of what all together may say, so that none silences the others. Above:
-/// not passed on, and the speaker is told.
+/// Lines of chat that a session may say, a second and at once after a silence, and all sessions of a party. A
+/// party has no more than its even share of what all together may say, so that none silences the others.
+/// Above: not passed on, and the speaker is told.
 inline constexpr double lines_per_second_max = 0.5;
 inline constexpr double lines_burst_max = 5.0;
 inline constexpr double lines_per_second_party = 2.0;

@@ -119,8 +119,8 @@ inline bool is_crowding(const World::State& state, uint64_t party) {
   return state.work.crowded() && !state.shares.holds_little(party);
 }
 
-/// Ticks that must lie between two falls or cuts of a kind where the next, of this price, does not fit into
-/// the tick: `rest` at most; fewer where the rest of each tick is free, as many as pay for it.
+/// Ticks that must lie between two falls or cuts of a kind where the next does not fit into the tick: as many
+/// as pay its price by what is left of this one, and at most `rest`.
 Tick wait_for_room(const World::State& state, uint64_t party, float price_us, Tick rest);
 
 /// What all could have done in that wait, from what they could do in `rest`.

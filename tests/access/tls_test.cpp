@@ -1,9 +1,12 @@
 // TLS over loopback. Sessions over it are sessions like any other, on the port of those without. A client
 // refuses what it must not trust, and says why. Files are read again while sessions go on. Old protocols and
 // ciphers are refused.
+#include <deque>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <openssl/ssl.h>
+#include <sys/resource.h>
+#include <thread>
 
 #include "client/bot/bot.h"
 #include "crypto/tls_engine.h"
@@ -348,6 +351,29 @@ TEST_F(TlsTest, takes_1_3_and_1_2_with_aead_and_forward_secrecy_alone) {
   EXPECT_EQ(agreed(TLS1_2_VERSION, TLS1_2_VERSION, "AES128-GCM-SHA256"), "") << "no forward secrecy";
   EXPECT_EQ(agreed(TLS1_1_VERSION, TLS1_1_VERSION, "ALL"), "");
   EXPECT_EQ(agreed(TLS1_VERSION, TLS1_VERSION, "ALL"), "");
+}
+
+TEST_F(TlsTest, a_handshake_by_a_slow_link_ends_beside_silent_connections_of_thousands_of_networks) {
+  rlimit files{};
+  ::getrlimit(RLIMIT_NOFILE, &files);
+  files.rlim_cur = files.rlim_max;
+  ::setrlimit(RLIMIT_NOFILE, &files);
+  start([](NetConfig& config) { config.proxies = *Proxies::parse({"127.0.0.1"}); });
+  std::jthread crowd([port = server->port()](const std::stop_token& stop) {
+    std::deque<RawClient> silent;
+    for (int i = 0; i < 20000 && !stop.stop_requested(); ++i) {
+      const std::string from = "PROXY TCP4 10.0." + std::to_string(i / 256 % 16) + '.' +
+                               std::to_string(i % 256) + " 192.0.2.1 50000 4177\r\n";
+      silent.emplace_back(port).send_bytes(std::vector<uint8_t>(from.begin(), from.end()));
+      if (silent.size() > 6000) silent.pop_front();
+    }
+  });
+  const auto more_than_fit = [this] { return server->stats().refusals.of(Refusal::outsiders_max) > 0; };
+  for (int i = 0; i < 1000 && !more_than_fit(); ++i) std::this_thread::sleep_for(10ms);
+  ASSERT_TRUE(more_than_fit()) << "this is no attack";
+  ServerEndpoint slow = endpoint();
+  slow.link = *read_link("delay=600ms");
+  EXPECT_EQ(trouble(slow), "");
 }
 
 TEST_F(TlsTest, keys_are_changed_as_often_as_bytes_ask_for_it_and_no_oftener) {
