@@ -31,10 +31,12 @@ BotReport play_one(const BotConfig& config, Clock::time_point end) {
 
 }  // namespace
 
-Result<CrowdOutcome> play(const WorldConfig& world, std::vector<BotConfig> bots, double seconds) {
+Result<CrowdOutcome> play(const WorldConfig& world, std::vector<BotConfig> bots, double seconds,
+                          const IntruderKind* intruder) {
   LiveConfig config;
   config.governed = true;
   config.world = world;
+  if (intruder != nullptr) config.net.service.sessions_max = 256;
   auto started = TRY(LiveServer::start(config));
   LiveServer& server = *started;
   const auto begin = Clock::now();
@@ -49,6 +51,13 @@ Result<CrowdOutcome> play(const WorldConfig& world, std::vector<BotConfig> bots,
     bot.carves = static_cast<uint32_t>(seconds * std::max(bot.rate_hz, 1.0)) + 1;
     bot.timeout_s = seconds + 60.0;
     threads.emplace_back([&outcome, &bot, end, i] { outcome.bots[i] = play_one(bot, end); });
+  }
+  if (intruder != nullptr) {
+    threads.emplace_back([&, port = server.port()] {
+      setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), 10);
+      intruder->intrude(port, end);
+    });
+    threads.emplace_back([&, port = server.port()] { outcome.falls_s = falls_of_towers(port, end); });
   }
   const uint64_t ticks_before = server.report().ticks;
   const auto from = Clock::now();

@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "bench/support/benches.h"
 #include "bench/wire/crowd.h"
 #include "shared/base/limits.h"
+#include "shared/base/memory_count.h"
 
 namespace scree {
 
@@ -57,23 +59,53 @@ void report_crowd(BenchReport& report, const std::string& name, const CrowdOutco
                   100.0 * accepted, refused, reply_p99_ms, outcome.ticks_per_s, honest.failure));
 }
 
+void report_falls(BenchReport& report, const std::string& name, const CrowdOutcome& outcome) {
+  const std::vector<double>& falls_s = outcome.falls_s;
+  const double worst_s = falls_s.empty() ? 1e9 : *std::ranges::max_element(falls_s);
+  report.metric(name + "_fall_worst_s", worst_s);
+  report.metric(name + "_memory_mb", static_cast<double>(process_memory_bytes()) / 1e6);
+  report.check(
+      name + "_falls", falls_s.size() >= 2 && worst_s <= 1.0,
+      fmt::format("{} towers fell, the slowest after {:.2f} s; wanted 1 s", falls_s.size(), worst_s));
+  const uint64_t mismatches = outcome.bots.front().seen.mismatches;
+  report.check(name + "_hashes", mismatches == 0, fmt::format("{} frames whose check failed", mismatches));
+}
+
+/// Plays, and reports by `name`. False: the server did not start, which is reported.
+bool play_and_report(BenchReport& report, const std::string& name, std::vector<BotConfig> bots,
+                     double seconds, const IntruderKind* intruder) {
+  const Result<CrowdOutcome> outcome = play({}, std::move(bots), seconds, intruder);
+  if (!outcome) {
+    report.check("server_starts", false, outcome.error().message);
+    return false;
+  }
+  report_crowd(report, name, *outcome);
+  if (intruder != nullptr) report_falls(report, name, *outcome);
+  return true;
+}
+
 }  // namespace
 
 BenchReport run_crowd_bench(const BenchOptions& options) {
   BenchReport report;
   const double seconds = options.quick ? 5.0 : 20.0;
   const std::vector<size_t> crowds = options.quick ? std::vector<size_t>{1} : std::vector<size_t>{1, 20};
+  const auto wanted = [&](const char* part) { return options.part.empty() || options.part == part; };
+  const double all = static_cast<double>(crowds.size() * std::size(demands) + intruder_kinds().size());
   double done = 0.0;
   for (const size_t greedy : crowds)
     for (const Demand& demand : demands) {
-      const Result<CrowdOutcome> outcome = play({}, bots_of(greedy, demand), seconds);
-      if (!outcome) {
-        report.check("server_starts", false, outcome.error().message);
+      const std::string name = fmt::format("beside_{}_{}", greedy, demand.name);
+      if (wanted("carves") && !play_and_report(report, name, bots_of(greedy, demand), seconds, nullptr))
         return report;
-      }
-      report_crowd(report, fmt::format("beside_{}_{}", greedy, demand.name), *outcome);
-      options.progress(++done / static_cast<double>(crowds.size() * std::size(demands)));
+      options.progress(++done / all);
     }
+  for (const IntruderKind& intruder : intruder_kinds()) {
+    const std::string name = fmt::format("beside_{}", intruder.name);
+    if (wanted(intruder.name) && !play_and_report(report, name, bots_of(0, demands[0]), seconds, &intruder))
+      return report;
+    options.progress(++done / all);
+  }
   return report;
 }
 

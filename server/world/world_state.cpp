@@ -59,7 +59,7 @@ Loose left_by(const Operation& operation) {
 Tick wait_for_room(const World::State& state, uint64_t party, float price_us, Tick rest) {
   const float left_us = state.work.left_us();
   if (state.config.rules < rules::spare_time || is_crowding(state, party) || left_us <= 0.0F) return rest;
-  const float ticks = std::ceil(price_us / left_us);
+  const float ticks = std::ceil(price_us / (limits::spare_share * left_us));
   return ticks < static_cast<float>(rest) ? static_cast<Tick>(ticks) : rest;
 }
 
