@@ -146,6 +146,24 @@ TEST_F(HostileMeshes, a_polygon_has_at_most_so_many_corners) {
   EXPECT_TRUE(holds(refusal("a.obj", polygon(9'000, 6)), "limits.polygon_work_max"));
 }
 
+TEST_F(HostileMeshes, loose_triangles_are_refused_at_once_whatever_the_rule_of_sheets) {
+  std::string all;
+  for (int i = 0; i < 10'000; ++i) {
+    const int x = i % 100, z = i / 100;
+    all += fmt::format("v {} {} {}\nv {} {} {}\nv {} {} {}\nf -3 -2 -1\n", x, i % 7, z, x, i % 7, z + 0.9,
+                       x + 0.9, i % 5, z);
+  }
+  const std::string path = write("loose.obj", all);
+  const auto words = [&](SheetRule rule) {
+    const auto read = read_solids({path}, {.sheet = rule, .reader = {.time = std::chrono::minutes(1)}});
+    return read ? std::string() : read.error().message;
+  };
+  EXPECT_TRUE(holds(words(SheetRule::refuse), "10000 of its 10000 parts are open sheets"));
+  EXPECT_TRUE(holds(words(SheetRule::down), "more than 4096 of its parts are open sheets"));
+  EXPECT_TRUE(holds(words(SheetRule::close), "more than 4096 of its parts have holes"));
+  EXPECT_TRUE(holds(words(SheetRule::drop), "nothing of it is left"));
+}
+
 TEST_F(HostileMeshes, a_pipe_is_no_file) {
   for (const char* const name : {"a.obj", "a.ply", "a.vdb"}) {
     const std::string pipe = folder_ / (std::string("given/") + name);

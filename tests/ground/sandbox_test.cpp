@@ -2,6 +2,7 @@
 // reads what it was started for.
 #include "tools/import/process/sandbox.h"
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <fcntl.h>
@@ -9,7 +10,9 @@
 #include <fstream>
 #include <functional>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
 #include <linux/io_uring.h>
+#include <linux/seccomp.h>
 #include <sched.h>
 #include <sys/prctl.h>
 #include <sys/ptrace.h>
@@ -22,7 +25,9 @@
 #include <unistd.h>
 
 #include "tests/support/holds.h"
+#include "tests/support/run_program.h"
 #include "tests/support/test_folder.h"
+#include "tests/support/written_gltf.h"
 #include "tools/import/process/reader_process.h"
 
 namespace scree {
@@ -141,6 +146,59 @@ TEST_F(Sandbox, may_start_threads) {
               return done;
             }),
             0);
+}
+
+/// Its exit status and words, as on a kernel without Landlock.
+std::pair<int, std::string> run_without_landlock(const std::vector<std::string>& command) {
+  std::array<int, 2> ends{};
+  if (::pipe(ends.data()) != 0) return {-1, "no pipe"};
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    std::array rules{
+        sock_filter{BPF_LD | BPF_W | BPF_ABS, 0, 0, offsetof(seccomp_data, nr)},
+        sock_filter{BPF_JMP | BPF_JEQ | BPF_K, 0, 1, SYS_landlock_create_ruleset},
+        sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | ENOSYS},
+        sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW},
+    };
+    sock_fprog program{static_cast<unsigned short>(rules.size()), rules.data()};
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(ends[1], stream);
+    ::close(ends[0]);
+    ::close(ends[1]);
+    if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+        ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0) == 0)
+      ::execv(arguments[0], arguments.data());
+    ::_exit(127);
+  }
+  ::close(ends[1]);
+  std::string said;
+  std::array<char, 512> part{};
+  for (ssize_t got = 0; (got = ::read(ends[0], part.data(), part.size())) > 0;)
+    said.append(part.data(), static_cast<size_t>(got));
+  ::close(ends[0]);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, said};
+}
+
+TEST_F(Sandbox, without_landlock_import_says_so_and_names_are_still_checked) {
+  const auto import = [&](const std::string& file) {
+    return run_without_landlock({SCREE_IMPORT_PROGRAM, file, "-o", folder_ / "a.ground"});
+  };
+  const auto [honest, words] = import(SCREE_SOURCE_DIR "/tests/data/rasters/south_up.tif");
+  EXPECT_EQ(honest, 0) << words;
+  EXPECT_TRUE(holds(words, "scree-import: this kernel has no Landlock: ")) << words;
+  std::ofstream(folder_ / "own/a.gltf") << gltf_of(R"([{"mesh":0}])", "../other/secret");
+  const auto [hostile, refusal] = import(folder_ / "own/a.gltf");
+  EXPECT_EQ(hostile, 1);
+  EXPECT_TRUE(holds(refusal, "it names the file '")) << refusal;
+  const auto [quiet, said] =
+      run_program(SCREE_IMPORT_PROGRAM " " SCREE_SOURCE_DIR "/tests/data/rasters/south_up.tif -o " +
+                  (folder_ / "b.ground"));
+  EXPECT_EQ(quiet, 0);
+  EXPECT_FALSE(holds(said, "Landlock")) << said;
 }
 
 }  // namespace

@@ -57,7 +57,8 @@ inline constexpr size_t import_triangles_max = size_t{1} << 26;
 /// Bricks of 8 voxels a side in an OpenVDB grid, 8 GiB of floats; and its tiles. Above: refused.
 inline constexpr uint64_t import_leaves_max = uint64_t{1} << 22;
 
-/// Parts of one mesh that have holes: each is asked for winding numbers by itself. Above: refused.
+/// Parts of one mesh that have holes: each is asked for winding numbers by itself. As many open sheets are
+/// filled down: their walls cross each other, and take long. Above: refused.
 inline constexpr size_t import_open_parts_max = 4096;
 
 /// Levels of brackets, elements, records and nodes in a file of a scene: assimp goes down into them by

@@ -102,6 +102,7 @@ Result<void> confine(const ReaderLimits& bounds, const Readable& readable, pid_t
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (nowhere >= 0) ::dup2(nowhere, stream);
+  if (nowhere > STDERR_FILENO) ::close(nowhere);
   return enter_sandbox(readable);
 }
 
