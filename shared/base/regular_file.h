@@ -11,7 +11,7 @@ namespace scree {
 /// not name the place. Opens nothing.
 Result<void> check_is_file(const std::string& path);
 
-/// As check_is_file(), but whoever opens the file says that there is none. The error names the place.
+/// As check_is_file(), but a place with nothing is left to the open that follows. The error names the place.
 Result<void> check_no_device(const std::string& path);
 
 }  // namespace scree

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "tests/support/test_folder.h"
-#include "tests/support/vrt_form.h"
 #include "tools/import/gdal/gdal_raster.h"
+#include "tools/import/gdal/vrt_form.h"
 
 namespace scree {
 

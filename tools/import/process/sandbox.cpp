@@ -1,6 +1,8 @@
 #include "tools/import/process/sandbox.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -90,6 +92,12 @@ Result<void> wall_off_files(const Readable& readable) {
   return fail(std::string("its reader cannot be confined: ") + std::strerror(errno));
 }
 
+std::string in_small_letters(std::string text) {
+  std::ranges::transform(text, text.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return text;
+}
+
 std::string folder_of(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
@@ -99,10 +107,10 @@ std::string folder_of(const std::string& path) {
 
 Readable file_and_its_namesakes(const std::string& path) {
   Readable readable{.files = {path}};
-  const std::string stem = fs::path(path).stem().string();
+  const std::string stem = in_small_letters(fs::path(path).stem().string());  // as GDAL compares them
   std::error_code error;
   for (fs::directory_iterator at(folder_of(path), error), end; !error && at != end; at.increment(error)) {
-    const std::string name = at->path().filename().string();
+    const std::string name = in_small_letters(at->path().filename().string());
     std::error_code ignored;
     const bool is_beside = name == stem || name.starts_with(stem + ".");
     // A link may lead anywhere.

@@ -1,4 +1,4 @@
-#include "tests/support/vrt_form.h"
+#include "tools/import/gdal/vrt_form.h"
 
 #include <gdal_frmts.h>
 #include <gdal_priv.h>
