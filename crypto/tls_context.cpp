@@ -6,6 +6,7 @@
 
 #include "crypto/tls_context_impl.h"
 #include "shared/base/check.h"
+#include "shared/base/regular_file.h"
 
 namespace scree {
 
@@ -35,7 +36,7 @@ Result<OwnedContext> context_for(const SSL_METHOD* method) {
 }
 
 bool can_be_read(const std::string& path) {
-  return std::ifstream(path).good();
+  return check_no_device(path) && std::ifstream(path).good();
 }
 
 /// In the notation of fingerprint_of().

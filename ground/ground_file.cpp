@@ -15,6 +15,7 @@
 #include "proto/limits.h"
 #include "proto/stored_codec.h"
 #include "shared/base/check.h"
+#include "shared/base/regular_file.h"
 
 namespace scree {
 
@@ -37,6 +38,7 @@ Result<std::vector<uint8_t>> read_at(int file, uint64_t begins, size_t count) {
 
 Result<std::shared_ptr<const GroundFile>> GroundFile::open(const std::string& path) {
   const auto wrong = [&](const std::string& why) { return fail(path + ": " + why); };
+  TRY(check_no_device(path));
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return wrong(std::strerror(errno));
   struct stat about {};

@@ -1,11 +1,14 @@
 #include "server/app/config_file.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 #include <fstream>
 #include <sstream>
 #include <vector>
 
 #include "server/app/config_entries.h"
+#include "server/app/limits.h"
+#include "shared/base/regular_file.h"
 
 namespace scree {
 
@@ -14,7 +17,23 @@ std::string named_file(const CLI::Option& config) {
   return given.size() == 1 ? given.front() : std::string();
 }
 
+std::string fault_of_file(const std::string& path) {
+  if (const auto checked = check_no_device(path); !checked) return checked.error().message;
+  std::ifstream file(path, std::ios::binary);
+  std::string text(limits::config_bytes_max + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<size_t>(file.gcount()));
+  if (text.size() > limits::config_bytes_max)
+    return fmt::format("{}: more than {} KiB are no file of options (limits.config_bytes_max)", path,
+                       limits::config_bytes_max >> 10U);
+  if (static_cast<size_t>(std::ranges::count(text, '\n')) > limits::config_lines_max)
+    return fmt::format("{}: more than {} lines are no file of options (limits.config_lines_max)", path,
+                       limits::config_lines_max);
+  return {};
+}
+
 std::string fault_in_file(const std::string& path, const EntryCheck& fault_of) {
+  if (!fault_of_file(path).empty()) return {};
   std::ifstream file(path);
   for (const ConfigEntry& entry : config_entries(file)) {
     const std::string place = fmt::format("{}:{}: ", path, entry.line);

@@ -12,6 +12,10 @@ namespace scree {
 /// asked while an error is handled; Option::as() throws where parsing threw.
 std::string named_file(const CLI::Option& config);
 
+/// Why a file is no file of options, before a line of it is read: a pipe, a device, or more bytes or lines
+/// than limits.h says. Empty where there is no such file, too: CLI11 says that.
+std::string fault_of_file(const std::string& path);
+
 /// What is wrong with an entry, taken alone; empty: nothing.
 using EntryCheck = std::function<std::string(const CLI::ConfigItem&)>;
 

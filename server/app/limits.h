@@ -6,6 +6,11 @@
 
 namespace scree::limits {
 
+/// Bytes and lines of a file of options (--config): each entry is parsed by itself where the file is refused,
+/// a third of a millisecond each. Above: refused.
+inline constexpr size_t config_bytes_max = size_t{256} << 10U;
+inline constexpr size_t config_lines_max = 4096;
+
 /// Ticks that a late simulation catches up with. Above: the ticks are lost, and counted as overruns.
 inline constexpr int catch_up_ticks_max = 5;
 

@@ -331,8 +331,9 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
                "scree-server");
   Raw raw;
   app.set_version_flag("--version", SCREE_VERSION);
-  const CLI::Option* config =
+  CLI::Option* const config =
       app.set_config("--config", "", "a TOML file with these options, under the same names");
+  config->check(CLI::Validator([](std::string& path) { return fault_of_file(path); }, ""));
   app.allow_config_extras(CLI::config_extras_mode::error);
   declare(app, raw);
   const std::vector<std::string> variables = name_environment(app);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "shared/base/limits.h"
+#include "shared/base/regular_file.h"
 
 namespace scree {
 
@@ -17,6 +18,7 @@ Result<void> check_secret(std::string_view secret, size_t bytes_max) {
 }
 
 Result<std::string> read_secret(const std::string& path, size_t bytes_max) {
+  TRY(check_no_device(path));
   std::ifstream file(path);
   if (!file) return fail("the token's file " + path + " cannot be read");
   // A file that is something else altogether is not read to its end.

@@ -1,10 +1,12 @@
 // The command line of scree-server, its file and its environment.
 #include "server/app/server_options.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "proto/messages.h"
@@ -329,6 +331,40 @@ TEST(ServerOptions, a_mistake_in_the_file_is_told_with_file_and_line) {
       holds(words("web-origin = [\n'https://a.example'\n]\nprot = 5001\n"), file + ":4: there is no"));
   const std::string together = words("support = true\nislands = false\n");
   EXPECT_TRUE(holds(together, "support needs islands")) << "no line by itself: " << together;
+}
+
+TEST(ServerOptions, a_file_of_options_is_a_file_and_no_longer_than_one) {
+  const TestFolder folder;
+  const std::string file = folder / "server.toml";
+  const auto words = [&](const std::string& text) {
+    std::ofstream(file) << text;
+    return words_for({"--config", file.c_str()});
+  };
+  const auto lines = [](const std::string& line, size_t times) {
+    std::string all;
+    for (size_t i = 0; i < times; ++i) all += line;
+    return all;
+  };
+  // A hundred thousand equal lines took 30 s.
+  const auto began = std::chrono::steady_clock::now();
+  EXPECT_TRUE(
+      holds(words(lines("port = 4177\n", 100'000)), file + ": more than 256 KiB are no file of options"));
+  EXPECT_TRUE(holds(words(lines("port = 1\n", 5'000)), "(limits.config_lines_max)"));
+  EXPECT_FALSE(words(lines("port = 1\n", 4'000)).empty());
+  EXPECT_FALSE(words("web-origin = [" + lines("'a',", 60'000) + "]\n").empty());
+  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(60));
+  EXPECT_EQ(words(lines("# a remark\n", 4'000) + "port = 1\n"), "");
+  const std::string pipe = folder / "pipe.toml";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(holds(words_for({"--config", pipe.c_str()}), pipe + ": it is a pipe, not a file"));
+  EXPECT_TRUE(holds(words_for({"--config", "/dev/zero"}), "it is a device, not a file"));
+}
+
+TEST(ServerOptions, a_token_comes_from_no_pipe) {
+  const TestFolder folder;
+  const std::string pipe = folder / "token";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(holds(words_for({"--admin-token-file", pipe.c_str()}), pipe + ": it is a pipe, not a file"));
 }
 
 }  // namespace

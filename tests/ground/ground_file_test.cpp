@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "ground/ground_writer.h"
 #include "tests/support/memory_heights.h"
@@ -113,6 +114,9 @@ TEST(GroundFiles, foreign_files_other_versions_and_folders_are_named) {
   EXPECT_NE(refusal_of(path).find("not a ground file"), std::string::npos);
   EXPECT_FALSE(refusal_of(folder / "").empty());
   EXPECT_FALSE(refusal_of(folder / "none").empty());
+  const std::string pipe = folder / "pipe.ground";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_NE(refusal_of(pipe).find("it is a pipe, not a file"), std::string::npos);
 }
 
 TEST(GroundFiles, a_writer_that_is_not_finished_leaves_nothing_behind) {

@@ -1,14 +1,16 @@
 // Rasters for tests in the text form of GDAL, VRT, which says of a grid of numbers whatever a file can say;
-// and a raster read as a whole.
+// and a raster read as a whole. Import itself reads no VRT, as its files name others.
 #pragma once
 
 #include <fstream>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tests/support/test_folder.h"
 #include "tools/import/gdal/gdal_raster.h"
+#include "tools/import/gdal/vrt_form.h"
 
 namespace scree {
 
@@ -74,6 +76,8 @@ inline WholeRaster read_whole(Raster& raster) {
 }
 
 inline WholeRaster read_whole(const std::string& path, const RasterChoice& choice = {}) {
+  std::optional<VrtForm> form;
+  if (path.ends_with(".vrt")) form.emplace();
   const auto raster = open_raster(path, choice);
   if (raster) return read_whole(**raster);
   WholeRaster none;

@@ -57,8 +57,24 @@ inline constexpr size_t import_triangles_max = size_t{1} << 26;
 /// Bricks of 8 voxels a side in an OpenVDB grid, 8 GiB of floats; and its tiles. Above: refused.
 inline constexpr uint64_t import_leaves_max = uint64_t{1} << 22;
 
-/// Parts of one mesh that have holes: each is asked for winding numbers by itself. Above: refused.
+/// Parts of one mesh that have holes: each is asked for winding numbers by itself. As many open sheets are
+/// filled down: their walls cross each other, and take long. Above: refused.
 inline constexpr size_t import_open_parts_max = 4096;
+
+/// Levels of brackets, elements, records and nodes in a file of a scene: assimp goes down into them by
+/// recursion, and its stack holds some ten thousand. Skeletons have some hundred. Above: refused.
+inline constexpr size_t scene_nesting_max = 512;
+
+/// Nodes of a scene: each takes some hundred bytes, and where one is the child of several it counts for each.
+/// Above: refused.
+inline constexpr uint64_t scene_nodes_max = uint64_t{1} << 20U;
+
+/// Corners of a polygon that is made triangles: assimp's time grows with the square, 5 s for as many. Above:
+/// refused.
+inline constexpr size_t polygon_corners_max = 10'000;
+
+/// The squares of the polygons' corners, in all. Above: refused.
+inline constexpr uint64_t polygon_work_max = uint64_t{4} * polygon_corners_max * polygon_corners_max;
 
 /// Pixels along a side of a preview.
 inline constexpr int preview_side_max = 1024;

@@ -6,10 +6,12 @@
 #include <fstream>
 
 #include "client/viewer/base/limits.h"
+#include "shared/base/regular_file.h"
 
 namespace scree {
 
 Result<std::string> read_text(const std::string& file) {
+  TRY(check_no_device(file));
   errno = 0;
   std::ifstream in(file, std::ios::binary);
   if (!in) return fail(file + " cannot be read: " + std::strerror(errno));

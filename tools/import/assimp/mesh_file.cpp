@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fmt/format.h>
 
+#include "shared/base/regular_file.h"
 #include "tools/import/assimp/scene_reader.h"
 #include "tools/import/file_forms.h"
 #include "tools/import/limits.h"
@@ -47,10 +48,10 @@ Result<void> receive_mesh(ReaderChannel& reader, const Placement& place, MeshFil
 }
 
 Result<MeshFile> meshes_in(const std::string& path, const Placement& place, const ReaderLimits& bounds) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return fail("there is no such file");
+  TRY(check_is_file(path));
   const auto reader = TRY(ReaderProcess::start(
-      "assimp", bounds, [&](ReaderChannel& channel) { return send_scene(channel, path, ending_of(path)); }));
+      "assimp", bounds, [&](ReaderChannel& channel) { return send_scene(channel, path, ending_of(path)); },
+      file_and_its_folder(path)));
   const auto head = TRY(reader->get<SceneHead>());
   if (head.names > scene_names_max || !std::isfinite(head.metres_a_unit)) return fail("its form is unknown");
   MeshFile file;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <assimp/BaseImporter.h>
 #include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
@@ -9,10 +10,15 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <memory>
 #include <set>
+#include <sstream>
+#include <string_view>
 
 #include "shared/base/kind_table.h"
 #include "shared/field/material.h"
+#include "tools/import/assimp/folder_files.h"
+#include "tools/import/assimp/nesting.h"
 #include "tools/import/assimp/ply_header.h"
 #include "tools/import/limits.h"
 
@@ -96,18 +102,69 @@ class SceneTriangles {
   const aiScene& scene_;
 };
 
-Result<const aiScene*> opened(Assimp::Importer& importer, const std::string& path,
-                              const std::string& ending) {
+/// assimp would also try its readers of other forms, by what a file begins with.
+void leave_readers_of(Assimp::Importer& importer, const std::string& ending) {
+  const std::string_view form = std::string_view(ending).substr(1);
+  for (size_t i = importer.GetImporterCount(); i-- > 0;) {
+    std::istringstream endings(importer.GetImporterInfo(i)->mFileExtensions);
+    bool is_of_form = false;
+    for (std::string one; endings >> one;) is_of_form = is_of_form || one == form;
+    if (is_of_form) continue;
+    const std::unique_ptr<Assimp::BaseImporter> other(importer.GetImporter(i));
+    importer.UnregisterLoader(other.get());
+  }
+}
+
+/// The time that assimp takes to make triangles of a polygon grows with the square of its corners.
+Result<void> check_polygons(const aiScene& scene) {
+  uint64_t work = 0;
+  for (unsigned i = 0; i < scene.mNumMeshes; ++i)
+    for (unsigned k = 0; k < scene.mMeshes[i]->mNumFaces; ++k) {
+      const uint64_t corners = scene.mMeshes[i]->mFaces[k].mNumIndices;
+      if (corners > limits::polygon_corners_max)
+        return fail(
+            fmt::format("it has a polygon of {} corners: at most {} can be imported "
+                        "(limits.polygon_corners_max); make triangles of it before",
+                        corners, limits::polygon_corners_max));
+      work += corners > 4 ? corners * corners : 0;
+    }
+  if (work <= limits::polygon_work_max) return {};
+  return fail("its large polygons are too many (limits.polygon_work_max): make triangles of them before");
+}
+
+Result<const aiScene*> read_scene(Assimp::Importer& importer, const std::string& path,
+                                  const std::string& ending) {
   constexpr unsigned steps = aiProcess_Triangulate | aiProcess_SortByPType;
+  std::string file;
+  if (ending == ".ply" || is_nested_form(ending)) {
+    std::ifstream in(path, std::ios::binary);
+    file.assign(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>());
+    TRY(check_nesting(file, ending));
+  }
   const aiScene* scene = nullptr;
   if (ending == ".ply") {
-    std::ifstream in(path, std::ios::binary);
-    std::string file((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
     file = TRY(mended_ply(std::move(file)));
-    scene = importer.ReadFileFromMemory(file.data(), file.size(), steps, "ply");
+    scene = importer.ReadFileFromMemory(file.data(), file.size(), 0, "ply");
   } else {
-    scene = importer.ReadFile(path, steps);
+    file = {};
+    scene = importer.ReadFile(path, 0);
   }
+  if (scene == nullptr) return scene;
+  TRY(check_polygons(*scene));
+  return importer.ApplyPostProcessing(steps);
+}
+
+Result<const aiScene*> opened(Assimp::Importer& importer, const std::string& path,
+                              const std::string& ending) {
+  leave_readers_of(importer, ending);
+  auto* const files = new FolderFiles(path);  // the importer owns it
+  importer.SetIOHandler(files);
+  const aiScene* const scene = TRY(read_scene(importer, path, ending));
+  if (!files->refused().empty())
+    return fail(
+        fmt::format("it names the file '{}', which import does not read: only .bin, .buffer and .mtl "
+                    "in its own folder. Put the file there, and write its name alone",
+                    files->refused()));
   if (scene != nullptr && scene->mRootNode != nullptr) return scene;
   const std::string words = importer.GetErrorString();
   if (words.starts_with("No suitable reader"))

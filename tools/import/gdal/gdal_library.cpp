@@ -5,6 +5,7 @@
 #include <gdal_priv.h>
 
 #include "shared/base/text.h"
+#include "tools/import/gdal/gdal_forms.h"
 #include "tools/import/limits.h"
 
 namespace scree {
@@ -26,6 +27,7 @@ void collect_warning(CPLErr kind, CPLErrorNum, const char* words) {
 void prepare_gdal() {
   static const bool done = [] {
     GDALAllRegister();
+    leave_allowed_forms();
     GDALSetCacheMax64(cache_bytes_max);
     CPLSetErrorHandler(CPLQuietErrorHandler);  // its words are in our messages
     return true;

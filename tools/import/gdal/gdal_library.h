@@ -6,7 +6,8 @@
 
 namespace scree {
 
-/// Makes GDAL ready, once: its formats, a bounded cache, and no words of its own on the standard error.
+/// Makes GDAL ready, once: the formats that it may read (gdal_forms.h), a bounded cache, and no words of its
+/// own on the standard error.
 void prepare_gdal();
 
 /// What GDAL says of its last failure, or if it says nothing, `otherwise`. Fit to be shown.

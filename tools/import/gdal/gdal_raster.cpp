@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cpl_error.h>
 #include <fmt/format.h>
+#include <gdal_frmts.h>
 #include <ogr_spatialref.h>
 #include <string_view>
 
@@ -139,6 +140,7 @@ Result<std::unique_ptr<Raster>> open_raster(const std::string& path, const Raste
 Result<void> write_grey_png(const std::string& path, int columns, int rows, std::span<const uint8_t> pixels) {
   prepare_gdal();
   CPLErrorReset();
+  GDALRegister_MEM();  // a file may name memory to read, so no reader of files has it
   GDALDriver* const memory = GetGDALDriverManager()->GetDriverByName("MEM");
   GDALDriver* const png = GetGDALDriverManager()->GetDriverByName("PNG");
   if (memory == nullptr || png == nullptr) return fail(path + ": this GDAL writes no PNG");

@@ -11,7 +11,9 @@
 #include <optional>
 #include <string_view>
 
+#include "shared/base/regular_file.h"
 #include "tools/import/gdal/ascii_grid.h"
+#include "tools/import/gdal/gdal_forms.h"
 #include "tools/import/gdal/gdal_library.h"
 #include "tools/import/limits.h"
 
@@ -84,7 +86,11 @@ Result<Dataset> open(const std::string& address) {
   Dataset dataset(GDALDataset::FromHandle(
       GDALOpenEx(address.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, nullptr, nullptr,
                  nullptr)));
-  if (!dataset) return fail("not an elevation model: " + gdal_words("GDAL does not know its format"));
+  if (!dataset) {
+    const std::string words = gdal_words("GDAL does not know its format");
+    TRY(check_holds_numbers(address));
+    return fail("not an elevation model: " + words);
+  }
   const GDALDriver* const driver = dataset->GetDriver();
   if (driver != nullptr && std::string_view(driver->GetDescription()) == "AAIGrid")
     TRY(check_ascii_grid(address, static_cast<uint64_t>(dataset->GetRasterXSize()),
@@ -101,12 +107,23 @@ std::string name_in(const std::string& address, const std::string& path) {
   return name.empty() ? address : name;
 }
 
+/// Whether an address of a subdataset is one within the file: a driver's word, the file, a name. A file can
+/// say any other one of itself.
+bool is_within(const std::string& address, const std::string& path) {
+  const size_t at = address.find(path);
+  if (at == std::string::npos || at == 0) return false;
+  const std::string_view word(address.data(), at), name = std::string_view(address).substr(at + path.size());
+  return word.find('/') == std::string_view::npos && name.find("/vsi") == std::string_view::npos &&
+         name.find("..") == std::string_view::npos && (name.empty() || name[0] == ':' || name[0] == '"');
+}
+
 std::vector<Part> subdatasets_of(GDALDataset& dataset, const std::string& path) {
   std::vector<Part> parts;
   char** const said = dataset.GetMetadata("SUBDATASETS");
   for (int i = 1;; ++i) {
     const char* const address = CSLFetchNameValue(said, fmt::format("SUBDATASET_{}_NAME", i).c_str());
     if (address == nullptr) return parts;
+    if (!is_within(address, path)) continue;
     const char* const words = CSLFetchNameValue(said, fmt::format("SUBDATASET_{}_DESC", i).c_str());
     parts.push_back({name_in(address, path), address, words == nullptr ? "" : words});
     const bool numbered = parts.back().name.starts_with("GTIFF_DIR:");
@@ -150,6 +167,7 @@ Result<std::vector<Part>> files_of(const std::string& archive) {
 
 Result<Dataset> open_raster_file(const std::string& path, const std::string& layer,
                                  std::vector<std::string>& said) {
+  TRY(check_is_file(path));
   std::string address = path, left = layer;
   if (const auto archive = archive_of(path)) {
     address = *archive;

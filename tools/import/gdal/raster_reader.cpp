@@ -1,5 +1,6 @@
 #include "tools/import/gdal/raster_reader.h"
 
+#include "shared/base/regular_file.h"
 #include "tools/import/gdal/gdal_raster.h"
 #include "tools/import/limits.h"
 
@@ -117,8 +118,10 @@ class ReaderRaster final : public Raster {
 
 Result<std::unique_ptr<Raster>> open_raster_apart(const std::string& path, const RasterChoice& choice,
                                                   const ReaderLimits& bounds) {
+  if (const auto checked = check_is_file(path); !checked) return fail(path + ": " + checked.error().message);
   auto reader = TRY(ReaderProcess::start(
-      "GDAL", bounds, [&](ReaderChannel& channel) { return answer(path, choice, channel); }));
+      "GDAL", bounds, [&](ReaderChannel& channel) { return answer(path, choice, channel); },
+      file_and_its_namesakes(path)));
   auto raster = std::make_unique<ReaderRaster>(std::move(reader));
   if (const auto opened = raster->open(); !opened) {
     const std::string& words = opened.error().message;

@@ -66,7 +66,7 @@ class Sorting {
     for (size_t i = 0; i < parts_.size(); ++i) {
       if (parts_[i].open.empty()) continue;
       if (!is_closed_by_windings(i))
-        settle_sheet(parts_[i]);
+        TRY(settle_sheet(parts_[i]));
       else
         TRY(add_open(parts_[i]));
     }
@@ -127,17 +127,23 @@ class Sorting {
     bodies_.thin.area_m2 += part.area_m2;
   }
 
-  void settle_sheet(const MeshPart& part) {
+  Result<void> settle_sheet(const MeshPart& part) {
     if (rule_.sheet == SheetRule::drop) {
       ++bodies_.dropped.parts;
       bodies_.dropped.area_m2 += part.area_m2;
-      return;
+      return {};
     }
+    if (bodies_.filled.parts == limits::import_open_parts_max)
+      return fail(
+          fmt::format("more than {} of its parts are open sheets (limits.import_open_parts_max), too "
+                      "many to fill the rock below each: --sheet drop leaves them out",
+                      limits::import_open_parts_max));
     const TriangleMesh filled = filled_down(mesh_, part, bodies_.bottom_m);
     ++bodies_.filled.parts;
     bodies_.filled.volume_m3 += scree::volume_m3(filled);
     bodies_.filled.area_m2 += part.area_m2;
     append(bodies_.closed, filled);
+    return {};
   }
 
   Result<void> add_open(const MeshPart& part) {

@@ -21,4 +21,8 @@ inline constexpr uint64_t reader_memory_bytes_max = uint64_t{2} << 30U;
 /// Time that an import waits for its reader in all, by default. Above: refused.
 inline constexpr std::chrono::milliseconds reader_time_max{600'000};
 
+/// Files beside an elevation model that its reader may read: those with its name but for the ending. More are
+/// left out.
+inline constexpr size_t reader_files_max = 64;
+
 }  // namespace scree::limits

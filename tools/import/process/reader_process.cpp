@@ -9,14 +9,11 @@
 #include <cstring>
 #include <exception>
 #include <fcntl.h>
-#include <linux/filter.h>
-#include <linux/seccomp.h>
 #include <new>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -81,44 +78,39 @@ void bound(decltype(RLIMIT_AS) resource, rlim_t soft_most, rlim_t hard_most) {
   ::setrlimit(resource, &now);
 }
 
-/// A file may hold nothing but addresses, as maps of web services do, and a library would ask them: socket()
-/// fails from now on. A kernel without such filters lets it be.
-void forbid_sockets() {
-  std::array rules{
-      sock_filter{BPF_LD | BPF_W | BPF_ABS, 0, 0, offsetof(seccomp_data, nr)},
-      sock_filter{BPF_JMP | BPF_JEQ | BPF_K, 0, 1, SYS_socket},
-      sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ERRNO | EACCES},
-      sock_filter{BPF_RET | BPF_K, 0, 0, SECCOMP_RET_ALLOW},
-  };
-  sock_fprog program{static_cast<unsigned short>(rules.size()), rules.data()};
-  if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0)
-    ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0);
+/// What this process has open is none of the reader's business.
+void close_all_but(int socket) {
+  const auto one = static_cast<unsigned>(socket);
+  constexpr unsigned first = STDERR_FILENO + 1;
+  if (one > first) ::close_range(first, one - 1, 0);
+  ::close_range(one + 1, ~0U, 0);
 }
 
-/// The child dies with the import, leaves no core file, reaches no network, stays within its limits, and is
-/// silent: words of libraries and of the C library would stand between ours.
-void confine(const ReaderLimits& bounds, pid_t parent) {
+/// The child dies with the import, leaves no core file, stays within its limits and its walls, and is silent:
+/// words of libraries and of the C library would stand between ours.
+Result<void> confine(const ReaderLimits& bounds, const Readable& readable, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) _exit(exit_unheard);
   for (const int number : {SIGABRT, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTERM, SIGINT, SIGXCPU})
     if (!is_sanitized) std::signal(number, SIG_DFL);
   bound(RLIMIT_CORE, 0, 0);
-  forbid_sockets();
   const auto seconds = static_cast<rlim_t>(std::chrono::ceil<std::chrono::seconds>(bounds.time).count());
   bound(RLIMIT_CPU, seconds, seconds + 1);
-  if (is_sanitized) return;
+  if (is_sanitized) return enter_sandbox(readable);
   const rlim_t bytes = address_space_bytes() + bounds.memory_bytes;
   bound(RLIMIT_AS, bytes, bytes);
   const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (nowhere >= 0) ::dup2(nowhere, stream);
+  if (nowhere > STDERR_FILENO) ::close(nowhere);
+  return enter_sandbox(readable);
 }
 
-[[noreturn]] void run_child(int socket, const ReaderProcess::Work& work) {
+[[noreturn]] void run_child(int socket, Result<void> done, const ReaderProcess::Work& work) {
   ChildChannel channel(socket);
   bool heard = false;
   try {
-    Result<void> done = work(channel);
+    if (done) done = work(channel);
     if (done) done = channel.flush();
     heard = done.has_value() || channel.end(FrameKind::refusal, done.error().message);
   } catch (const std::bad_alloc&) {
@@ -134,16 +126,16 @@ void confine(const ReaderLimits& bounds, pid_t parent) {
 }  // namespace
 
 Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(const std::string& library,
-                                                            const ReaderLimits& bounds, const Work& work) {
+                                                            const ReaderLimits& bounds, const Work& work,
+                                                            const Readable& readable) {
   std::array<int, 2> ends{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()) != 0)
     return fail(std::string("no process can be started to read it: ") + std::strerror(errno));
   const pid_t parent = ::getpid();
   const pid_t process = ::fork();
   if (process == 0) {
-    ::close(ends[0]);
-    confine(bounds, parent);
-    run_child(ends[1], work);
+    close_all_but(ends[1]);
+    run_child(ends[1], confine(bounds, readable, parent), work);
   }
   ::close(ends[1]);
   if (process > 0)
@@ -211,7 +203,7 @@ Error ReaderProcess::end_in_words() {
     if (number == SIGKILL)
       return {library_ + " was killed while it read it: the machine may be out of memory (--memory-max)"};
     return {library_ + " ended on it by signal " + std::to_string(number) + " (" + ::strsignal(number) +
-            "): the file is damaged, or " + library_ + " cannot read such files"};
+            "): the file is damaged or nested too deep, or " + library_ + " cannot read such files"};
   }
   return {library_ + " ended without an answer, status " +
           std::to_string(ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1)};

@@ -3,7 +3,8 @@
 // refusal, a signal, a limit.
 //
 // The child is a fork of the import, so it needs no program of its own; it runs `work` and ends. The library
-// (GDAL, assimp, OpenVDB) is used there alone. It opens no sockets: no file makes an import ask the network.
+// (GDAL, assimp, OpenVDB) is used there alone. It lives in a sandbox (sandbox.h): no network, no programs,
+// and no files but those that it was started for.
 #pragma once
 
 #include <chrono>
@@ -15,6 +16,7 @@
 
 #include "tools/import/process/frame_socket.h"
 #include "tools/import/process/reader_channel.h"
+#include "tools/import/process/sandbox.h"
 
 namespace scree {
 
@@ -28,12 +30,12 @@ struct ReaderLimits {
 class ReaderProcess final : public ReaderChannel {
  public:
   /// In the child: reads, and answers through the channel. An error, and an exception, reach the import as
-  /// the error of its next get(). No descriptor of the import is closed there.
+  /// the error of its next get(). It has none of the descriptors that the import has open.
   using Work = std::function<Result<void>(ReaderChannel&)>;
 
   /// `library` is named where the child ends by a signal.
   static Result<std::unique_ptr<ReaderProcess>> start(const std::string& library, const ReaderLimits& bounds,
-                                                      const Work& work);
+                                                      const Work& work, const Readable& readable = {});
   /// Kills the child if it has not ended.
   ~ReaderProcess() override;
   ReaderProcess(const ReaderProcess&) = delete;

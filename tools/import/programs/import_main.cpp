@@ -19,6 +19,7 @@
 #include "tools/import/gdal/raster_reader.h"
 #include "tools/import/heights_import.h"
 #include "tools/import/process/reader_process.h"
+#include "tools/import/process/sandbox.h"
 #include "tools/import/process/sanitized.h"
 #include "tools/import/process/time_limit.h"
 #include "tools/import/programs/program.h"
@@ -317,6 +318,8 @@ Result<void> check_outputs(const Options& options) {
 
 Result<void> run(const Options& options) {
   TRY(check_outputs(options));
+  if (const std::string missing = missing_walls(); !missing.empty())
+    std::fprintf(stderr, "scree-import: %s\n", missing.c_str());
   bound_memory(options);
   try {
     for (const std::string& file : options.files)

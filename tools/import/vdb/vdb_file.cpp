@@ -1,10 +1,10 @@
 #include "tools/import/vdb/vdb_file.h"
 
 #include <cmath>
-#include <filesystem>
 #include <fmt/format.h>
 
 #include "shared/base/limits.h"
+#include "shared/base/regular_file.h"
 #include "tools/import/limits.h"
 #include "tools/import/vdb/grid_solid.h"
 #include "tools/import/vdb/vdb_message.h"
@@ -51,10 +51,10 @@ Result<void> check_sides(const VdbHead& head, double density) {
 }
 
 Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return fail("there is no such file");
+  TRY(check_is_file(path));
   const auto reader = TRY(ReaderProcess::start(
-      "OpenVDB", how.reader, [&](ReaderChannel& channel) { return send_vdb(channel, path, how.grid); }));
+      "OpenVDB", how.reader, [&](ReaderChannel& channel) { return send_vdb(channel, path, how.grid); },
+      {.files = {path}}));
   const auto head = TRY(reader->get<VdbHead>());
   VdbSolid solid;
   solid.grid = TRY(reader->get_text());

@@ -1,0 +1,41 @@
+#include "shared/base/regular_file.h"
+
+#include <filesystem>
+
+namespace scree {
+
+namespace {
+
+const char* words_on(std::filesystem::file_type type) {
+  switch (type) {
+    case std::filesystem::file_type::directory:
+      return "it is a folder, not a file";
+    case std::filesystem::file_type::fifo:
+      return "it is a pipe, not a file";
+    case std::filesystem::file_type::socket:
+      return "it is a socket, not a file";
+    case std::filesystem::file_type::not_found:
+      return "there is no such file";
+    default:
+      return "it is a device, not a file";
+  }
+}
+
+}  // namespace
+
+Result<void> check_is_file(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (error && status.type() == std::filesystem::file_type::none) return fail("it cannot be reached");
+  if (status.type() == std::filesystem::file_type::regular) return {};
+  return fail(words_on(status.type()));
+}
+
+Result<void> check_no_device(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::exists(path, error) || error) return {};
+  if (const auto checked = check_is_file(path); !checked) return fail(path + ": " + checked.error().message);
+  return {};
+}
+
+}  // namespace scree

@@ -1,0 +1,17 @@
+// Files that a command line names. A pipe may never end, and a device may do anything.
+#pragma once
+
+#include <string>
+
+#include "shared/base/result.h"
+
+namespace scree {
+
+/// Refuses a place with something else than a file (or a link to one), and one with nothing. The error does
+/// not name the place. Opens nothing.
+Result<void> check_is_file(const std::string& path);
+
+/// As check_is_file(), but a place with nothing is left to the open that follows. The error names the place.
+Result<void> check_no_device(const std::string& path);
+
+}  // namespace scree

@@ -1,0 +1,32 @@
+// The files that a mesh's file may name: those of its own folder. Internal to import/assimp.
+#pragma once
+
+#include <assimp/IOSystem.hpp>
+#include <filesystem>
+#include <string>
+
+namespace scree {
+
+/// Opens, for reading, the mesh's file and the .bin, .buffer and .mtl files in its folder and below. No name
+/// leads out of the folder, by no link either, and none to a hidden file.
+class FolderFiles final : public Assimp::IOSystem {
+ public:
+  explicit FolderFiles(const std::string& path);
+
+  bool Exists(const char* file) const override;
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* file, const char* mode) override;
+  void Close(Assimp::IOStream* stream) override;
+
+  /// The first name that was not opened, as the file says it; empty: none.
+  const std::string& refused() const { return refused_; }
+
+ private:
+  bool allows(const char* file) const;
+
+  std::filesystem::path own_;  ///< absolute, as the folder
+  std::filesystem::path folder_;
+  std::string refused_;
+};
+
+}  // namespace scree
