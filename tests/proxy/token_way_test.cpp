@@ -30,7 +30,7 @@ class TokenWayTest : public ProxyTest {
     const auto connected = Connection::connect(to, hello(), milliseconds(500));
     return connected ? ConnectionEnd() : connected.error();
   }
-  /// Of a program that is to fail.
+  /// What a program says that is to fail.
   static std::string run(const std::string& program, const RawServer& server, const std::string& arguments) {
     const auto [code, said] = run_program(program + " --port " + std::to_string(server.port()) + " --host " +
                                           proxy_address + " --token " + the_secret + " " + arguments);
