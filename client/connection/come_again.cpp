@@ -11,6 +11,7 @@ constexpr std::string_view lasting[] = {
     "protocol_version", "tls_required",  "token_missing",  "token_malformed",   "token_foreign",
     "token_world",      "token_expired", "token_revoked",  "admin_token_wrong", "kicked",
     "banned",           "hello_missing", "hello_repeated", "message_malformed", "interest_invalid",
+    token_in_clear,
 };
 
 }  // namespace

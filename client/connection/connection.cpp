@@ -12,8 +12,10 @@
 #include <optional>
 #include <thread>
 
+#include "client/connection/come_again.h"
 #include "client/connection/intake.h"
 #include "client/connection/limits.h"
+#include "client/connection/token_way.h"
 #include "proto/codec.h"
 #include "shared/base/text.h"
 #include "transport/asio_link_clock.h"
@@ -104,6 +106,9 @@ void Connection::Impl::try_next(const ServerEndpoint& server, std::shared_ptr<co
   if (untried == found.end())
     return end(fmt::format("cannot connect: {}; is a server running there?", before.message()));
   const tcp::endpoint to = *untried++;
+  // A name does not say where it leads, so the address decides.
+  if (const auto fault = fault_of_way(server, to.address().to_string()))
+    return end(*fault, std::string(token_in_clear));
   asio::error_code failed;
   socket.close(failed);
   socket.open(to.protocol(), failed);

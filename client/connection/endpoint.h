@@ -20,6 +20,8 @@ struct ServerEndpoint {
   std::optional<LinkConfig> link{};  ///< as if each connection went by such a link
   double silent_seconds_max = limits::silent_seconds_max;
   std::string token{};  ///< goes with the hello: an access token, or the server's admin token; empty: none
+  /// The token may be read on its way: it goes to other machines without TLS, too.
+  bool insecure_token = false;
 };
 
 }  // namespace scree

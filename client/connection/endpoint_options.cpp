@@ -52,6 +52,9 @@ EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
   app.add_option("--token-file", token_path_, "file whose first line is the token")
       ->envname(token_environment + "_FILE")
       ->excludes(token);
+  app.add_flag("--insecure-token", endpoint.insecure_token,
+               "send the token without TLS to other machines, too, where everybody on its way can read it")
+      ->envname("SCREE_INSECURE_TOKEN");
   app.add_option("--link", link_,
                  "simulate a slow link: delay=50ms,jitter=20ms,rate=1Mbit,buffer=16kB,seed=1 (buffer: that "
                  "of the bottleneck). cut=100000 ends each connection after so many bytes; after "

@@ -15,7 +15,8 @@ namespace scree {
 
 /// Why there is no connection, or no more.
 struct ConnectionEnd : Error {
-  std::string refusal{};  ///< the name of the server's reason, if it refused (RefusalMessage); else empty
+  /// The name of the server's reason, if it refused (RefusalMessage), or token_in_clear; else empty.
+  std::string refusal{};
 };
 
 struct Received {

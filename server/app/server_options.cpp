@@ -79,6 +79,11 @@ void add_network(CLI::App& app, Raw& raw) {
                  "beside this program (../share/scree/web, ../../web/dist)");
   app.add_option("--web-origin", net.web.origins,
                  "another site whose pages may join, such as https://game.example; repeatable");
+  app.add_option(
+         "--web-host", net.web.hosts,
+         "names by which browsers reach this server, such as play.example.org, separated by commas; its "
+         "addresses in numbers, localhost and the machine's own name need none")
+      ->delimiter(',');
 }
 
 void add_world(CLI::App& app, Raw& raw) {
@@ -209,6 +214,9 @@ void parse_web(Raw& raw) {
       throw CLI::ValidationError("--web-origin", "'" + origin +
                                                      "' is not a site: write http:// or https://, a host, a "
                                                      "port if it is not the default, and nothing more");
+  for (const std::string& host : web.hosts)
+    if (const auto good = check_host_name(host); !good)
+      throw CLI::ValidationError("--web-host", good.error().message);
   if (raw.web.empty() || !web.on) return;
   const auto files = web_files(web);
   if (!files) throw CLI::ValidationError("--web", files.error().message);

@@ -41,6 +41,7 @@ constexpr Row rows[] = {
     {Refusal::http_late, "http_late"},
     {Refusal::http_requests_per_second, "http_requests_per_second"},
     {Refusal::origin_foreign, "origin_foreign"},
+    {Refusal::host_foreign, "host_foreign"},
     {Refusal::connects_per_second, "connects_per_second"},
     {Refusal::connections_per_address, "connections_per_address"},
     {Refusal::outsiders_max, "outsiders_max"},

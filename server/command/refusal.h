@@ -44,6 +44,7 @@ enum class Refusal : uint8_t {
   http_late,
   http_requests_per_second,
   origin_foreign,
+  host_foreign,
   // A connection is closed at once.
   connects_per_second,
   connections_per_address,

@@ -30,9 +30,10 @@ struct AccessConfig {
 /// What a session may do, and why.
 struct Grant {
   Role role = Role::viewer;
-  uint64_t token_id = 0;   ///< 0: it came without an access token
-  uint64_t expires_s = 0;  ///< 0: never
-  std::string name{};      ///< the person's, by its token; empty: as the person says
+  uint64_t token_id = 0;      ///< 0: it came without an access token
+  uint64_t expires_s = 0;     ///< 0: never
+  std::string name{};         ///< the person's, by its token; empty: as the person says
+  bool vouches_name = false;  ///< the name is the token's, and not only what the person says
 };
 
 class Access {

@@ -35,7 +35,8 @@ tl::expected<Grant, Refused> Authorizer::grant_to(const Caller& caller, const st
   const bool guesses = !token.empty() && has_admin_token() && !is_access_token(token);
   if (guesses) TRY(check_admin_token(caller.address, token, now_s));
   Grant grant = TRY(access_->grant(token, unix_s));
-  if (grant.name.empty()) grant.name = name;
+  grant.vouches_name = !grant.name.empty();
+  if (!grant.vouches_name) grant.name = name;
   const auto found = bans_.find({caller.ip, grant.name, grant.token_id}, unix_s);
   // An administrator could not lift the ban of his own address.
   if (found && grant.role != Role::admin) return refuse(Refusal::banned, words_of(*found));
@@ -48,7 +49,9 @@ tl::expected<void, Refused> Authorizer::may_administer(Role role, const Caller& 
   if (admin || knows_administrators()) return admin;
   if (is_control && door_.is_free(caller.address) && !caller.relayed) return {};
   const std::string_view what =
-      is_control ? "only its own machine may control it" : "nobody may administer it";
+      is_control
+          ? "only its own machine may control it, and only without --proxy, --web-host and --web-origin"
+          : "nobody may administer it";
   return refuse(
       Refusal::no_admin_token,
       fmt::format("this server was started without an admin token: {} (--admin-token-file, --token-key)",

@@ -29,6 +29,10 @@ std::string door_address(const std::string& ip) {
   return asio::ip::address_v6(bytes).to_string() + "/64";
 }
 
+bool is_loopback_address(const std::string& ip) {
+  return door_address(ip) == this_machine;
+}
+
 std::string relayed_address(const std::string& ip) {
   std::string address = door_address(ip);
   return address == this_machine ? "a proxy's own machine" : address;
@@ -93,6 +97,19 @@ void Door::enter_unbounded(const std::string& address, double now_s) {
   ++visitor(address, now_s).connections;
   for (const WideNetwork& wide : wide_networks(address))
     if (!wide.text.empty()) ++visitor(wide.text, now_s, wide.addresses).connections;
+}
+
+std::optional<Refusal> Door::move(const std::string& from, const std::string& to, double now_s) {
+  const auto is_full = [&](const std::string& network, size_t addresses) {
+    return visitor(network, now_s, addresses).connections >= addresses * rules_.connections_max;
+  };
+  bool full = is_full(to, 1);
+  for (const WideNetwork& wide : wide_networks(to))
+    full = full || (!wide.text.empty() && is_full(wide.text, wide.addresses));
+  if (full && !is_free(to)) return Refusal::connections_per_address;
+  enter_unbounded(to, now_s);
+  leave(from, now_s);
+  return std::nullopt;
 }
 
 void Door::leave(const std::string& address, double now_s) {

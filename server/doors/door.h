@@ -23,8 +23,10 @@ namespace scree {
 
 /// A text as of asio::ip::address; any text that is none is an address of its own.
 std::string door_address(const std::string& ip);
+/// Whether that is this machine's own address.
+bool is_loopback_address(const std::string& ip);
 
-/// The same for a client for whom a trusted proxy speaks. Nobody behind a proxy is on this machine.
+/// The same for a client for whom a proxy speaks. Nobody behind a proxy is on this machine.
 std::string relayed_address(const std::string& ip);
 
 class Door {
@@ -44,6 +46,9 @@ class Door {
   std::optional<Refusal> enter(const std::string& address, double now_s);
   /// A connection of a trusted proxy has come, who speaks for many: no bound holds.
   void enter_unbounded(const std::string& address, double now_s);
+  /// A connection that was let in turns out to be of another address, and needs a place there; that it came
+  /// is not counted again. With a reason it has none, and stays where it was.
+  std::optional<Refusal> move(const std::string& from, const std::string& to, double now_s);
   /// A connection that was let in has ended.
   void leave(const std::string& address, double now_s);
 
@@ -63,6 +68,8 @@ class Door {
 
   /// Whether the address is this machine's own, and the rules except it.
   bool is_free(const std::string& address) const;
+  /// From now on this machine's own address is like any other: strangers come by it.
+  void bound_loopback() { rules_.loopback_is_free = false; }
   size_t addresses() const { return visitors_.size(); }
 
  private:

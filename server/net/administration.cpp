@@ -182,8 +182,11 @@ void Administration::end_banned() {
   std::vector<std::pair<std::shared_ptr<ClientSession>, std::string>> there;
   for (const auto& [id, entry] : sessions_.entries()) {
     if (entry.grant.role == Role::admin) continue;
-    if (const auto found = bans.find({entry.session->ip(), entry.name, entry.grant.token_id}, now_s))
-      there.emplace_back(entry.session, words_of(*found));
+    for (const std::string& name : {entry.grant.name, entry.name})  // by a number it is the other's name, too
+      if (const auto found = bans.find({entry.session->ip(), name, entry.grant.token_id}, now_s)) {
+        there.emplace_back(entry.session, words_of(*found));
+        break;
+      }
   }
   for (const auto& [session, words] : there) session->refuse({Refusal::banned, words});
 }

@@ -9,8 +9,10 @@
 #include "crypto/signing_key.h"
 #include "proto/codec.h"
 #include "server/doors/unix_time.h"
+#include "server/net/person_names.h"
 #include "server/net/talk_delivery.h"
 #include "server/net/welcome.h"
+#include "server/web/web_names.h"
 #include "server/world/world.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -32,13 +34,22 @@ PublisherConfig publisher_config(const NetConfig& config) {
           config.heartbeat_s, config.chunks};
 }
 
+/// Where strangers come by a proxy or under a name, a connection from loopback may be anybody's: then it has
+/// no more rights than another.
+Door::Rules door_rules(const NetConfig& config) {
+  Door::Rules rules = config.door;
+  const bool is_public = !config.proxies.empty() || !config.web.hosts.empty() || !config.web.origins.empty();
+  rules.loopback_is_free = rules.loopback_is_free && !is_public;
+  return rules;
+}
+
 }  // namespace
 
 NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
     : config_(config),
       service_(config.service),
       world_(config.world != 0 ? config.world : std::max<uint64_t>(1, random_number())),
-      door_(config_.door),
+      door_(door_rules(config_)),
       authorizer_(config_.access, config_.admin_token, door_),
       sessions_(service_.requests_per_second),
       requests_(commands, sessions_, figures_.counts(), config_),
@@ -63,6 +74,12 @@ Result<void> NetHost::listen() {
   for (const std::string& open : open_doors(config_.access, config_.bind)) spdlog::warn("open: {}", open);
   TRY(web_.open());
   TRY(arrivals_.listen());
+  if (web_.speaks_http() && config_.web.hosts.empty() && !is_loopback_address(config_.bind))
+    spdlog::info(
+        "browsers reach this server by its addresses in numbers, localhost or {}: any other name needs "
+        "--web-host NAME "
+        "(SCREE_WEB_HOST)",
+        own_host_name());
   room_.fit(service_.sessions_max);
   tick_timer();
   return {};
@@ -79,8 +96,8 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   const HelloMessage hello = TRY(placed(said, publisher_.state().spawn()));
   if (stopping_) return refuse(Refusal::server_stops, "the server stops");
   const double now_s = steady_now_s();
-  const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token, hello.name,
-                                               now_s, unix_now_s()));
+  const Grant grant = TRY(authorizer_.grant_to(sessions_.at(session.id()).caller(), hello.token,
+                                               visible_name(hello.name), now_s, unix_now_s()));
   const auto radius_m = granted_radius(hello.eye_m, hello.administers ? 0.0F : hello.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
   const std::optional<Departed> before = returns_.resume(hello.ticket, grant, sessions_, now_s);
@@ -116,7 +133,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   entry.grant = grant;
   entry.administers = hello.administers;
   entry.party = returns_.join_party(session, grant, before ? before->party : 0, now_s);
-  entry.name = grant.name;
+  name_person(sessions_, session.id(), talk_);
   entry.program = hello.client;
   entry.joined_s = before ? before->joined_s : now_s;
   if (before) entry.requests = before->requests;

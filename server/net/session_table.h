@@ -22,8 +22,9 @@ namespace scree {
 struct SessionEntry {
   std::shared_ptr<ClientSession> session;
   RateLimit requests;
-  std::string name{};  ///< the person's
-  Grant grant{};       ///< of a joined session
+  std::string name{};      ///< the person's, as others see it (person_names.h)
+  std::string name_key{};  ///< of that
+  Grant grant{};           ///< of a joined session
   std::string program{};
   double joined_s = 0.0;
   uint64_t party = 0;        ///< as of Command; 0: an administrator, in none of Parties

@@ -34,6 +34,13 @@ void Talk::join(uint64_t session, uint64_t party, const std::string& name, Role 
   ++version_;
 }
 
+void Talk::rename(uint64_t session, const std::string& name) {
+  const auto found = persons_.find(session);
+  if (found == persons_.end()) return;
+  found->second.name = name;
+  ++version_;
+}
+
 void Talk::leave(uint64_t session) {
   if (persons_.erase(session) > 0) ++version_;
 }

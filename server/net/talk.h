@@ -20,6 +20,8 @@ class Talk {
   /// A session whose client meets others (HelloMessage::meets); it may be there already. `party`: as of
   /// Command; an administrator is a party alone.
   void join(uint64_t session, uint64_t party, const std::string& name, Role role);
+  /// Nothing, of a session that is not there.
+  void rename(uint64_t session, const std::string& name);
   void leave(uint64_t session);
 
   /// What becomes of a line: said to all, or by the server to the speaker alone; nothing, of a line without

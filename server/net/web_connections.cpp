@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "auth/access_token.h"
 #include "proto/codec.h"
@@ -37,7 +38,7 @@ int status_of(Refusal reason) {
 
 Result<void> WebConnections::open() {
   if (!config_.web.on) return {};
-  site_ = std::make_unique<Site>(TRY(web_files(config_.web)), config_.web.origins);
+  site_ = std::make_unique<Site>(TRY(web_files(config_.web)), WebNames(config_.web));
   return {};
 }
 
@@ -88,12 +89,40 @@ bool WebConnections::make_room(uint64_t id) {
 
 WebConnections::Asker WebConnections::asker_of(const HttpConnection& from, const HttpRequest& request) const {
   const Visitor& visitor = connections_.at(from.id()).from;
-  const bool seems_here = door_.is_free(visitor.address) && !request.relayed;
-  if (!config_.proxies.contains(from.ip())) return {from.ip(), visitor.address, seems_here, seems_here};
+  const WebPeer here{is_loopback_address(from.ip()) && !request.relayed, door_address(from.ip())};
+  if (!config_.proxies.contains(from.ip())) return {from.ip(), visitor.address, here};
   std::string ip = config_.proxies.client_of(request.forwarded_for, from.ip());
-  if (ip == from.ip()) return {from.ip(), visitor.address, false, seems_here};
-  std::string address = relayed_address(ip);
-  return {std::move(ip), std::move(address)};
+  const bool vouched = ip != from.ip() || !request.forwarded_host.empty();
+  if (ip == from.ip()) return {std::move(ip), visitor.address, {here.from_here, here.address, vouched}};
+  const std::string address = relayed_address(ip);
+  return {std::move(ip), address, {false, address, vouched}};
+}
+
+/// This machine's own programs ask by its own names. For others a proxy here asks that nobody has named, or a
+/// page: they share the limits of one address, as behind any proxy that is not trusted.
+std::optional<HttpResponse> WebConnections::treat_as_stranger(Entry& entry, const HttpRequest& request) {
+  if (!door_.is_free(entry.from.address) || !shows_strangers(request)) return std::nullopt;
+  const std::string address = relayed_address(entry.connection->ip());
+  if (const auto no = door_.move(entry.from.address, address, steady_now_s())) {
+    const Refused refused = door_refusal(*no);
+    site_->note_refused(request, refused.message);
+    return refusal(429, refused.reason, refused.message);
+  }
+  entry.from.address = address;
+  entry.from.relayed = true;
+  return std::nullopt;
+}
+
+/// A page of this site has come by it: pages of others come no further (SocketDoor), so they cannot take this
+/// machine's rights away. A proxy passes on what it likes, so the next stranger may show nothing.
+void WebConnections::note_proxy_here() {
+  if (has_proxy_here_) return;
+  has_proxy_here_ = true;
+  door_.bound_loopback();
+  spdlog::warn(
+      "a proxy on this machine brings others here: from now on its own programs have no more rights than "
+      "they. Name "
+      "the proxy by --proxy 127.0.0.1, so that each of them has the own limits");
 }
 
 HttpResponse WebConnections::answer(const HttpConnection& from, const HttpRequest& request) {
@@ -104,6 +133,7 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
     no.refused.reset();  // it is counted already
     return no;
   }
+  if (auto no = treat_as_stranger(entry, request)) return std::move(*no);
   const Asker asker = asker_of(from, request);
   const bool speaks_for_many = config_.proxies.contains(from.ip()) && asker.ip == from.ip();
   if (!speaks_for_many && !door_.may_request(asker.address, steady_now_s()))
@@ -113,6 +143,7 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
   const bool asks_health =
       request.path == "/healthz" || request.path == "/livez" || request.path == "/readyz";
   if (asks_health && request.method != HttpMethod::other) return answer_health(request);
+  if (auto no = site_->refuse_host(request, asker.peer)) return std::move(*no);
   if (config_.access.tls_required && !from.encrypted()) {
     HttpResponse elsewhere = refusal(307, Refusal::tls_required, "this server accepts only https");
     if (!request.host.empty())
@@ -126,9 +157,10 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
 
 /// A WebSocket's place at the door is its person's, and not its proxy's.
 HttpResponse WebConnections::answer_site(Entry& entry, const Asker& asker, const HttpRequest& request) {
-  HttpResponse response = site_->answer(request, {asker.seems_here, asker.address});
+  HttpResponse response = site_->answer(request, asker.peer);
   if (!response.is_upgrade()) return response;
   if (!config_.proxies.contains(entry.connection->ip())) {
+    if (is_loopback_address(entry.connection->ip()) && entry.from.relayed) note_proxy_here();
     entry.from.relayed = entry.from.relayed || request.relayed;
     return response;
   }
@@ -178,10 +210,11 @@ HttpResponse WebConnections::status_json(const Asker& asker, const HttpRequest& 
 }
 
 /// Where nobody could be an administrator, this machine's own programs may see it. A page that leads a
-/// browser here by a name of its own may not, nor may a proxy.
+/// browser here by a name of its own may not, nor may a proxy, and nobody where strangers come by either
+/// (Door::is_free).
 tl::expected<void, Refused> WebConnections::may_see_status(const Asker& asker, const HttpRequest& request) {
   const bool nobody_can = !authorizer_.knows_administrators();
-  if (nobody_can && asker.is_local && is_own_host(request.host)) return {};
+  if (nobody_can && door_.is_free(asker.address) && !shows_strangers(request)) return {};
   if (nobody_can) return refuse(Refusal::no_admin_token, "");
   const auto token = bearer_token(request.authorization);
   if (!token) return refuse(Refusal::token_missing, "");

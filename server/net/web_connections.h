@@ -79,9 +79,8 @@ class WebConnections final : public HttpHost {
   /// Who asks, by a trusted proxy's word.
   struct Asker {
     std::string ip;
-    std::string address;      ///< as of Door
-    bool is_local = false;    ///< a program on this machine
-    bool seems_here = false;  ///< likewise, but it may be a page that a foreign name led here
+    std::string address;  ///< as of Door: whose limits hold
+    WebPeer peer{};
   };
 
   HttpResponse answer(const HttpConnection& from, const HttpRequest& request) override;
@@ -90,6 +89,8 @@ class WebConnections final : public HttpHost {
                         std::span<const uint8_t> arrived) override;
   void disconnect(const HttpConnection& connection, Refusal reason) override;
   void ended(HttpConnection& connection) override;
+  std::optional<HttpResponse> treat_as_stranger(Entry& entry, const HttpRequest& request);
+  void note_proxy_here();
   Asker asker_of(const HttpConnection& from, const HttpRequest& request) const;
   HttpResponse answer_site(Entry& entry, const Asker& asker, const HttpRequest& request);
   HttpResponse answer_health(const HttpRequest& request);
@@ -105,6 +106,7 @@ class WebConnections final : public HttpHost {
   std::unique_ptr<Site> site_;  ///< null: HTTP is not spoken
   Connections connections_;
   bool stopping_ = false;
+  bool has_proxy_here_ = false;  ///< one that nobody has named, and that pages have come by
 };
 
 }  // namespace scree

@@ -16,7 +16,12 @@ namespace {
 namespace http = boost::beast::http;
 using Head = http::request<http::empty_body>;
 
-constexpr std::array proxy_fields = {"Forwarded", "Via", "X-Forwarded-For", "X-Forwarded-Host", "X-Real-IP"};
+/// Those that begin with X-Forwarded- beside them.
+constexpr std::array proxy_fields = {"Forwarded",      "Via",
+                                     "X-Real-IP",      "X-Client-IP",
+                                     "CDN-Loop",       "CF-Connecting-IP",
+                                     "True-Client-IP", "Fastly-Client-IP",
+                                     "X-ProxyUser-Ip", "X-Original-Host"};
 
 std::string text_of(const Head& head, http::field field) {
   const auto value = head[field];
@@ -41,7 +46,12 @@ bool accepts_gzip(const Head& head) {
 
 bool is_relayed(const Head& head) {
   const auto is_there = [&](const char* field) { return head.count(field) > 0; };
-  return head.version() == 10 || std::ranges::any_of(proxy_fields, is_there);
+  const auto is_forwarding = [](const auto& field) {
+    constexpr std::string_view prefix = "X-Forwarded-";
+    return boost::beast::iequals(field.name_string().substr(0, prefix.size()), prefix.data());
+  };
+  return head.version() == 10 || std::ranges::any_of(proxy_fields, is_there) ||
+         std::any_of(head.begin(), head.end(), is_forwarding);
 }
 
 /// One list: each proxy on the way adds to the field, or adds another one.
@@ -53,6 +63,14 @@ std::string list_of(const Head& head, const char* field) {
     list.append(at->value().data(), at->value().size());
   }
   return list;
+}
+
+/// The first entry of a list, without spaces around it.
+std::string first_of(const std::string& list) {
+  const size_t from = list.find_first_not_of(" \t");
+  if (from == list.npos) return {};
+  const std::string entry = list.substr(from, list.find(',') - from);
+  return entry.substr(0, entry.find_last_not_of(" \t") + 1);
 }
 
 bool has_body(const Head& head) {
@@ -88,6 +106,7 @@ Result<HttpRequest> parse_http_head(std::string_view text) {
   request.accepts_gzip = accepts_gzip(head);
   request.relayed = is_relayed(head);
   request.forwarded_for = list_of(head, "X-Forwarded-For");
+  request.forwarded_host = first_of(list_of(head, "X-Forwarded-Host"));
   request.old_version = head.version() == 10;
   request.names_upgrade = http::token_list(head[http::field::upgrade]).exists("websocket");
   request.connection_upgrade = http::token_list(head[http::field::connection]).exists("upgrade");

@@ -24,6 +24,7 @@ struct HttpRequest {
   /// A proxy passed it on, as far as that shows: fields that proxies add, or HTTP/1.0, which is left to them.
   bool relayed = false;
   std::string forwarded_for;        ///< X-Forwarded-For, all of them in their order
+  std::string forwarded_host{};     ///< X-Forwarded-Host, the first: the name that the browser used
   bool old_version = false;         ///< HTTP/1.0
   bool names_upgrade = false;       ///< Upgrade has "websocket"
   bool connection_upgrade = false;  ///< Connection has "upgrade"

@@ -11,12 +11,19 @@ namespace scree {
 namespace {
 
 constexpr std::pair<int, std::string_view> reasons[] = {
-    {101, "Switching Protocols"}, {200, "OK"},
-    {304, "Not Modified"},        {307, "Temporary Redirect"},
-    {400, "Bad Request"},         {401, "Unauthorized"},
-    {403, "Forbidden"},           {404, "Not Found"},
-    {405, "Method Not Allowed"},  {426, "Upgrade Required"},
-    {429, "Too Many Requests"},   {431, "Request Header Fields Too Large"},
+    {101, "Switching Protocols"},
+    {200, "OK"},
+    {304, "Not Modified"},
+    {307, "Temporary Redirect"},
+    {400, "Bad Request"},
+    {401, "Unauthorized"},
+    {403, "Forbidden"},
+    {404, "Not Found"},
+    {405, "Method Not Allowed"},
+    {421, "Misdirected Request"},
+    {426, "Upgrade Required"},
+    {429, "Too Many Requests"},
+    {431, "Request Header Fields Too Large"},
     {503, "Service Unavailable"},
 };
 

@@ -20,6 +20,9 @@ inline constexpr size_t socket_digits = 32;
 /// Attempts that failed and are remembered, so that their pages can ask why. Above: the oldest is forgotten.
 inline constexpr size_t socket_attempts_max = 256;
 
+/// Bytes of a name of a host (RFC 1035, 2.3.4). Above: no name, and in words cut.
+inline constexpr size_t host_bytes_max = 255;
+
 /// Bytes of a page's origin in words: a scheme, the longest name of a host, and a port. Above: cut.
 inline constexpr size_t origin_bytes_max = 272;
 

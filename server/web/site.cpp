@@ -1,5 +1,10 @@
 #include "server/web/site.h"
 
+#include <fmt/format.h>
+
+#include "server/web/limits.h"
+#include "shared/base/text.h"
+
 namespace scree {
 
 namespace {
@@ -25,6 +30,24 @@ HttpResponse Site::answer(const HttpRequest& request, const WebPeer& peer) {
   }
   if (request.path == "/session.json") return socket_door_.tell(request, peer);
   return file(request);
+}
+
+/// A trusted proxy says the name that the browser used, where it asks by another one.
+std::optional<HttpResponse> Site::refuse_host(const HttpRequest& request, const WebPeer& peer) const {
+  const bool is_renamed = peer.vouched && !request.forwarded_host.empty();
+  const std::string& host = is_renamed ? request.forwarded_host : request.host;
+  if (names_.knows_host(host) || (peer.vouched && !names_.names_hosts())) return std::nullopt;
+  const std::string name = showable(name_of_host(host), limits::host_bytes_max);
+  return refusal(
+      421, Refusal::host_foreign,
+      fmt::format(
+          "This is a Scree server, and it does not know the name \"{0}\" as its own.\n\n"
+          "You may reach it by its address in numbers, such as http://192.0.2.7:4177/, or as localhost from "
+          "its own machine.\n\n"
+          "If you host it: start it with --web-host {0}, or in a container with the variable "
+          "SCREE_WEB_HOST={0}. The server asks for that because anybody can give a name of his own your "
+          "server's address, and let his page play on your server by your browser (DNS rebinding).",
+          name));
 }
 
 /// Whether the path's end is one of this site's own.

@@ -1,10 +1,7 @@
 #include "server/web/socket_door.h"
 
 #include <algorithm>
-#include <array>
-#include <climits>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "crypto/sha256.h"
 #include "crypto/signing_key.h"
@@ -26,32 +23,6 @@ bool is_websocket_key(std::string_view key) {
   };
   return key.size() == key_letters && key.ends_with("==") &&
          std::ranges::all_of(key.substr(0, key_letters - 2), is_base64);
-}
-
-/// Without the port that its scheme means anyhow.
-std::string_view without_default_port(std::string_view host, std::string_view scheme) {
-  const std::string_view port = scheme == "https" ? ":443" : ":80";
-  return host.ends_with(port) ? host.substr(0, host.size() - port.size()) : host;
-}
-
-bool is_same(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::ranges::equal(a, b, {}, lower, lower);
-}
-
-/// A proxy in between may speak TLS for the server, so that schemes differ.
-bool is_of_host(std::string_view origin, std::string_view host) {
-  const size_t end = origin.find("://");
-  if (end == origin.npos || host.empty()) return false;
-  const std::string_view scheme = origin.substr(0, end);
-  if (scheme != "http" && scheme != "https") return false;
-  return is_same(without_default_port(origin.substr(end + 3), scheme), without_default_port(host, scheme));
-}
-
-/// What stands between "://" and the end.
-std::string_view host_of(std::string_view origin) {
-  const size_t end = origin.find("://");
-  return end == origin.npos ? std::string_view() : origin.substr(end + 3);
 }
 
 /// The value of a name in "attempt=…&pass=…", if it is of hexadecimal digits; else empty.
@@ -96,28 +67,7 @@ std::string foreign_to_here(const HttpRequest& request, const WebPeer& peer) {
 
 }  // namespace
 
-bool is_origin(std::string_view text) {
-  for (const std::string_view scheme : {"http", "https"}) {
-    const std::string start = std::string(scheme) + "://";
-    if (!text.starts_with(start)) continue;
-    const std::string_view host = text.substr(start.size());
-    return !host.empty() && host.find_first_of("/?#@ *") == host.npos &&
-           without_default_port(host, scheme).size() == host.size();
-  }
-  return false;
-}
-
-bool is_own_host(std::string_view host) {
-  if (host.starts_with('[')) return host.find(']') != host.npos;  // IPv6
-  host = host.substr(0, host.find(':'));
-  if (is_same(host, "localhost")) return true;
-  std::array<char, HOST_NAME_MAX + 1> own{};
-  if (gethostname(own.data(), own.size() - 1) == 0 && is_same(host, own.data())) return true;
-  const auto numeric = [](char c) { return c == '.' || (c >= '0' && c <= '9'); };
-  return !host.empty() && std::ranges::all_of(host, numeric);
-}
-
-SocketDoor::SocketDoor(std::vector<std::string> origins) : origins_(std::move(origins)) {
+SocketDoor::SocketDoor(WebNames names) : names_(std::move(names)) {
   for (int i = 0; i < 4; ++i) secret_ += std::to_string(random_number()) + " ";
 }
 
@@ -129,10 +79,11 @@ std::string SocketDoor::pass_for(const std::string& address) const {
 
 bool SocketDoor::may_join(const HttpRequest& request, const WebPeer& peer) const {
   if (!request.origin) return true;  // no browser
-  const auto is_named = [&](const std::string& origin) { return is_same(origin, *request.origin); };
-  if (std::ranges::any_of(origins_, is_named)) return true;
-  if (peer.from_here && (!is_own_host(request.host) || !is_own_host(host_of(*request.origin)))) return false;
-  return is_of_host(*request.origin, request.host) ||
+  const std::string& origin = *request.origin;
+  if (names_.is_named_site(origin)) return true;
+  const bool any_name_does = peer.vouched && !names_.names_hosts();
+  if (!any_name_does && !names_.knows_site(origin)) return false;
+  return is_of_host(origin, request.host) || (peer.vouched && is_of_host(origin, request.forwarded_host)) ||
          digits_of(request.query, "pass") == pass_for(peer.address);
 }
 

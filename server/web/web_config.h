@@ -10,9 +10,11 @@
 namespace scree {
 
 struct WebConfig {
-  bool on = true;                    ///< whether HTTP is spoken at all
-  std::string folder{};              ///< of the page's files; empty: there is no page
-  std::vector<std::string> origins;  ///< sites beside the server's own whose pages may join
+  bool on = true;                      ///< whether HTTP is spoken at all
+  std::string folder{};                ///< of the page's files; empty: there is no page
+  std::vector<std::string> origins{};  ///< sites beside the server's own whose pages may join
+  /// Names by which people reach the server, beside those of its machine (WebNames).
+  std::vector<std::string> hosts{};
   double head_seconds = limits::http_head_seconds_max;
   double idle_seconds = limits::http_idle_seconds_max;
 };

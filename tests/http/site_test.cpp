@@ -22,7 +22,10 @@ class SiteTest : public ::testing::Test {
     request.path = path;
     request.host = "game.example:4177";
     if (change) change(request);
-    return Site(*WebFiles::load(folder.path()), origins).answer(request, {from_here, "192.0.2.7"});
+    WebConfig names;
+    names.origins = origins;
+    names.hosts = {"game.example"};
+    return Site(*WebFiles::load(folder.path()), WebNames(names)).answer(request, {from_here, "192.0.2.7"});
   }
   /// Status of the answer to a handshake.
   int open_websocket(const std::function<void(HttpRequest&)>& change = {}, bool from_here = false) {
@@ -112,7 +115,7 @@ TEST_F(SiteTest, follows_links_within_the_folder) {
 }
 
 TEST_F(SiteTest, says_what_to_do_without_a_page) {
-  Site site(std::make_shared<const WebFiles>(), {});
+  Site site(std::make_shared<const WebFiles>(), WebNames());
   HttpRequest request;
   request.path = "/";
   EXPECT_EQ(site.answer(request, {true}).status, 404);
@@ -197,7 +200,7 @@ TEST_F(SiteTest, distrusts_names_that_lead_from_this_machine_to_itself) {
 }
 
 TEST_F(SiteTest, tells_a_page_what_was_missing_and_gives_it_a_pass_for_its_address) {
-  Site site(*WebFiles::load(folder.path()), {});
+  Site site(*WebFiles::load(folder.path()), WebNames());
   const auto ask_for = [&](const std::string& path, const std::string& query, const WebPeer& peer,
                            const std::function<void(HttpRequest&)>& change = {}) {
     HttpRequest request;
@@ -237,7 +240,7 @@ TEST_F(SiteTest, tells_a_page_what_was_missing_and_gives_it_a_pass_for_its_addre
 }
 
 TEST_F(SiteTest, tells_of_an_origin_that_is_no_text_by_text) {
-  Site site(*WebFiles::load(folder.path()), {});
+  Site site(*WebFiles::load(folder.path()), WebNames());
   HttpRequest request;
   request.path = "/session";
   request.query = "attempt=" + std::string(32, 'a');
@@ -254,6 +257,58 @@ TEST_F(SiteTest, tells_of_an_origin_that_is_no_text_by_text) {
     EXPECT_TRUE(holds(told, "\"seen\":true,\"words\":\"pages of http://")) << told;
     EXPECT_LT(told.size(), 1000U);
   }
+}
+
+TEST(WebNames, know_numbers_and_this_machine_and_what_the_operator_names) {
+  WebConfig config;
+  config.hosts = {"play.example.org"};
+  config.origins = {"https://game.example:8443"};
+  const WebNames names(config);
+  for (const std::string host : {"127.0.0.1", "192.168.0.7:4177", "[::1]:4177", "[2001:db8::7]", "localhost",
+                                 "LocalHost:80", "a.localhost", "localhost.", "play.example.org",
+                                 "Play.Example.ORG.:4177", "game.example", own_host_name().c_str(), ""})
+    EXPECT_TRUE(names.knows_host(host)) << host;
+  EXPECT_TRUE(names.knows_host(own_host_name() + ".local:4177"));
+  for (const char* host : {"evil.example",
+                           "evil.example:4177",
+                           "127.0.0.1.evil.example",
+                           "localhost.evil.example",
+                           "evillocalhost",
+                           ".localhost",
+                           "play.example.org.evil.example",
+                           "a.play.example.org",
+                           "example.org",
+                           "[::1].evil.example",
+                           "[evil.example]",
+                           "0x7f.1.evil",
+                           "1.2.3",
+                           "1.2.3.4.5",
+                           ":4177",
+                           ".",
+                           "[",
+                           "[]",
+                           "evil.example\0localhost",
+                           "evil.example localhost",
+                           "evil.example@localhost"})
+    EXPECT_FALSE(names.knows_host(host)) << host;
+  EXPECT_TRUE(names.knows_site("https://play.example.org"));
+  for (const char* site : {"https://evil.example", "null", "", "file://localhost", "http://", "localhost"})
+    EXPECT_FALSE(names.knows_site(site)) << site;
+}
+
+TEST(WebNames, say_what_shows_a_stranger_on_a_connection_from_this_machine) {
+  const auto shows = [](const std::string& host, const std::string& fields = "") {
+    return shows_strangers(*parse_http_head("GET / HTTP/1.1\r\nHost: " + host + "\r\n" + fields + "\r\n"));
+  };
+  for (const char* own : {"localhost:4177", "127.0.0.1:4177", "127.0.1.1", "[::1]:4177"})
+    EXPECT_FALSE(shows(own));
+  EXPECT_FALSE(shows("localhost:4177", "Origin: http://localhost:4177\r\n"));
+  for (const char* other : {"play.example.org", "192.168.0.7", "[2001:db8::7]", "", "evil127.0.0.1"})
+    EXPECT_TRUE(shows(other)) << other;
+  for (const char* field : {"Origin: http://play.example.org", "Origin: null", "Via: 1.1 a",
+                            "Forwarded: for=1.2.3.4", "X-Real-IP: 1.2.3.4", "X-Forwarded-For: 1.2.3.4",
+                            "x-forwarded-proto: https", "X-Forwarded-Port: 443", "CF-Connecting-IP: 1.2.3.4"})
+    EXPECT_TRUE(shows("localhost:4177", std::string(field) + "\r\n")) << field;
 }
 
 TEST_F(SiteTest, says_that_a_proxy_left_its_path_in) {

@@ -52,7 +52,7 @@ TEST_F(WebAttackTest, heads_that_come_slowly_or_not_at_all) {
   HttpClient slow(server->port()), silent_within(server->port()), empty_lines(server->port());
   EXPECT_TRUE(slow.pipe().send("GET / HTTP/1.1\r\nX-Slow: "));
   EXPECT_TRUE(silent_within.pipe().send("GET"));
-  EXPECT_TRUE(empty_lines.pipe().send("GET /healthz HTTP/1.1\r\nHost: a\r\n\r\n\r\n\r\n"));
+  EXPECT_TRUE(empty_lines.pipe().send("GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n\r\n\r\n"));
   EXPECT_TRUE(slow.pipe().ends() && silent_within.pipe().ends() && empty_lines.pipe().ends());
   expect_refused_as(Refusal::http_late, 3);
   expect_honest_served();
@@ -86,9 +86,9 @@ TEST_F(WebAttackTest, heads_without_an_end) {
 TEST_F(WebAttackTest, bytes_that_are_no_request) {
   open_web();
   for (const char* bytes :
-       {"GETGETGET\r\n\r\n", "GET / HTTP/9.9\r\nHost: a\r\n\r\n", "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n",
-        "POST / HTTP/1.1\r\nHost: a\r\nContent-Length: 1000000\r\n\r\n",
-        "GET / HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked\r\n\r\n", "AAA\r\n\r\n"}) {
+       {"GETGETGET\r\n\r\n", "GET / HTTP/9.9\r\nHost: localhost\r\n\r\n", "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n",
+        "POST / HTTP/1.1\r\nHost: localhost\r\nContent-Length: 1000000\r\n\r\n",
+        "GET / HTTP/1.1\r\nHost: localhost\r\nTransfer-Encoding: chunked\r\n\r\n", "AAA\r\n\r\n"}) {
     HttpClient attacker(server->port());
     EXPECT_TRUE(attacker.pipe().send(bytes));
     EXPECT_EQ(attacker.answer().status, 400) << bytes;
@@ -153,7 +153,7 @@ TEST_F(WebAttackTest, a_thousand_connections) {
     crowd.push_back(std::make_unique<HttpClient>(server->port()));
     ASSERT_TRUE(crowd.back()->pipe().connected()) << i;
     if (i % 3 == 0) crowd.back()->pipe().send("GET / HTTP/1.1\r\n");
-    if (i % 3 == 1) crowd.back()->pipe().send("GET / HTTP/1.1\r\nHost: a\r\n\r\n");
+    if (i % 3 == 1) crowd.back()->pipe().send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
     if (i % 250 == 0) expect_all_served();
   }
   EXPECT_LE(server->stats().web.connections, limits::outsiders_max);
@@ -190,7 +190,7 @@ TEST_F(WebAttackTest, all_at_once_beside_ten_by_websocket_and_ten_by_tcp) {
     viewers.push_back(std::make_unique<HonestClient>(server->port()));
     ASSERT_TRUE(people.back()->joined() && viewers.back()->joined());
   }
-  const std::string upgrade = "GET /session HTTP/1.1\r\nHost: a\r\n" + websocket_fields + "\r\n";
+  const std::string upgrade = "GET /session HTTP/1.1\r\nHost: localhost\r\n" + websocket_fields + "\r\n";
   const auto frame = [](const FrameShape& shape) {
     const auto bytes = websocket_frame(std::vector<uint8_t>{1, 2, 3}, shape);
     return std::string(bytes.begin(), bytes.end());
@@ -198,9 +198,9 @@ TEST_F(WebAttackTest, all_at_once_beside_ten_by_websocket_and_ten_by_tcp) {
   const std::vector<std::string> attacks = {
       "GET / HTTP/1.1\r\nX-Slow: ",
       "GET / HTTP/1.1\r\nX: " + std::string(20'000, 'x'),
-      "GET /session HTTP/1.1\r\nHost: a\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n",
-      "GET /session HTTP/1.1\r\nHost: a\r\nOrigin: http://b\r\n" + websocket_fields + "\r\n",
-      "GET /../../etc/passwd HTTP/1.1\r\nHost: a\r\n\r\n",
+      "GET /session HTTP/1.1\r\nHost: localhost\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n\r\n",
+      "GET /session HTTP/1.1\r\nHost: localhost\r\nOrigin: http://b\r\n" + websocket_fields + "\r\n",
+      "GET /../../etc/passwd HTTP/1.1\r\nHost: localhost\r\n\r\n",
       "BAD\r\n\r\n",
       upgrade + frame({.masked = false}),
       upgrade + frame({.opcode = 0}),
@@ -282,7 +282,7 @@ TEST_F(WebAttackTest, a_message_of_fragments_without_an_end) {
 TEST_F(WebAttackTest, connections_closed_by_half) {
   open_web();
   HttpClient asked(server->port());
-  EXPECT_TRUE(asked.pipe().send("GET / HTTP/1.1\r\nHost: a\r\n\r\n"));
+  EXPECT_TRUE(asked.pipe().send("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n"));
   asked.pipe().finish_sending();
   EXPECT_EQ(asked.answer().status, 200) << "what was asked before is answered";
   EXPECT_TRUE(asked.pipe().ends());
@@ -303,7 +303,7 @@ TEST_F(WebAttackTest, readers_that_read_nothing) {
   folder.write("large.bin", std::string(8'000'000, 'x'));
   open_web([](NetConfig& config) { config.stall_seconds = 1.0; });
   HttpClient lazy(server->port());
-  EXPECT_TRUE(lazy.pipe().send("GET /large.bin HTTP/1.1\r\nHost: a\r\n\r\n"));
+  EXPECT_TRUE(lazy.pipe().send("GET /large.bin HTTP/1.1\r\nHost: localhost\r\n\r\n"));
   expect_refused_as(Refusal::reading_stalled, 1);
   expect_honest_served();
 }

@@ -1,4 +1,5 @@
 // What the server's command line says of HTTP.
+#include <cstdlib>
 #include <gtest/gtest.h>
 
 #include "server/app/server_options.h"
@@ -34,6 +35,23 @@ TEST(WebOptions, name_further_sites) {
             (std::vector<std::string>{"https://a.example", "http://b:81"}));
   EXPECT_FALSE(web_of({"--web-origin", "*"}));
   EXPECT_FALSE(web_of({"--web-origin", "a.example"}));
+}
+
+TEST(WebOptions, name_the_hosts_by_which_people_come) {
+  EXPECT_TRUE(web_of({})->hosts.empty());
+  EXPECT_EQ(web_of({"--web-host", "play.example.org,hill", "--web-host", "xn--hgel-0ra.example"})->hosts,
+            (std::vector<std::string>{"play.example.org", "hill", "xn--hgel-0ra.example"}));
+  for (const char* wrong : {"http://play.example.org", "play.example.org:4177", "play.example.org/", "*",
+                            "*.example.org", "hügel.example", "play..org", ".org", "a b"})
+    EXPECT_FALSE(web_of({"--web-host", wrong})) << wrong;
+  ::setenv("SCREE_WEB_HOST", "play.example.org,hill", 1);
+  const auto several = web_of({});
+  ::setenv("SCREE_WEB_HOST", "", 1);
+  const auto none = web_of({});
+  ::unsetenv("SCREE_WEB_HOST");
+  EXPECT_EQ(several->hosts, (std::vector<std::string>{"play.example.org", "hill"}));
+  ASSERT_TRUE(none) << "docker/compose.yaml sets it so";
+  EXPECT_TRUE(none->hosts.empty());
 }
 
 TEST(WebOptions, tell_a_person_where_the_page_is) {

@@ -56,14 +56,24 @@ TEST_F(WebStatusTest, tells_this_machine_of_an_open_server) {
 
 TEST_F(WebStatusTest, tells_nobody_by_a_name_that_leads_here) {
   HttpClient client = open();
-  client.pipe().send("GET /status.json HTTP/1.1\r\nHost: rebound.example\r\n\r\n");
-  EXPECT_EQ(client.answer().status, 403);
+  EXPECT_EQ(client.ask_for("rebound.example").get("/status.json").status, 421);
 }
 
 TEST_F(WebStatusTest, tells_nobody_through_a_proxy_on_this_machine) {
   HttpClient client = open();
   EXPECT_EQ(client.get("/status.json", "X-Forwarded-For: 192.0.2.7\r\n").status, 403);
   EXPECT_EQ(client.get("/status.json").status, 200) << "but its own programs";
+}
+
+TEST_F(WebStatusTest, tells_nobody_without_a_token_where_strangers_come_by) {
+  open([](NetConfig& net) { net.proxies = *Proxies::parse({"192.0.2.1"}); });
+  EXPECT_EQ(HttpClient(server->port()).get("/status.json").status, 403) << "a proxy is named";
+  open([](NetConfig& net) { net.web.hosts = {"play.example.org"}; });
+  EXPECT_EQ(HttpClient(server->port()).get("/status.json").status, 403) << "a public name is named";
+  HttpClient other_host = open();
+  EXPECT_EQ(other_host.ask_for("192.168.0.7:4177").get("/status.json").status, 403)
+      << "a program here would not come from loopback";
+  EXPECT_EQ(HttpClient(server->port()).get("/status.json").status, 200);
 }
 
 TEST_F(WebStatusTest, tells_administrators_alone_where_there_are_any) {

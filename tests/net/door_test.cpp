@@ -58,6 +58,21 @@ TEST(Door, this_machine_is_free_unless_told_otherwise) {
   EXPECT_TRUE(strict.enter(here, 0.0).has_value());
 }
 
+TEST(Door, a_connection_that_turns_out_to_be_anothers_needs_a_place_there_and_comes_but_once) {
+  const std::string here = door_address("127.0.0.1"), strangers = relayed_address("127.0.0.1");
+  EXPECT_FALSE(Door(rules).is_free(strangers));
+  Door door(rules);
+  for (int i = 0; i < 9; ++i) EXPECT_EQ(door.enter(here, 0.0), std::nullopt);
+  EXPECT_EQ(door.move(here, strangers, 0.0), std::nullopt);
+  EXPECT_EQ(door.move(here, strangers, 0.0), std::nullopt);
+  EXPECT_EQ(door.move(here, strangers, 0.0), Refusal::connections_per_address);
+  door.leave(strangers, 0.0);
+  EXPECT_EQ(door.move(here, strangers, 0.0), std::nullopt) << "however many came in this second";
+  door.bound_loopback();
+  EXPECT_FALSE(door.is_free(here));
+  EXPECT_TRUE(door.enter(here, 0.0).has_value());
+}
+
 TEST(Door, each_wrong_guess_makes_the_next_wait_longer_up_to_a_bound_and_only_there) {
   Door door(rules);
   double now_s = 100.0, wait_s = 0.0;

@@ -122,6 +122,18 @@ TEST(Talk, a_list_is_told_when_it_changed_and_not_too_often) {
   EXPECT_EQ(talk.untold(200.0), std::vector<uint64_t>{3});
 }
 
+TEST(Talk, a_new_name_is_told_to_all_and_stands_before_further_lines) {
+  Talk talk(true);
+  talk.join(3, 3, "Ann", Role::builder);
+  talk.told(3, 10.0);
+  talk.rename(3, "Ann (2)");
+  talk.rename(4, "nobody there");
+  EXPECT_EQ(talk.untold(100.0), std::vector<uint64_t>{3});
+  ASSERT_EQ(talk.list().persons.size(), 1U);
+  EXPECT_EQ(talk.list().persons[0].name, "Ann (2)");
+  EXPECT_EQ(talk.say(3, "it is me", 100.0)->line.name, "Ann (2)");
+}
+
 TEST(Talk, a_list_that_not_all_fit_into_is_told_more_seldom) {
   Talk talk(true);
   for (uint64_t session = 1; session <= limits::persons_max + 2; ++session)

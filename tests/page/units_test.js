@@ -13,6 +13,7 @@ import { events_near, part_of, rows_of, span_of, tick_at } from './page/marks.js
 import { pad_state } from './page/pad.js';
 import { picture_name } from './page/picture.js';
 import { Socket, ask_why, session_url, told_url, why_closed } from './page/socket.js';
+import { is_read_on_the_way, is_withheld, insist, token_to_send } from './page/secrets.js';
 import { points } from './page/spark.js';
 import { budget_text, heads, latency_bars, lists, session_row, stage_bars } from './page/status_figures.js';
 import { bytes, span, time, whole } from './page/words.js';
@@ -36,6 +37,27 @@ test('a token in the address that is none is told of', () => {
 
 test('a link never has the token or the name', () => {
   assert.equal(format(parse('#token=secret&name=Ann&method=mesh')), '#method=mesh');
+});
+
+test('a token leaves the page by TLS, to the own machine, or when the person insists', () => {
+  const at = (address) => new URL(address);
+  for (const safe of ['https://play.example.org/', 'http://localhost:4177/', 'http://hill.localhost/', 'http://127.0.0.1:4177/', 'http://127.1.2.3/', 'http://[::1]:4177/'])
+    assert.equal(is_read_on_the_way(at(safe)), false, safe);
+  for (const read of ['http://192.168.0.7:4177/', 'http://play.example.org/', 'http://localhost.example.org/', 'http://127.0.0.1.example.org/', 'http://[2001:db8::1]/',
+    'http://notlocalhost/'])
+    assert.equal(is_read_on_the_way(at(read)), true, read);
+  const kept = new Map();
+  globalThis.sessionStorage = { getItem: (key) => kept.get(key) ?? null, setItem: (key, value) => kept.set(key, value) };
+  const far = at('http://192.168.0.7:4177/');
+  assert.equal(is_withheld(far), false, 'there is none');
+  sessionStorage.setItem('scree', 'a-secret');
+  assert.equal(is_withheld(far), true);
+  assert.equal(token_to_send(far), '');
+  assert.equal(token_to_send(at('https://192.168.0.7:4177/')), 'a-secret');
+  assert.equal(token_to_send(at('http://localhost:4177/')), 'a-secret');
+  insist();
+  assert.equal(token_to_send(far), 'a-secret');
+  delete globalThis.sessionStorage;
 });
 
 test('a link leaves the quality that a page chooses to the page that opens it', () => {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "tests/proxy/proxy_fixture.h"
 
@@ -208,6 +209,104 @@ TEST_F(BeginnersProxyTest, a_path_that_the_proxy_leaves_in_is_named) {
   const HttpAnswer answer = browser.get("/scree/main.js");
   EXPECT_EQ(answer.status, 404);
   EXPECT_TRUE(holds(answer.body, "has to take that path away")) << answer.body;
+}
+
+// ---- proxies that tell nothing: whom they bring has no more rights than any stranger
+
+class SilentProxyTest : public ProxyTest {
+ protected:
+  /// A server without a token, and nginx before it, which sends nothing of its own.
+  void open_silent(const std::function<void(NetConfig&)>& change = {}) {
+    open([&](NetConfig& config) {
+      config.proxies = {};
+      config.admin_token.clear();
+      config.control = [](const ControlReplayRequest&) { return Result<void>(); };
+      config.status = [](const NetFigures&) { return std::string("{}"); };
+      if (change) change(config);
+    });
+    run_nginx("server { listen " + proxy_address + ":" + std::to_string(proxy_port) +
+              "; location / { proxy_pass http://127.0.0.1:" + std::to_string(server->port()) +
+              "; proxy_http_version 1.1; proxy_set_header Upgrade $http_upgrade; proxy_set_header Connection "
+              "\"upgrade\"; } }\n");
+  }
+  /// As the page does: with a pass, because the proxy hides the page's site.
+  std::unique_ptr<WebSocketClient> stranger(int user) {
+    const std::string attempt = "attempt=" + std::string(31, 'a') + std::to_string(user % 10);
+    const std::string origin = "Origin: http://" + proxy_address + ":" + std::to_string(proxy_port) + "\r\n";
+    if (pass_.empty()) {
+      WebSocketClient first(by_proxy(user), origin, nullptr, 0, "/session?" + attempt);
+      EXPECT_EQ(first.handshake().status, 403);
+      const auto told =
+          nlohmann::json::parse(HttpClient(by_proxy(user)).get("/session.json?" + attempt).body);
+      pass_ = told.value("pass", "");
+    }
+    return std::make_unique<WebSocketClient>(by_proxy(user), origin, nullptr, 0,
+                                             "/session?" + attempt + "&pass=" + pass_);
+  }
+  bool may_control(auto& client) {
+    EXPECT_TRUE(client.send(AdminMessage{9, "", ControlReplayRequest{}}));
+    const auto reply = client.template receive_as<ReplyMessage>();
+    return reply && reply->refusal.empty();
+  }
+  /// Who asks for a carve each, by their parties.
+  std::set<uint64_t> parties_of(std::vector<std::unique_ptr<WebSocketClient>>& clients) {
+    for (auto& client : clients) EXPECT_TRUE(client->send(carve(1)));
+    std::set<uint64_t> parties;
+    size_t asked = 0;
+    for (const Within within(30.0); asked < clients.size() && !within.over(); wait_a_moment())
+      for (const Command& command : commands.drain())
+        if (!std::holds_alternative<LeaveRequest>(command.body)) {
+          parties.insert(party_of(command));
+          ++asked;
+        }
+    EXPECT_EQ(asked, clients.size());
+    return parties;
+  }
+
+ private:
+  std::string pass_;
+};
+
+TEST_F(SilentProxyTest, strangers_share_one_party_and_the_connections_of_one_address) {
+  open_silent();
+  RawClient own(server->port());
+  EXPECT_EQ(join(own), "");
+  EXPECT_TRUE(may_control(own)) << "nobody has come by the proxy";
+  EXPECT_EQ(HttpClient(server->port()).get("/status.json").status, 200);
+  std::vector<std::unique_ptr<WebSocketClient>> strangers;
+  for (int user = 1; user <= users; ++user) {
+    strangers.push_back(stranger(user));
+    ASSERT_EQ(strangers.back()->handshake().status, 101) << strangers.back()->handshake().body;
+    EXPECT_EQ(join(*strangers.back()), "");
+    EXPECT_FALSE(may_control(*strangers.back()));
+  }
+  EXPECT_EQ(parties_of(strangers).size(), 1U);
+  size_t in = strangers.size();
+  for (std::unique_ptr<WebSocketClient> more = stranger(1); more->open() && in < 1000; more = stranger(1)) {
+    strangers.push_back(std::move(more));
+    ++in;
+  }
+  EXPECT_LE(in, limits::connections_per_address_max);
+  EXPECT_GE(in + users, limits::connections_per_address_max) << "requests of pages may still be open";
+  EXPECT_FALSE(may_control(own)) << "from now on anybody may be behind a connection from loopback";
+  EXPECT_EQ(HttpClient(server->port()).get("/status.json").status, 403);
+  expect_witness_unmoved();
+}
+
+TEST_F(SilentProxyTest, nobody_has_loopbacks_rights_under_a_public_name_or_beside_a_named_proxy) {
+  for (const bool named : {false, true}) {
+    open_silent([&](NetConfig& config) {
+      if (named) config.proxies = *Proxies::parse({"192.0.2.1"});
+      if (!named) config.web.hosts = {"play.example.org"};
+    });
+    RawClient own(server->port());
+    EXPECT_EQ(join(own), "");
+    EXPECT_FALSE(may_control(own));
+    EXPECT_EQ(HttpClient(by_proxy(1)).get("/status.json").status, 403);
+    EXPECT_EQ(HttpClient(server->port()).get("/status.json").status, 403);
+    expect_witness_unmoved();
+    seen = source.tick();
+  }
 }
 
 // ---- the PROXY protocol, for players who are no browsers

@@ -146,6 +146,7 @@ const std::vector<Library>& libraries() {
        {"transport/", "server/doors/", "server/net/", "client/connection/", "tests/", "bench/", "studies/"}},
       {"Boost.Beast", std::regex("boost/beast.*"), {"server/web/"}},
       {"Wslay", std::regex("wslay/.*"), {"transport/"}},
+      {"utf8proc", std::regex("utf8proc\\.h"), {"server/net/"}},
       {"cmark-gfm", std::regex("cmark.*"), {"studies/report/"}},
       {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"tools/import/", "tools/export/gdal/"}},
       {"OpenSSL", std::regex("openssl/.*"), {"crypto/", "tests/"}},

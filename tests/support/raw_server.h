@@ -1,12 +1,14 @@
-// A bare listener on loopback for tests of clients, which sends bytes that no real server would send. One
-// connection at a time; every wait has a deadline.
+// A bare listener on loopback, or another address of this machine, for tests of clients, which sends bytes
+// that no real server would send. One connection at a time; every wait has a deadline.
 #pragma once
 
 #include <arpa/inet.h>
+#include <array>
 #include <netinet/in.h>
 #include <optional>
 #include <poll.h>
 #include <span>
+#include <string>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <vector>
@@ -18,10 +20,10 @@ namespace scree {
 
 class RawServer {
  public:
-  RawServer() : listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  explicit RawServer(const char* ip = "127.0.0.1") : listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ::inet_pton(AF_INET, ip, &address.sin_addr);
     ::bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
     ::listen(listener_, 4);
     socklen_t size = sizeof address;
@@ -54,6 +56,17 @@ class RawServer {
     return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
   }
   bool send(const ServerMessage& message) { return send_bytes(encode(message)); }
+
+  /// All that clients have sent which came and went, in order of coming.
+  std::string all_sent() {
+    std::string sent;
+    for (std::array<char, 4096> buffer{}; ready(listener_, POLLIN, 0) && accept(); hang_up())
+      for (ssize_t count = 1; count > 0 && ready(socket_, POLLIN);) {
+        count = ::recv(socket_, buffer.data(), buffer.size(), 0);
+        if (count > 0) sent.append(buffer.data(), static_cast<size_t>(count));
+      }
+    return sent;
+  }
 
   /// Sends copies of a message until the socket takes no more for `quiet_ms`; how many went out whole.
   size_t send_until_stuck(const ServerMessage& message, size_t count_max, int quiet_ms) {

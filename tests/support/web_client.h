@@ -130,6 +130,11 @@ class HttpClient {
 
   WebPipe& pipe() { return pipe_; }
   const std::string& host() const { return host_; }
+  /// Asks under this name from now on.
+  HttpClient& ask_for(const std::string& host) {
+    host_ = host;
+    return *this;
+  }
 
   /// Further fields, each with its line's end.
   HttpAnswer get(const std::string& path, const std::string& fields = "", const std::string& method = "GET") {

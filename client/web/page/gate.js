@@ -2,6 +2,7 @@
 import { $, write } from './dom.js';
 import { bytes } from './words.js';
 import { token } from './kept.js';
+import { IN_CLEAR, insist } from './secrets.js';
 
 export class Gate {
   #open = false;
@@ -15,6 +16,25 @@ export class Gate {
   }
 
   get open() { return this.#open; }
+
+  /** The token must not be sent from here: the person sends it all the same, or comes without it. */
+  ask_about_token() {
+    this.#show('Your token was not sent', IN_CLEAR, null);
+    const again = $('gate_again'), send = $('gate_insist'), text = again.textContent;
+    write(again, 'Join without the token');
+    again.hidden = send.hidden = false;
+    return new Promise((resolve) => {
+      const decide = (act) => () => {
+        act();
+        write(again, text);
+        again.hidden = send.hidden = true;
+        this.#again = () => location.reload();
+        resolve();
+      };
+      this.#again = decide(() => token.keep(''));
+      send.onclick = decide(insist);
+    });
+  }
 
   loading(come, part) { this.#show('Loading the viewer', bytes(come), part); }
 

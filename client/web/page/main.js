@@ -15,6 +15,7 @@ import { step_pad } from './pad.js';
 import { Panel } from './panel.js';
 import { draw_names, people_page, Talk } from './people.js';
 import { save_picture } from './picture.js';
+import { is_withheld, token_to_send } from './secrets.js';
 import { Socket, session_url } from './socket.js';
 import { Timeline } from './timeline.js';
 import { tool_page, Tools } from './tools.js';
@@ -86,7 +87,7 @@ class Page {
 
   /** Who the person is, and by what right; a connection says so when it begins. */
   #introduce() {
-    this.#client.set('token', token.load());
+    this.#client.set('token', token_to_send());
     this.#client.set('name', String(load().name ?? ''));
   }
 
@@ -111,6 +112,7 @@ class Page {
     const wishes = wishes_of_address();
     this.#take_wishes(wishes);
     if (!wishes.token && !wishes.unfit && wishes.name === undefined) return;
+    if (is_withheld()) return location.reload(); // which asks
     this.#introduce();
     this.#pages.people.name.value = load().name ?? '';
     this.#socket.renew();
@@ -306,6 +308,7 @@ class Page {
 
 async function begin() {
   try {
+    if (is_withheld()) await gate.ask_about_token();
     const wasm = await fetch_wasm((come, part) => gate.loading(come, part));
     gate.starting();
     const client = await Client.load(canvas, wasm);

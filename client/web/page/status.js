@@ -4,6 +4,7 @@ import { $, make, write } from './dom.js';
 import { Spark } from './spark.js';
 import { budget_text, heads, latency_bars, lists, server_text, session_row, stage_bars } from './status_figures.js';
 import { token } from './kept.js';
+import { IN_CLEAR, insist, is_withheld, token_to_send } from './secrets.js';
 
 const EVERY_MS = 1000, ANSWER_MS = 10000;
 const SESSIONS_MAX = 200;
@@ -67,6 +68,7 @@ function tell(text, well) {
 function ask_token(why) {
   tell('A token is needed', 'no');
   write($('why'), why);
+  $('insist').hidden = !is_withheld();
   $('figures').hidden = true;
   $('ask').hidden = false;
   $('token').focus();
@@ -93,7 +95,8 @@ function go_on_after(wait_ms) {
 }
 
 async function ask() {
-  const bearer = token.load();
+  if (is_withheld()) return ask_token(`Your token was not sent. ${IN_CLEAR}`);
+  const bearer = token_to_send();
   const answer = await fetch('status.json', {
     headers: bearer ? { authorization: `Bearer ${bearer}` } : {}, cache: 'no-store', signal: AbortSignal.timeout(ANSWER_MS),
   });
@@ -122,6 +125,10 @@ async function go_on() {
   asking = false;
 }
 
+$('insist').addEventListener('click', () => {
+  insist();
+  go_on();
+});
 $('ask').addEventListener('submit', (event) => {
   event.preventDefault();
   token.keep($('token').value.trim());

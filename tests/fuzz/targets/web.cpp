@@ -77,6 +77,7 @@ class Server final : public HttpHost {
   HttpResponse answer(const HttpConnection& /*from*/, const HttpRequest& request) override {
     CHECK(request.path.starts_with('/') && request.path.size() < limits::http_head_bytes_max);
     CHECK(request.path.find_first_of(std::string_view("\0\r\n ?", 5)) == std::string::npos);
+    if (const auto no = site_.refuse_host(request, {})) CHECK_EQ(no->status, 421);
     HttpResponse response = site_.answer(request, {});
     HttpRequest asks = request;
     asks.method = HttpMethod::get;
@@ -98,7 +99,7 @@ class Server final : public HttpHost {
   void ended(HttpConnection& /*connection*/) override { connection_ = nullptr; }
 
  private:
-  Site site_{std::make_shared<const WebFiles>(), {"https://friend.example"}};
+  Site site_{std::make_shared<const WebFiles>(), WebNames({.origins = {"https://friend.example"}})};
   std::shared_ptr<HttpConnection> connection_;
   std::unique_ptr<Echo> echo_;
 };
