@@ -32,7 +32,7 @@ void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet
     }
     if (!chunk.is_whole()) {
       if (++read_ahead > limits::chunks_read_ahead) break;
-      part.paged.push_back(coord);
+      part.paged.push_back({outlet.session(), outlet.party(), coord});
       continue;
     }
     part.used.push_back(coord);
