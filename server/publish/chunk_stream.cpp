@@ -18,7 +18,7 @@ static_assert(chunk_batch <= limits::kept_chunks_max);
 
 void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet, ServedPart& part) {
   credit_bytes_ = std::min(credit_bytes_ + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
-  if (!offer_.ready() || credit_bytes_ <= 0 || view.wanted_chunks() == 0) return;
+  if (!offer_.ready() || credit_bytes_ <= 0 || outlet.room_bytes() <= 0 || view.wanted_chunks() == 0) return;
   UnchangedChunksMessage unchanged;
   size_t read_ahead = 0;
   for (const ChunkCoord coord : view.next_chunks(tick.changes, chunk_batch)) {

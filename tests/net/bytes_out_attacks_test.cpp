@@ -34,6 +34,7 @@ class BytesOutAttackTest : public AttackTest {
       config.proxies = *Proxies::parse({"127.0.0.1"});
       config.bytes_out = rules;
       config.service.sessions_max = 200;
+      config.door.connects_per_second = config.door.connects_burst = 10000.0;
     });
     for (int i = 0; i < 24; ++i)  // two places with rubble, far apart
       for (const float there : {0.0F, 400.0F})
@@ -58,7 +59,7 @@ class BytesOutAttackTest : public AttackTest {
     Drawn drawn;
     const double begin_s = steady_now_s();
     ProxiedClient honest(server->port(), "203.0.113.2");
-    for (int round = 0; drawn.seconds < seconds_of_attack || !drawn.honest_has_all; ++round) {
+    for (int round = 0; drawn.seconds < seconds_of_attack || round < 400 || !drawn.honest_has_all; ++round) {
       for (const auto& one : crowd) act(*one, round);
       tick();
       server->flush();
