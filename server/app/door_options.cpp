@@ -73,6 +73,19 @@ void DoorOptions::declare_limits(CLI::App& app, NetConfig& net) {
                          "connections that one address may open a second, on average"),
           {limits::door_connects_least, limits::door_connects_most})
       ->capture_default_str();
+  declare_bytes_out(app);
+}
+
+void DoorOptions::declare_bytes_out(CLI::App& app) {
+  bounded(app.add_option("--bytes-out", bytes_out_mb_,
+                         "megabytes a second to all clients together; above, chunks, tiles, ground and files "
+                         "of the page wait; 0: no limit"),
+          {0.0, limits::bytes_out_most_mb})
+      ->capture_default_str();
+  bounded(app.add_option("--bytes-out-per-address", bytes_out_per_address_mb_,
+                         "likewise, to one address; this machine's own have no limit"),
+          {0.0, limits::bytes_out_most_mb})
+      ->capture_default_str();
 }
 
 void DoorOptions::complete(NetConfig& net) {
@@ -105,6 +118,7 @@ void DoorOptions::complete_limits(NetConfig& net) const {
   auto proxies = Proxies::parse(proxies_);
   if (!proxies) throw CLI::ValidationError("--proxy", proxies.error().message);
   net.proxies = std::move(*proxies);
+  net.bytes_out = {bytes_out_per_address_mb_ * bytes_per_mb, bytes_out_mb_ * bytes_per_mb};
   // Who may hold many may open them at once.
   net.door.connects_burst = std::max(net.door.connects_burst, static_cast<double>(net.door.connections_max));
 }

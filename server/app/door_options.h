@@ -1,10 +1,11 @@
 // The options of scree-server by which its operator says who may come in, and how many: administrators,
-// tokens, TLS, bans, proxies, limits of addresses.
+// tokens, TLS, bans, proxies, limits of addresses, and what goes out to them.
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "server/doors/limits.h"
 #include "server/net/net_server.h"
 
 namespace CLI {
@@ -26,8 +27,11 @@ class DoorOptions {
   const std::string& token_made() const { return token_made_; }
 
  private:
+  static constexpr double bytes_per_mb = 1.0e6;
+
   void declare_admin(CLI::App& app, NetConfig& net);
   void declare_limits(CLI::App& app, NetConfig& net);
+  void declare_bytes_out(CLI::App& app);
   void complete_token(NetConfig& net);
   void complete_limits(NetConfig& net) const;
 
@@ -36,6 +40,8 @@ class DoorOptions {
   std::string token_made_;
   std::string anonymous_;  ///< empty: by what else is given
   std::vector<std::string> proxies_;
+  double bytes_out_mb_ = limits::bytes_out_all / bytes_per_mb;
+  double bytes_out_per_address_mb_ = limits::bytes_out_per_address / bytes_per_mb;
 };
 
 }  // namespace scree

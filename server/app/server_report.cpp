@@ -94,7 +94,9 @@ Json json_of(const NetStats& net) {
           {"requests", net.requests},
           {"requests_refused", net.requests_refused},
           {"messages_unknown", net.messages_unknown},
-          {"publish_waits", net.publish_waits}};
+          {"publish_waits", net.publish_waits},
+          {"bytes_out", net.bytes_out},
+          {"bytes_out_held", net.bytes_out_held}};
 }
 
 Json json_of(const WebStats& web) {

@@ -84,6 +84,30 @@ inline constexpr size_t departed_max = 4096;
 inline constexpr double place_kept_seconds_max = 15.0;
 inline constexpr double places_kept_part = 0.25;
 
+/// Bytes a second to one address, and to all together, unless the operator says otherwise
+/// (--bytes-out-per-address, --bytes-out): a household in which eight people join at once, each as fast as it
+/// can; and most of a link of 1 Gbit/s. Above: what can wait does (BytesOut).
+inline constexpr double bytes_out_per_address = 8.0e6;
+inline constexpr double bytes_out_all = 100.0e6;
+
+/// Seconds of its budget that an address saves up, and all together do: four people join an edited world of
+/// 8 MB at once without waiting.
+inline constexpr double bytes_out_saved_s = 4.0;
+inline constexpr double bytes_out_saved_s_all = 1.0;
+
+/// Bytes that one session or connection has room for between two ticks: more than a fast link takes.
+inline constexpr int64_t bytes_out_at_once = 512 * 1024;
+
+/// Bytes that one session or connection owes at most, for messages that do not wait. Above: they are for
+/// nothing, so that it is not kept waiting for chunks for long.
+inline constexpr int64_t bytes_owed_max = 2 * 1024 * 1024;
+
+/// Bytes that stand for no limit.
+inline constexpr int64_t bytes_without_limit = int64_t{1} << 48;
+
+/// What an operator may say of them, megabytes a second; beside 0, no limit. Beyond: refused by name.
+inline constexpr double bytes_out_most_mb = 100000.0;
+
 /// Bytes from one client, per second and at once; refused and closed.
 inline constexpr double client_bytes_per_second_max = 128.0 * 1024.0;
 inline constexpr double client_bytes_burst_max = 512.0 * 1024.0;

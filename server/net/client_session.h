@@ -121,6 +121,8 @@ class ClientSession : public std::enable_shared_from_this<ClientSession> {
   /// Handed to the transport.
   uint64_t sent_bytes() const { return sent_bytes_; }
   size_t backlog_bytes() const { return backlog_bytes_; }
+  /// All that was sent, or waits; of a closed session, what was sent.
+  uint64_t queued_bytes() const { return sent_bytes_ + backlog_bytes_; }
   /// For a slow client it includes the bytes that its socket has taken and not sent; a fast one's are soon
   /// gone.
   Backlog backlog() const {

@@ -92,6 +92,11 @@ inline constexpr double flush_share_max = 0.5;
 inline constexpr uint32_t ticks_per_flush_max = 4;
 inline constexpr double flush_wait_ticks_max = 2.0;
 
+/// Parts of a tick's time that the network thread may be busy while the ground that it generates in a tick
+/// grows, and above which it shrinks (GroundPace).
+inline constexpr double tick_share_idle = 0.3;
+inline constexpr double tick_share_busy = 0.5;
+
 /// Ticks published that the network thread has not taken yet; above: the simulation waits for it, and the
 /// wait is counted.
 inline constexpr size_t deltas_in_flight_max = 128;

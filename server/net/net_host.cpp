@@ -50,13 +50,14 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       service_(config.service),
       world_(config.world != 0 ? config.world : std::max<uint64_t>(1, random_number())),
       door_(door_rules(config_)),
+      bytes_out_(config_.bytes_out, door_),
       authorizer_(config_.access, config_.admin_token, door_),
       sessions_(service_.requests_per_second),
       requests_(commands, sessions_, figures_.counts(), config_),
       returns_([this](uint64_t session) { requests_.gone(session); }, door_),
       administration_(sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
                       config_.control, publisher_),
-      web_(config_, authorizer_, door_, figures_.counts(), log_, *this),
+      web_(config_, authorizer_, door_, bytes_out_, figures_.counts(), log_, *this),
       arrivals_(context_,
                 {config_, door_, authorizer_, sessions_, room_, web_, *this, figures_.counts(), log_},
                 [this] { update_stats(); }),
@@ -128,11 +129,12 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
                    const std::optional<Departed>& before) {
   const double now_s = steady_now_s();
   SessionEntry& entry = sessions_.join(session, before ? before->session : session.id(), hello.eye_m);
-  publisher_.join(session.id(), hello.eye_m, radius_m, hello.lacks_kernels ? 0 : hello.operations,
-                  hello.world == world_);
   entry.grant = grant;
   entry.administers = hello.administers;
   entry.party = returns_.join_party(session, grant, before ? before->party : 0, now_s);
+  publisher_.join(session.id(), hello.eye_m, radius_m, hello.lacks_kernels ? 0 : hello.operations,
+                  hello.world == world_, entry.party);
+  bytes_out_.open(entry.receiver(), now_s);
   name_person(sessions_, session.id(), talk_);
   entry.program = hello.client;
   entry.joined_s = before ? before->joined_s : now_s;
@@ -279,8 +281,13 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
     log_.say(spdlog::level::info, "closed",
              fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
   }
-  const SessionEntry& entry = sessions_.at(session.id());
-  if (entry.joined_s > 0.0) note(EventKind::leave, entry);
+  SessionEntry& entry = sessions_.at(session.id());
+  if (entry.joined_s > 0.0) {
+    note(EventKind::leave, entry);
+    const uint64_t sent = std::max(entry.bytes_out.charged, session.queued_bytes());
+    bytes_out_.charge(entry.bytes_out, sent - entry.bytes_out.charged);
+    bytes_out_.close(entry.receiver());
+  }
   if (entry.at_door) door_.leave(session.address(), steady_now_s());
   forget(session.id());
   returns_.closed(entry, steady_now_s());
@@ -309,6 +316,7 @@ void NetHost::check_time() {
   const SessionTable::Sessions sessions = sessions_.all();
   for (const auto& session : sessions) session->check_time(now_s);
   web_.check_time(now_s);
+  share_bytes_out();  // where no ticks are published
   if (config_.checked) config_.checked(now_s);
   end_lapsed_grants(sessions_, authorizer_.access());
   returns_.tickets().expire(now_s);
@@ -379,6 +387,8 @@ void NetHost::update_stats() {
   NetStats& counts = figures_.counts();
   counts.sessions = static_cast<uint32_t>(sessions_.joined());
   counts.tickets_void = returns_.tickets_void();
+  counts.bytes_out = bytes_out_.bytes();
+  counts.bytes_out_held = bytes_out_.held_back();
   counts.web.connections = static_cast<uint32_t>(web_.size());
   figures_.show(publisher_, config_.takes_cursors && publisher_.state().tick() % ticks_per_physics == 0);
 }

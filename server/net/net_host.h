@@ -18,11 +18,13 @@
 #include <memory>
 
 #include "server/doors/authorizer.h"
+#include "server/doors/bytes_out.h"
 #include "server/doors/door.h"
 #include "server/net/administration.h"
 #include "server/net/arrivals.h"
 #include "server/net/client_session.h"
 #include "server/net/flush_queue.h"
+#include "server/net/ground_pace.h"
 #include "server/net/host_figures.h"
 #include "server/net/host_log.h"
 #include "server/net/net_server.h"
@@ -91,8 +93,11 @@ class NetHost final : public SessionHost, public WebHost {
 
   void tick_timer();
   void check_time();
+  void share_bytes_out();
   void grant(const ServiceLimits& service);
   void queue_frames(const TickDelta& delta);
+  void stream_ground();
+  Backlog backlog_of(uint64_t session) const;
   void answer(const TickDelta& delta, const TickSpan& span);
   /// Tells who listens that a person came or went.
   void note(EventKind kind, const SessionEntry& entry, std::optional<glm::vec3> place_m = {}) const {
@@ -108,6 +113,7 @@ class NetHost final : public SessionHost, public WebHost {
   HostLog log_;
   asio::io_context context_;
   Door door_;
+  BytesOut bytes_out_;
   Authorizer authorizer_;
   SessionTable sessions_;
   Room room_;
@@ -120,6 +126,7 @@ class NetHost final : public SessionHost, public WebHost {
   Workers workers_;
   Publisher publisher_;
   FlushQueue flush_queue_;
+  GroundPace ground_pace_;
   asio::steady_timer timer_;
   bool stopping_ = false;
   double stop_deadline_s_ = 0.0;

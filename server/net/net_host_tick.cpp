@@ -17,6 +17,7 @@ void NetHost::begin(const TickDelta& keyframe) {
 void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   CHECK(network_thread_.is_the_same());
   CHECK_EQ(publisher_.clients(), sessions_.joined());
+  const double begin_s = steady_now_s();
   if (delta.service && *delta.service != service_) grant(*delta.service);
   RefusalCounts& refusals = figures_.counts().refusals;
   for (const Reply& reply : delta.replies)
@@ -24,18 +25,35 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   publisher_.set_refusals(refusals);
   if (delta.tick % config_.tick_rate_hz == 0) publisher_.set_latency(requests_.times().drain_status());
   if (config_.saving) publisher_.set_saving(config_.saving());
+  share_bytes_out();
   queue_frames(delta);
   administration_.log_settings(delta);
   answer(delta, span);
   flush_queue_.send_turn(delta.tick, more);
+  stream_ground();
+  ground_pace_.ticked(steady_now_s() - begin_s, 1.0 / config_.tick_rate_hz, more);
   update_stats();
 }
 
+/// What each may be sent until the next call.
+void NetHost::share_bytes_out() {
+  std::vector<BytesOut::Receiver> receivers;
+  sessions_.charge_bytes(bytes_out_, receivers);
+  web_.list_receivers(receivers);
+  bytes_out_.share(receivers, steady_now_s());
+  web_.go_on();
+}
+
+Backlog NetHost::backlog_of(uint64_t session) const {
+  const SessionEntry* const entry = sessions_.find(session);
+  if (entry == nullptr) return {};
+  Backlog backlog = entry->session->backlog();
+  backlog.granted_bytes = entry->bytes_out.room;
+  return backlog;
+}
+
 void NetHost::queue_frames(const TickDelta& delta) {
-  const auto backlog = [this](uint64_t id) {
-    const SessionEntry* const entry = sessions_.find(id);
-    return entry == nullptr ? Backlog() : entry->session->backlog();
-  };
+  const auto backlog = [this](uint64_t session) { return backlog_of(session); };
   const auto& entries = sessions_.entries();
   auto found = entries.begin();
   for (Outgoing& outgoing : publisher_.publish(delta, backlog)) {
@@ -46,6 +64,19 @@ void NetHost::queue_frames(const TickDelta& delta) {
     flush_queue_.add(found->second.session, delta.tick);
     found->second.session->queue(std::move(outgoing.bytes));
   }
+}
+
+/// Behind the frames of all, for it may take much longer.
+void NetHost::stream_ground() {
+  publisher_.set_ground_work(ground_pace_.work_per_tick());
+  SessionTable::Sessions streamed;
+  for (Outgoing& outgoing : publisher_.stream([this](uint64_t session) { return backlog_of(session); })) {
+    const SessionEntry* const entry = sessions_.find(outgoing.session);
+    if (entry == nullptr) continue;
+    entry->session->queue(std::move(outgoing.bytes));
+    if (streamed.empty() || streamed.back() != entry->session) streamed.push_back(entry->session);
+  }
+  for (const auto& session : streamed) session->settle();
 }
 
 /// Who asked gets the tick first, and at once, however far this thread lags.

@@ -20,6 +20,7 @@
 #include "proto/event.h"
 #include "proto/talk.h"
 #include "server/doors/access.h"
+#include "server/doors/bytes_out.h"
 #include "server/doors/door.h"
 #include "server/doors/limits.h"
 #include "server/doors/proxies.h"
@@ -51,6 +52,8 @@ struct NetStats {
   RefusalCounts refusals;  ///< of requests, by the world and the network side, of sessions and connections
   uint64_t messages_unknown = 0;  ///< skipped: of a kind, or with a value, that this version does not know
   uint64_t publish_waits = 0;     ///< times that the simulation waited for the network thread
+  uint64_t bytes_out = 0;         ///< to sessions and by HTTP
+  uint64_t bytes_out_held = 0;    ///< times that a session or a connection had no room in its budget
   WebStats web;
 };
 
@@ -75,6 +78,7 @@ struct NetConfig {
   AccessConfig access;
   Door::Rules door{limits::connections_per_address_max, limits::connects_per_second_max,
                    limits::connects_burst_max};
+  BytesOut::Rules bytes_out;
   Proxies proxies;  ///< those that are trusted to say for whom they speak
   double hello_seconds = limits::hello_seconds_max;
   double stall_seconds = limits::stall_seconds_max;

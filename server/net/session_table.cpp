@@ -55,6 +55,14 @@ const SessionEntry* SessionTable::find(uint64_t id) const {
   return found == entries_.end() ? nullptr : &found->second;
 }
 
+void SessionTable::charge_bytes(BytesOut& bytes_out, std::vector<BytesOut::Receiver>& receivers) {
+  for (auto& [id, entry] : entries_) {
+    if (entry.session->phase() != ClientSession::Phase::joined) continue;
+    bytes_out.charge(entry.bytes_out, entry.session->queued_bytes() - entry.bytes_out.charged);
+    receivers.push_back(entry.receiver());
+  }
+}
+
 SessionTable::Sessions SessionTable::all() const {
   Sessions sessions;
   for (const auto& [id, entry] : entries_) sessions.push_back(entry.session);

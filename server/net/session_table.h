@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "server/doors/authorizer.h"
+#include "server/doors/bytes_out.h"
 #include "server/net/client_session.h"
 #include "server/net/outsider.h"
 #include "shared/base/rate_limit.h"
@@ -31,6 +32,7 @@ struct SessionEntry {
   bool relayed = false;      ///< as of Caller
   bool administers = false;  ///< as of HelloMessage
   bool at_door = true;       ///< it has a place there (Door::enter), which it gives back
+  ByteAccount bytes_out{};   ///< of a joined session
 
   /// As it said last, with its interest or its cursor; who never did is at the origin.
   glm::vec3 eye_m{0.0F};
@@ -38,6 +40,7 @@ struct SessionEntry {
   /// Whether it counts among the sessions that the server has room for.
   bool needs_place() const { return grant.role != Role::admin && !administers; }
 
+  BytesOut::Receiver receiver() { return {relayed ? std::string() : session->address(), &bytes_out}; }
   Caller caller() const { return {session->address(), session->ip(), session->encrypted(), relayed}; }
 };
 
@@ -62,6 +65,8 @@ class SessionTable {
   SessionEntry& at(uint64_t id) { return entries_.at(id); }
   const SessionEntry& at(uint64_t id) const { return entries_.at(id); }
   const std::map<uint64_t, SessionEntry>& entries() const { return entries_; }
+  /// Charges those that have joined for all that is queued for them, and lists them.
+  void charge_bytes(BytesOut& bytes_out, std::vector<BytesOut::Receiver>& receivers);
   /// A copy, for a loop that may close sessions.
   Sessions all() const;
 

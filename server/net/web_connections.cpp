@@ -93,7 +93,7 @@ WebConnections::Asker WebConnections::asker_of(const HttpConnection& from, const
   if (!config_.proxies.contains(from.ip())) return {from.ip(), visitor.address, here};
   std::string ip = config_.proxies.client_of(request.forwarded_for, from.ip());
   const bool vouched = ip != from.ip() || !request.forwarded_host.empty();
-  if (ip == from.ip()) return {std::move(ip), visitor.address, {here.from_here, here.address, vouched}};
+  if (ip == from.ip()) return {std::move(ip), visitor.address, {here.from_here, here.address, vouched}, true};
   const std::string address = relayed_address(ip);
   return {std::move(ip), address, {false, address, vouched}};
 }
@@ -135,8 +135,8 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
   }
   if (auto no = treat_as_stranger(entry, request)) return std::move(*no);
   const Asker asker = asker_of(from, request);
-  const bool speaks_for_many = config_.proxies.contains(from.ip()) && asker.ip == from.ip();
-  if (!speaks_for_many && !door_.may_request(asker.address, steady_now_s()))
+  charge_to(entry, asker);
+  if (!asker.is_many && !door_.may_request(asker.address, steady_now_s()))
     return refusal(429, Refusal::http_requests_per_second,
                    "too many requests a second from your address (limits.http_requests_per_second_max)");
   if (stopping_) return refusal(503, Refusal::server_stops, "the server stops");
@@ -153,6 +153,32 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
   if (request.path == "/status.json" && request.method != HttpMethod::other)
     return status_json(asker, request);
   return answer_site(entry, asker, request);
+}
+
+/// A proxy's connection may be charged to another one by each request.
+void WebConnections::charge_to(Entry& entry, const Asker& asker) {
+  const std::string address = asker.is_many ? std::string() : asker.address;
+  if (entry.charged == address) return;
+  end_charges(entry);
+  entry.charged = address;
+  bytes_out_.open(entry.receiver(), steady_now_s());
+}
+
+void WebConnections::end_charges(Entry& entry) {
+  if (entry.charged) bytes_out_.close(entry.receiver());
+  entry.charged.reset();
+}
+
+void WebConnections::list_receivers(std::vector<BytesOut::Receiver>& receivers) {
+  for (auto& [id, entry] : connections_)
+    if (entry.charged) receivers.push_back(entry.receiver());
+}
+
+void WebConnections::go_on() {
+  std::vector<std::shared_ptr<HttpConnection>> waiting;  // one that is closed is erased
+  for (const auto& [id, entry] : connections_)
+    if (entry.connection->waits()) waiting.push_back(entry.connection);
+  for (const auto& connection : waiting) connection->go_on();
 }
 
 /// A WebSocket's place at the door is its person's, and not its proxy's.
@@ -186,6 +212,14 @@ HttpResponse WebConnections::answer_health(const HttpRequest& request) {
   return {.status = good ? 200 : 503,
           .fields = {{"Content-Type", "application/json"}, {"Cache-Control", "no-store"}},
           .body = std::make_shared<const std::string>(health_answer(health))};
+}
+
+size_t WebConnections::file_room(const HttpConnection& connection) const {
+  return static_cast<size_t>(std::max<int64_t>(0, connections_.at(connection.id()).bytes_out.room));
+}
+
+void WebConnections::sent(const HttpConnection& connection, size_t bytes) {
+  bytes_out_.charge(connections_.at(connection.id()).bytes_out, bytes);
 }
 
 void WebConnections::answered(const HttpResponse& response, size_t bytes) {
@@ -230,8 +264,9 @@ tl::expected<void, Refused> WebConnections::may_see_status(const Asker& asker, c
 void WebConnections::opened_websocket(HttpConnection& from, std::shared_ptr<Transport> stream,
                                       std::span<const uint8_t> arrived) {
   ++counts_.web.websockets;
-  const auto node = connections_.extract(from.id());
-  const Entry& entry = node.mapped();
+  auto node = connections_.extract(from.id());
+  Entry& entry = node.mapped();
+  end_charges(entry);
   if (!entry.client_ip.empty())
     stream = std::make_shared<ProxiedTransport>(std::move(stream), entry.client_ip);
   host_.begin_websocket(std::make_shared<WebSocketTransport>(std::move(stream), frame_bytes_max, arrived),
@@ -246,7 +281,8 @@ void WebConnections::disconnect(const HttpConnection& connection, Refusal reason
 }
 
 void WebConnections::ended(HttpConnection& connection) {
-  const auto node = connections_.extract(connection.id());
+  auto node = connections_.extract(connection.id());
+  end_charges(node.mapped());
   const Visitor& from = node.mapped().from;
   if (from.at_door) door_.leave(from.address, steady_now_s());
   host_.web_changed();

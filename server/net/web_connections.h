@@ -41,9 +41,15 @@ class WebHost {
 class WebConnections final : public HttpHost {
  public:
   /// All arguments must outlive this object. `counts`: requests and refusals are counted there.
-  WebConnections(const NetConfig& config, Authorizer& authorizer, Door& door, NetStats& counts, HostLog& log,
-                 WebHost& host)
-      : config_(config), authorizer_(authorizer), door_(door), counts_(counts), log_(log), host_(host) {}
+  WebConnections(const NetConfig& config, Authorizer& authorizer, Door& door, BytesOut& bytes_out,
+                 NetStats& counts, HostLog& log, WebHost& host)
+      : config_(config),
+        authorizer_(authorizer),
+        door_(door),
+        bytes_out_(bytes_out),
+        counts_(counts),
+        log_(log),
+        host_(host) {}
 
   /// Reads the page's files, if HTTP is spoken at all.
   Result<void> open();
@@ -55,6 +61,10 @@ class WebConnections final : public HttpHost {
              std::span<const uint8_t> arrived);
   /// Ends what took too long. Call a few times a second.
   void check_time(double now_s);
+  /// Lists those that are charged for what they are sent.
+  void list_receivers(std::vector<BytesOut::Receiver>& receivers);
+  /// Goes on with files that waited for room in a budget.
+  void go_on();
   /// Closes all connections; requests of later ones are refused.
   void stop();
 
@@ -74,6 +84,12 @@ class WebConnections final : public HttpHost {
     Visitor from;
     /// The client's IP address, of the request that opens a WebSocket; empty: the connection's own.
     std::string client_ip{};
+    /// Charged for the answers; nothing before the first one.
+    std::optional<std::string> charged{};
+
+    ByteAccount bytes_out{};
+
+    BytesOut::Receiver receiver() { return {*charged, &bytes_out}; }
   };
   using Connections = std::map<uint64_t, Entry>;
   /// Who asks, by a trusted proxy's word.
@@ -81,9 +97,12 @@ class WebConnections final : public HttpHost {
     std::string ip;
     std::string address;  ///< as of Door: whose limits hold
     WebPeer peer{};
+    bool is_many = false;  ///< a trusted proxy that names nobody
   };
 
   HttpResponse answer(const HttpConnection& from, const HttpRequest& request) override;
+  size_t file_room(const HttpConnection& connection) const override;
+  void sent(const HttpConnection& connection, size_t bytes) override;
   void answered(const HttpResponse& response, size_t bytes) override;
   void opened_websocket(HttpConnection& from, std::shared_ptr<Transport> stream,
                         std::span<const uint8_t> arrived) override;
@@ -92,6 +111,8 @@ class WebConnections final : public HttpHost {
   std::optional<HttpResponse> treat_as_stranger(Entry& entry, const HttpRequest& request);
   void note_proxy_here();
   Asker asker_of(const HttpConnection& from, const HttpRequest& request) const;
+  void charge_to(Entry& entry, const Asker& asker);
+  void end_charges(Entry& entry);
   HttpResponse answer_site(Entry& entry, const Asker& asker, const HttpRequest& request);
   HttpResponse answer_health(const HttpRequest& request);
   HttpResponse status_json(const Asker& asker, const HttpRequest& request);
@@ -100,6 +121,7 @@ class WebConnections final : public HttpHost {
   const NetConfig& config_;
   Authorizer& authorizer_;
   Door& door_;
+  BytesOut& bytes_out_;
   NetStats& counts_;
   HostLog& log_;
   WebHost& host_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include "server/publish/limits.h"
 
@@ -18,13 +19,30 @@ void ChunkPager::page_in(PublishedState& state) {
   }
 }
 
-void ChunkPager::want(std::span<const ChunkCoord> chunks) {
-  wanted_.insert(wanted_.end(), chunks.begin(), chunks.end());
+void ChunkPager::want(std::span<const WantedChunk> chunks) {
+  for (const WantedChunk& one : chunks) {
+    wanted_[one.session].push_back(one.chunk);
+    turns_.wait(one.session, one.party);
+  }
+}
+
+/// What finds no room is wanted again in the next tick.
+void ChunkPager::ask() {
+  turns_.begin();
+  while (!turns_.empty() && supply_->has_room()) {
+    std::deque<ChunkCoord>& chunks = wanted_.at(turns_.next());
+    supply_->ask(chunks.front());
+    chunks.pop_front();
+    turns_.charge(1, chunks.empty() ? FairTurns::Then::leaves : FairTurns::Then::waits);
+  }
+  turns_.end();
+  for (const auto& [session, chunks] : wanted_) turns_.leave(session);
+  wanted_.clear();
 }
 
 void ChunkPager::page(PublishedState& state, EncodeCache& cache) {
   if (supply_ == nullptr) return;
-  for (const ChunkCoord chunk : std::exchange(wanted_, {})) supply_->ask(chunk);
+  ask();
   const size_t bricks_max = supply_->bricks_max();
   if (state.bricks_in() <= bricks_max) return;
   const Tick saved = supply_->saved_tick();

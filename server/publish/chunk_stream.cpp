@@ -18,7 +18,7 @@ static_assert(chunk_batch <= limits::kept_chunks_max);
 
 void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet, ServedPart& part) {
   credit_bytes_ = std::min(credit_bytes_ + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
-  if (!offer_.ready() || credit_bytes_ <= 0 || view.wanted_chunks() == 0) return;
+  if (!offer_.ready() || credit_bytes_ <= 0 || outlet.room_bytes() <= 0 || view.wanted_chunks() == 0) return;
   UnchangedChunksMessage unchanged;
   size_t read_ahead = 0;
   for (const ChunkCoord coord : view.next_chunks(tick.changes, chunk_batch)) {
@@ -32,7 +32,7 @@ void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet
     }
     if (!chunk.is_whole()) {
       if (++read_ahead > limits::chunks_read_ahead) break;
-      part.paged.push_back(coord);
+      part.paged.push_back({outlet.session(), outlet.party(), coord});
       continue;
     }
     part.used.push_back(coord);

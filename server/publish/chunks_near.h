@@ -11,6 +11,12 @@
 
 namespace scree {
 
+/// Places of chunks within the radius, about, and a few beyond.
+inline double places_near(float radius_m, float voxel_size_m) {
+  const float side_m = static_cast<float>(chunk_size) * voxel_size_m;
+  return std::pow(2.0 * radius_m / side_m + 3.0, 3.0);
+}
+
 /// Calls `visit` for each key of `chunks`, a map by ChunkCoord, that is within the radius, in any order.
 /// Looks up the places within the radius where they are fewer than the chunks: a world may have many.
 template <typename Chunks, typename Visit>
@@ -20,7 +26,7 @@ void for_each_chunk_near(const Chunks& chunks, glm::vec3 eye_m, float radius_m, 
     return distance_to_chunk_m(eye_m, chunk, voxel_size_m) <= radius_m;
   };
   const float side_m = static_cast<float>(chunk_size) * voxel_size_m;
-  const double places = std::pow(2.0 * radius_m / side_m + 3.0, 3.0);
+  const double places = places_near(radius_m, voxel_size_m);
   const float far_m = std::max({std::abs(eye_m.x), std::abs(eye_m.y), std::abs(eye_m.z)}) + radius_m;
   if (places >= static_cast<double>(chunks.size()) || far_m > 2.0F * limits::world_half_width_m) {
     for (const auto& [chunk, unused] : chunks)

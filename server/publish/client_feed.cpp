@@ -10,11 +10,13 @@ namespace scree {
 namespace {
 
 /// Bricks that may be patched: they are much, so who reads slowly gets none, and later the chunks as they are
-/// then. By a slow link they have the room that is left.
+/// then. By a slow link they have the room that is left, and by any link what the address's budget has left.
 size_t patches_for(const Backlog& backlog) {
   if (!backlog.reads_along()) return 0;
-  if (!backlog.is_slow()) return limits::patch_bricks_max;
-  return static_cast<size_t>(std::max<int64_t>(0, backlog.room_bytes())) / limits::patch_brick_bytes;
+  const int64_t room =
+      backlog.is_slow() ? std::min(backlog.room_bytes(), backlog.granted_bytes) : backlog.granted_bytes;
+  return std::min(limits::patch_bricks_max,
+                  static_cast<size_t>(std::max<int64_t>(0, room)) / limits::patch_brick_bytes);
 }
 
 }  // namespace
@@ -30,7 +32,7 @@ void ClientFeed::serve(const ServedTick& tick, const Backlog& backlog, ServedPar
   outlet_.begin(backlog);
   const bool with_poses = reads_along && tick.rates.has_poses(tick.tick());
   const bool with_status = tick.rates.status_due(outlet_.session(), tick.tick());
-  if (!send_frame(tick, {with_poses, patches_for(backlog)}, part)) return;
+  if (!send_frame(tick, {with_poses, patches_for(backlog), may_scan_}, part)) return;
   if (tick.changes.delta.playback) replay_.serve(tick.changes.delta, with_status, reads_along, outlet_, part);
   // Pieces first: by a slow link, chunks take all the room there is, and what merges unknown pieces comes as
   // bricks.

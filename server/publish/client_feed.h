@@ -21,8 +21,8 @@ namespace scree {
 class ClientFeed {
  public:
   /// The view's arguments are as of ClientView.
-  ClientFeed(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations)
-      : outlet_(session), view_(eye_m, radius_m, operations) {}
+  ClientFeed(uint64_t session, uint64_t party, glm::vec3 eye_m, float radius_m, size_t operations)
+      : outlet_(session, party), view_(eye_m, radius_m, operations) {}
 
   ClientView& view() { return view_; }
   const ClientView& view() const { return view_; }
@@ -37,6 +37,9 @@ class ClientFeed {
   void repair(ChunkCoord chunk);
   /// The next tick tells the client to forget its edits and pieces, and it begins anew.
   void reset_soon() { reset_due_ = true; }
+
+  /// Whether the next tick may scan an interest that has changed.
+  void allow_scan(bool allowed) { may_scan_ = allowed; }
 
   /// The messages of a tick, before which so much waits for the client.
   void serve(const ServedTick& tick, const Backlog& backlog, ServedPart& part);
@@ -55,6 +58,7 @@ class ClientFeed {
   PhysicsFeed physics_feed_;
   bool stopped_ = false;
   bool reset_due_ = false;
+  bool may_scan_ = true;
   Tick last_frame_ = 0;  ///< tick of the last frame that it got; 0: none
   uint32_t repairs_ = 0;
 };

@@ -307,8 +307,7 @@ FrameSelection ClientView::select_frame(const TickChanges& changes, FrameScope p
   for (const ChunkCoord chunk : tainted)
     if (changed.erase(chunk) != 0) half_told.insert(chunk);
   select_patches(changes, tainted, patch_room(parts.patch_bricks), frame, changed);
-  if (rescan_due_ && (rescanned_ == 0 || changes.delta.tick >= rescanned_ + limits::rescan_ticks_min))
-    rescan(changes, changed, frame);
+  if (parts.scan && wants_scan(changes.delta.tick)) rescan(changes, changed, frame);
   if (parts.poses) select_poses(changes, frame);
   std::ranges::sort(frame.removed);
   std::ranges::sort(frame.dropped);

@@ -72,6 +72,7 @@ struct FrameSelection {
 struct FrameScope {
   bool poses = true;  ///< poses, and removals of pieces that ended or left the interest
   size_t patch_bricks = limits::patch_bricks_max;  ///< beyond, chunks are wanted whole, later
+  bool scan = true;  ///< an interest that has changed may be scanned for edited chunks
 };
 
 class ClientView {
@@ -82,6 +83,10 @@ class ClientView {
 
   glm::vec3 eye_m() const { return next_eye_m_; }
   float radius_m() const { return next_radius_m_; }
+  /// Whether the interest has changed and may be scanned in the frame of this tick.
+  bool wants_scan(Tick tick) const {
+    return rescan_due_ && (rescanned_ == 0 || tick >= rescanned_ + limits::rescan_ticks_min);
+  }
   /// Changes eye and radius within limits::rescan_ticks_min ticks. The radius is not negative.
   void set_interest(glm::vec3 eye_m, float radius_m);
   /// Whether the chunk lies within the interest as last set, times limits::interest_keep_factor.

@@ -31,12 +31,18 @@ GroundMessage ground_of(const TerrainSource& source, ChunkCoord chunk) {
 
 }  // namespace
 
-bool GroundStream::ask(uint64_t session, std::span<const ChunkCoord> chunks) {
+bool GroundStream::ask(uint64_t session, uint64_t party, std::span<const ChunkCoord> chunks) {
   if (waiting(session) + chunks.size() > limits::ground_chunks_max) return false;
   if (chunks.empty()) return true;
   Queue& queue = queues_[session];
   queue.chunks.insert(queue.chunks.end(), chunks.begin(), chunks.end());
+  turns_.wait(session, party);
   return true;
+}
+
+void GroundStream::leave(uint64_t session) {
+  queues_.erase(session);
+  turns_.leave(session);
 }
 
 size_t GroundStream::waiting(uint64_t session) const {
@@ -68,35 +74,40 @@ SharedBytes GroundStream::answer(ChunkCoord chunk, const ClientView& view, int& 
   return share(beyond);
 }
 
-void GroundStream::serve(const std::function<const ClientView*(uint64_t)>& reader,
-                         const std::function<bool(uint64_t, const SharedBytes&)>& send) {
-  struct Turn {
-    uint64_t session;
-    Queue* queue;
-    const ClientView* view;
-  };
-  std::vector<Turn> turns;
+void GroundStream::begin_tick(const std::function<const ClientView*(uint64_t)>& reader) {
   for (auto& [session, queue] : queues_) {
     queue.credit_bytes =
         std::min(queue.credit_bytes + limits::ground_bytes_per_tick, limits::ground_bytes_per_tick);
-    if (const ClientView* const view = reader(session)) turns.push_back({session, &queue, view});
+    queue.view = reader(session);
   }
-  const auto after = [this](const Turn& turn) { return turn.session > served_last_; };
-  std::stable_partition(turns.begin(), turns.end(), after);  // clang 14 does not compile that of std::ranges
-  int work_left = limits::ground_work_per_tick;
-  while (!turns.empty()) {
-    std::erase_if(turns, [&](Turn& turn) {
-      if (turn.queue->chunks.empty() || turn.queue->credit_bytes <= 0) return true;
-      const int work_before = work_left;
-      const SharedBytes bytes = answer(turn.queue->chunks.front(), *turn.view, work_left);
-      if (!bytes) return true;
-      if (work_left != work_before) served_last_ = turn.session;
-      turn.queue->chunks.pop_front();
-      turn.queue->credit_bytes -= static_cast<int64_t>(bytes->size());
-      return !send(turn.session, bytes);
-    });
+  turns_.begin();
+}
+
+void GroundStream::serve(const std::function<const ClientView*(uint64_t)>& reader,
+                         const std::function<bool(uint64_t, const SharedBytes&)>& send) {
+  begin_tick(reader);
+  int work_left = work_per_tick_;
+  while (!turns_.empty()) {
+    const uint64_t session = turns_.next();
+    Queue& queue = queues_.at(session);
+    const bool gets_more = queue.view != nullptr && queue.credit_bytes > 0;
+    const int work_before = work_left;
+    const SharedBytes bytes = gets_more ? answer(queue.chunks.front(), *queue.view, work_left) : nullptr;
+    if (!bytes) {
+      turns_.pass_over();
+      continue;
+    }
+    queue.chunks.pop_front();
+    queue.credit_bytes -= size_of(bytes);
+    const bool has_room = send(session, bytes);
+    const auto work = static_cast<uint64_t>(work_before - work_left);
+    turns_.charge(bytes->size() + work * limits::ground_work_bytes,
+                  queue.chunks.empty() ? FairTurns::Then::leaves
+                  : has_room           ? FairTurns::Then::waits
+                                       : FairTurns::Then::is_passed_over);
+    if (queue.chunks.empty()) queues_.erase(session);
   }
-  std::erase_if(queues_, [](const auto& entry) { return entry.second.chunks.empty(); });
+  turns_.end();
 }
 
 }  // namespace scree

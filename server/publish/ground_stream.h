@@ -1,6 +1,7 @@
 // Answers requests for unedited ground: generates and encodes each chunk once, and shares the bytes among
 // clients. What waits is bounded (limits::ground_chunks_max a session), and so are the work and the bytes of
-// a tick; sessions take turns, one chunk each. No sockets and no clock. Not thread-safe.
+// a tick. Parties take turns at the work, and the sessions of a party share its turns (SessionTurns). No
+// sockets and no clock. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -11,6 +12,8 @@
 #include <unordered_map>
 
 #include "server/publish/client_view.h"
+#include "server/publish/limits.h"
+#include "server/publish/session_turns.h"
 #include "server/publish/shared_bytes.h"
 
 namespace scree {
@@ -20,9 +23,12 @@ class GroundStream {
   explicit GroundStream(const TerrainSource& source) : source_(source) {}
 
   /// Queues the chunks. False, and nothing is queued, when more than limits::ground_chunks_max would wait.
-  [[nodiscard]] bool ask(uint64_t session, std::span<const ChunkCoord> chunks);
-  void leave(uint64_t session) { queues_.erase(session); }
+  [[nodiscard]] bool ask(uint64_t session, uint64_t party, std::span<const ChunkCoord> chunks);
+  void leave(uint64_t session);
   size_t waiting(uint64_t session) const;
+
+  /// How much a tick may generate from now on, as of limits::ground_work_min; positive.
+  void set_work(int work_per_tick) { work_per_tick_ = work_per_tick; }
 
   /// Answers as much as a tick may: calls send(session, bytes) in the order in which each session asked,
   /// until it returns false: then that session gets no more in this tick. `reader(session)`: its view, or
@@ -34,14 +40,17 @@ class GroundStream {
   struct Queue {
     std::deque<ChunkCoord> chunks;
     int64_t credit_bytes = 0;
+    const ClientView* view = nullptr;  ///< within serve(); null: it gets nothing
   };
+  void begin_tick(const std::function<const ClientView*(uint64_t)>& reader);
   /// The answer to the first chunk in the queue; null when the tick has no work left for it.
   SharedBytes answer(ChunkCoord chunk, const ClientView& view, int& work_left);
   SharedBytes generated(ChunkCoord chunk, int& work_left);
 
   TerrainSource source_;
+  int work_per_tick_ = limits::ground_work_min;
   std::map<uint64_t, Queue> queues_;
-  uint64_t served_last_ = 0;  ///< the session whose chunk was generated last: others come first
+  SessionTurns turns_;
   std::unordered_map<ChunkCoord, SharedBytes, CoordHash> encoded_;
   size_t encoded_bytes_ = 0;
 };

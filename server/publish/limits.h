@@ -43,10 +43,23 @@ inline constexpr int64_t tile_bytes_per_tick = 32 * 1024;
 /// Above: it gets the next message later, with the state as it is then.
 inline constexpr int64_t physics_bytes_per_tick = 4 * 1024;
 
-/// Ground that the network thread generates in a tick for all clients together: a chunk with a surface counts
-/// 8 and takes 1 to 2 ms with its encoding, another one counts 1 and takes 0.2 ms. The last one may go
-/// beyond. Above: the rest waits, each client in turn.
-inline constexpr int ground_work_per_tick = 8;
+/// Bytes of tiles sent to all clients together in a tick, 30 MB/s at 60 Hz: each is read from the ground's
+/// file. One tile may go beyond. Above: the rest waits, each party in turn.
+inline constexpr int64_t tile_bytes_per_tick_all = 512 * 1024;
+
+/// Ground that the network thread generates in a tick for all clients together, at least: a chunk with a
+/// surface counts 8 and takes 1 to 2 ms with its encoding, another one counts 1 and takes 0.2 ms. The last
+/// one may go beyond. Above: the rest waits, each party in turn. An idle network thread generates more
+/// (server/net/ground_pace.h), up to ground_work_max.
+inline constexpr int ground_work_min = 8;
+inline constexpr int ground_work_max = 64;
+
+/// Bytes for which ground's work counts in the parties' turns, beside those that are sent.
+inline constexpr uint64_t ground_work_bytes = 16 * 1024;
+
+/// Edited chunks that are looked at in a tick for interests that moved, for all clients together: about 2 ms.
+/// The last interest may go beyond. Above: the rest waits, each party in turn.
+inline constexpr uint64_t scanned_chunks_per_tick = 64 * 1024;
 
 /// Bytes of encoded ground kept to be sent to several clients. Above: all of it is forgotten, and generated
 /// again on demand.
@@ -64,6 +77,9 @@ inline constexpr double heartbeat_s = 0.5;
 inline constexpr size_t outbox_soft_bytes = 16 * 1024;
 inline constexpr size_t outbox_soft_min_bytes = 1024;
 inline constexpr double outbox_wait_s = 0.1;
+
+/// Bytes of room where no budget holds: more than anybody is sent in a tick, and far from an overflow.
+inline constexpr int64_t bytes_free = int64_t{1} << 48;
 
 /// Bytes waiting for one client above which it gets no frames: when it has read all, it is reset.
 inline constexpr size_t outbox_resync_bytes = 2 * 1024 * 1024;

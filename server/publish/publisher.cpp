@@ -7,6 +7,7 @@
 
 #include "proto/codec.h"
 #include "proto/operation_codec.h"
+#include "server/publish/chunks_near.h"
 #include "server/publish/interest_filter.h"
 #include "server/world/world.h"
 #include "shared/base/check.h"
@@ -37,9 +38,10 @@ ClientFeed* Publisher::find(uint64_t session) {
   return client == clients_.end() ? nullptr : &client->second;
 }
 
-void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations, bool offers) {
+void Publisher::join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations, bool offers,
+                     uint64_t party) {
   leave(session);
-  ClientFeed client(session, eye_m, radius_m, operations);
+  ClientFeed client(session, party != 0 ? party : session, eye_m, radius_m, operations);
   if (offers) client.offer().await(rates_.ticks_of(limits::offer_wait_s));
   clients_.emplace(session, std::move(client));
 }
@@ -55,6 +57,7 @@ void Publisher::leave(uint64_t session) {
   cursors_.erase(session);
   ground_.leave(session);
   tiles_.leave(session);
+  scan_turns_.leave(session);
 }
 
 void Publisher::set_interest(uint64_t session, glm::vec3 eye_m, float radius_m) {
@@ -91,12 +94,13 @@ void Publisher::repair(uint64_t session, const RepairMessage& request) {
 }
 
 bool Publisher::ask_ground(uint64_t session, const AskGroundMessage& request) {
-  return !clients_.contains(session) || ground_.ask(session, request.chunks);
+  ClientFeed* const client = find(session);
+  return client == nullptr || ground_.ask(session, client->outlet().party(), request.chunks);
 }
 
 bool Publisher::ask_tiles(uint64_t session, const AskTilesMessage& request) {
   ClientFeed* const client = find(session);
-  return client == nullptr || tiles_.ask(session, request, client->view());
+  return client == nullptr || tiles_.ask(session, client->outlet().party(), request, client->view());
 }
 
 const ClientView* Publisher::view(uint64_t session) const {
@@ -124,8 +128,8 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   board_.add(delta);
   count_operations(delta);
   cache_.start_tick();
+  allow_scans();
   serve_all(changes, backlog);
-  stream_ground(backlog);
   pager_.page(state_, cache_);
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.kept_bytes + stats_.piece_bytes +
@@ -168,8 +172,30 @@ ClientView* Publisher::reader(uint64_t session, const Backlog& backlog) {
   return reads_along && client.outlet().has_room() ? &client.view() : nullptr;
 }
 
-/// Ground and tiles follow the tick's frames, which therefore do not count on them; the next ones do.
-void Publisher::stream_ground(const std::function<Backlog(uint64_t)>& backlog) {
+/// The first is allowed whatever it costs.
+void Publisher::allow_scans() {
+  for (auto& [session, client] : clients_) {
+    const bool wants = client.view().wants_scan(state_.tick());
+    client.allow_scan(!wants);
+    if (wants)
+      scan_turns_.wait(session, client.outlet().party());
+    else
+      scan_turns_.leave(session);
+  }
+  scan_turns_.begin();
+  for (uint64_t looked_at = 0; looked_at < limits::scanned_chunks_per_tick && !scan_turns_.empty();) {
+    ClientFeed& client = clients_.at(scan_turns_.next());
+    client.allow_scan(true);
+    const double places = places_near(client.view().radius_m(), config_.terrain.voxel_size_m);
+    const auto cost = 1 + static_cast<uint64_t>(std::min<double>(places, state_.chunks().size()));
+    scan_turns_.charge(cost, FairTurns::Then::leaves);
+    looked_at += cost;
+  }
+  scan_turns_.end();
+}
+
+/// The tick's frames do not count on ground and tiles; the next ones do.
+std::vector<Outgoing> Publisher::stream(const std::function<Backlog(uint64_t)>& backlog) {
   ServedPart part;
   const auto reader_of = [&](uint64_t session) { return reader(session, backlog(session)); };
   const auto send_to = [&](uint64_t session, const SharedBytes& bytes) {
@@ -186,6 +212,7 @@ void Publisher::stream_ground(const std::function<Backlog(uint64_t)>& backlog) {
     return send_to(session, bytes);
   });
   add(std::move(part));
+  return std::exchange(out_, {});
 }
 
 void Publisher::add(ServedPart&& part) {

@@ -2,8 +2,9 @@
 // selection share the encoded bytes; slow readers get less.
 //
 // It composes: PublishedState and Motions (what clients have in common), a ClientFeed for each client,
-// EncodeCache, GroundStream and TileStream, ChunkPager (chunks out of memory) and StatusBoard; publish() is
-// their order.
+// EncodeCache, GroundStream and TileStream, ChunkPager (chunks out of memory) and StatusBoard; publish() and
+// stream() are their order. Work that many clients can ask for, each as much as it likes, is done in the
+// parties' turns (SessionTurns): ground, tiles, chunks out of memory, and scans of interests that moved.
 //
 // A client gets a frame of a tick in which something happened for it, and one every limits::heartbeat_s
 // anyway, by which it sees that time goes on. The frame of its tick comes
@@ -33,6 +34,7 @@
 #include "server/publish/ground_stream.h"
 #include "server/publish/limits.h"
 #include "server/publish/outgoing.h"
+#include "server/publish/session_turns.h"
 #include "server/publish/status_board.h"
 #include "server/publish/tile_stream.h"
 #include "server/world/chunk_supply.h"
@@ -54,8 +56,10 @@ class Publisher {
   Publisher(const PublisherConfig& config, Workers& workers);
 
   /// `operations`: as of ClientView; where there are any, the client gets motions, else whole poses
-  /// (Frame.motions, Frame.transforms). `offers`: an offer follows, and chunks wait for it.
-  void join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations, bool offers = false);
+  /// (Frame.motions, Frame.transforms). `offers`: an offer follows, and chunks wait for it. `party`: as of
+  /// Command; 0: the session shares its turns with no other.
+  void join(uint64_t session, glm::vec3 eye_m, float radius_m, size_t operations, bool offers = false,
+            uint64_t party = 0);
   void leave(uint64_t session);
   void set_interest(uint64_t session, glm::vec3 eye_m, float radius_m);
   /// Takes the client's word for the chunks that it has; of this world.
@@ -67,6 +71,8 @@ class Publisher {
   /// Takes what the client has of the ground's tiles, and queues what it asks for (TileStream::ask).
   [[nodiscard]] bool ask_tiles(uint64_t session, const AskTilesMessage& request);
 
+  /// Sets how much ground a tick generates, as of GroundStream.
+  void set_ground_work(int work_per_tick) { ground_.set_work(work_per_tick); }
   /// Sets how often the server has refused requests and sessions, for the status.
   void set_refusals(const RefusalCounts& refusals) { board_.set_refusals(refusals); }
   /// Sets the stages of the last second's requests, for the status.
@@ -93,6 +99,9 @@ class Publisher {
   /// every client.
   std::vector<Outgoing> publish(const TickDelta& delta, const std::function<Backlog(uint64_t)>& backlog);
 
+  /// Ground and tiles of the tick that was just published: they take longer than its frames, and follow them.
+  std::vector<Outgoing> stream(const std::function<Backlog(uint64_t)>& backlog);
+
   /// The replies of the tick that was just published: they follow its frames. `latency(reply)`: the stages
   /// that the reply states.
   std::vector<Outgoing> answer(const TickDelta& delta,
@@ -114,7 +123,7 @@ class Publisher {
   void restart();
   void count_operations(const TickDelta& delta);
   void serve_all(const TickChanges& changes, const std::function<Backlog(uint64_t)>& backlog);
-  void stream_ground(const std::function<Backlog(uint64_t)>& backlog);
+  void allow_scans();
   void add(ServedPart&& part);
 
   PublisherConfig config_;
@@ -128,6 +137,7 @@ class Publisher {
   GroundStream ground_;
   TileStream tiles_;
   ChunkPager pager_;
+  SessionTurns scan_turns_;
   StatusBoard board_;
   PublisherStats stats_;
   std::vector<Outgoing> out_;

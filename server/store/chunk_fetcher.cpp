@@ -84,9 +84,13 @@ Result<void> ChunkFetcher::start(const std::string& path) {
   return {};
 }
 
+bool ChunkFetcher::has_room() {
+  return state_->asked.size() < limits::chunks_asked_max;
+}
+
 void ChunkFetcher::ask(ChunkCoord chunk) {
   State& s = *state_;
-  if (s.asked.size() >= limits::chunks_asked_max || s.asked.contains(chunk)) return;
+  if (!has_room() || s.asked.contains(chunk)) return;
   if (const auto failure = s.failed.find(chunk); failure != s.failed.end()) {
     if (steady_now_s() < failure->second.until_s) return;
     s.failed.erase(failure);

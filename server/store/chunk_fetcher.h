@@ -20,6 +20,7 @@ class ChunkFetcher final : public ChunkSupply {
 
   size_t bricks_max() override { return bricks_max_.load(std::memory_order_relaxed); }
   Tick saved_tick() override { return saved_.load(std::memory_order_acquire); }
+  bool has_room() override;
   /// A chunk that could not be read is not asked for again for limits::unreadable_retry_s.
   void ask(ChunkCoord chunk) override;
   std::vector<SuppliedChunk> collect(size_t chunks_max) override;

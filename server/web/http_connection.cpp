@@ -64,29 +64,48 @@ void HttpConnection::respond(HttpResponse response, bool head_only, bool keep_al
   keep_alive_ = keep_alive && !response_.ends;
   response_head_ = head_of(response_, keep_alive_);
   sent_ = 0;
+  waits_ = false;
   write();
+}
+
+/// Bytes of head and body, from the first on, that may have been sent by now.
+size_t HttpConnection::sendable() const {
+  const size_t head = response_head_.size();
+  const size_t whole = head + (head_only_ ? 0 : response_.body->size());
+  if (!response_.is_file) return whole;
+  const size_t room = std::min(host_.file_room(*this), limits::http_write_bytes_max);
+  return std::min(whole, std::max(sent_, head) + room);
 }
 
 void HttpConnection::write() {
   const std::string_view body = head_only_ ? std::string_view() : std::string_view(*response_.body);
-  const size_t whole = response_head_.size() + body.size();
-  if (sent_ == whole) return written();
-  const auto bytes_of = [](std::string_view text, size_t from) {
-    return std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size())
-        .subspan(std::min(from, text.size()));
+  if (sent_ == response_head_.size() + body.size()) return written();
+  const size_t end = sendable();
+  waits_ = end == sent_;
+  if (waits_) return;
+  const auto part_of = [&](std::string_view text, size_t before) {
+    const size_t from = std::min(text.size(), sent_ - std::min(sent_, before));
+    const size_t to = std::min(text.size(), end - std::min(end, before));
+    return std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()).subspan(from, to - from);
   };
-  const size_t body_sent = sent_ - std::min(sent_, response_head_.size());
-  const std::array buffers = {bytes_of(response_head_, sent_), bytes_of(body, body_sent)};
+  const std::array buffers = {part_of(response_head_, 0), part_of(body, response_head_.size())};
   const bool in_body = buffers[0].empty();
   const Transport::Buffers left =
-      std::span(buffers).subspan(in_body ? 1 : 0, in_body || body.empty() ? 1 : 2);
+      std::span(buffers).subspan(in_body ? 1 : 0, in_body || buffers[1].empty() ? 1 : 2);
   stream_->write_some(left, [self = shared_from_this()](const Moved& moved) {
     if (self->phase_ == Phase::over) return;
     if (!moved) return self->close();
     self->sent_ += *moved;
     self->since_s_ = self->now_s_;
+    self->host_.sent(*self, *moved);
     self->write();
   });
+}
+
+void HttpConnection::go_on() {
+  if (phase_ != Phase::answering || !waits_) return;
+  since_s_ = now_s_;  // it was not the client that was late
+  write();
 }
 
 void HttpConnection::written() {
@@ -136,7 +155,7 @@ void HttpConnection::check_time(double now_s) {
     host_.disconnect(*this, Refusal::http_late);
     return close();
   }
-  if (phase_ == Phase::answering && passed_s > times_.stall_s) {
+  if (phase_ == Phase::answering && !waits_ && passed_s > times_.stall_s) {
     host_.disconnect(*this, Refusal::reading_stalled);
     close();
   }

@@ -3,7 +3,7 @@
 //
 // Phases: head (waits for a request's head, or between two requests) → answering → head again, or lingering
 // (the last answer is sent, input is ignored) → over. What it holds is bounded: a head, and files that all
-// connections share.
+// connections share. A file is sent as far as its host has room for it.
 #pragma once
 
 #include <array>
@@ -23,7 +23,11 @@ class HttpHost {
  public:
   virtual ~HttpHost() = default;
   virtual HttpResponse answer(const HttpConnection& from, const HttpRequest& request) = 0;
-  /// Sent to the client, the head included.
+  /// Bytes of a file that may be sent now; 0: it waits for go_on(). Other answers are small, and do not wait.
+  virtual size_t file_room(const HttpConnection& connection) const = 0;
+  /// These bytes of an answer were sent.
+  virtual void sent(const HttpConnection& connection, size_t bytes) = 0;
+  /// All of it was sent, the head included.
   virtual void answered(const HttpResponse& response, size_t bytes) = 0;
   /// The handshake of a WebSocket is over: the stream is the host's, with what was read of it already. The
   /// last call for this connection.
@@ -53,6 +57,9 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void check_time(double now_s);
   /// Closes at once.
   void close();
+  /// Whether a file waits for room.
+  bool waits() const { return waits_; }
+  void go_on();
 
   uint64_t id() const { return id_; }
   /// The IP address.
@@ -68,6 +75,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void read_done(size_t bytes);
   void parse_head();
   void respond(HttpResponse response, bool head_only, bool keep_alive);
+  size_t sendable() const;
   void write();
   void written();
   void linger();
@@ -90,6 +98,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   bool head_only_ = false;
   bool keep_alive_ = false;
   size_t sent_ = 0;
+  bool waits_ = false;
 };
 
 }  // namespace scree

@@ -14,6 +14,9 @@ inline constexpr double http_head_seconds_max = 5.0;
 /// Seconds that a connection may stay open between requests. Above: closed; browsers open another one.
 inline constexpr double http_idle_seconds_max = 15.0;
 
+/// Bytes of a file that are handed to a connection at once. Above: the rest follows.
+inline constexpr size_t http_write_bytes_max = size_t{256} << 10;
+
 /// Digits by which a page names its attempt to open a WebSocket, and those of a pass: 128 bits.
 inline constexpr size_t socket_digits = 32;
 

@@ -22,7 +22,9 @@ class ChunkSupply {
   virtual size_t bricks_max() = 0;
   /// Chunks whose last change was in this tick, or earlier, can be had.
   virtual Tick saved_tick() = 0;
-  /// Asks for a chunk, unless it is on its way or too many are: then the caller asks again.
+  /// Whether one more chunk can be asked for: few may be on their way at once.
+  virtual bool has_room() = 0;
+  /// Asks for a chunk, unless it is on its way or there is no room: then the caller asks again.
   virtual void ask(ChunkCoord chunk) = 0;
   /// Those that came, in order, at most so many at once.
   virtual std::vector<SuppliedChunk> collect(size_t chunks_max) = 0;

@@ -49,6 +49,17 @@ TEST(DoorOptions, name_the_proxies_and_the_limits_of_an_address) {
   EXPECT_TRUE(is_refused({"--connections-per-address", "0"}));
 }
 
+TEST(DoorOptions, set_the_budgets_of_bytes_in_megabytes_a_second) {
+  const NetConfig usual = net_of({});
+  EXPECT_EQ(usual.bytes_out.per_address, limits::bytes_out_per_address);
+  EXPECT_EQ(usual.bytes_out.all, limits::bytes_out_all);
+  const NetConfig net = net_of({"--bytes-out", "0", "--bytes-out-per-address", "1.5"});
+  EXPECT_EQ(net.bytes_out.per_address, 1.5e6);
+  EXPECT_EQ(net.bytes_out.all, 0.0);
+  EXPECT_TRUE(is_refused({"--bytes-out", "-1"}));
+  EXPECT_TRUE(is_refused({"--bytes-out-per-address", "1000000"}));
+}
+
 TEST(DoorOptions, make_an_admin_token_once_that_only_the_owner_reads) {
   const TestFolder folder;
   const std::string file = folder / "admin.token";

@@ -59,7 +59,7 @@ TEST_F(GroundTest, a_tick_generates_little_and_sends_within_a_budget) {
   for (size_t before = 0; follower.grounds.size() < 300; before = follower.grounds.size()) {
     tick();
     ASSERT_GT(follower.grounds.size(), before);
-    ASSERT_LE(follower.grounds.size() - before, static_cast<size_t>(limits::ground_work_per_tick));
+    ASSERT_LE(follower.grounds.size() - before, static_cast<size_t>(limits::ground_work_min));
   }
   // All of it is kept now: only the bytes bound it.
   join(2, {0.0F, 2.0F, 0.0F}, 200.0F, false);
@@ -112,10 +112,10 @@ TEST_F(GroundTest, a_slow_reader_waits_and_gets_its_ground_later) {
 TEST_F(GroundTest, what_waits_is_bounded_and_goes_with_its_session) {
   GroundStream stream(flat_terrain);
   const std::vector<ChunkCoord> most(limits::ground_chunks_max);
-  EXPECT_TRUE(stream.ask(1, most));
-  EXPECT_FALSE(stream.ask(1, {{{0, 0, 0}}}));
+  EXPECT_TRUE(stream.ask(1, 1, most));
+  EXPECT_FALSE(stream.ask(1, 1, {{{0, 0, 0}}}));
   EXPECT_EQ(stream.waiting(1), limits::ground_chunks_max);
-  EXPECT_TRUE(stream.ask(2, {{{0, 0, 0}}})) << "another one's bound is its own";
+  EXPECT_TRUE(stream.ask(2, 2, {{{0, 0, 0}}})) << "another one's bound is its own";
   stream.leave(1);
   EXPECT_EQ(stream.waiting(1), 0U);
 }

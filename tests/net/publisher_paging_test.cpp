@@ -14,6 +14,7 @@ class SlowSupply final : public ChunkSupply {
   explicit SlowSupply(Field& field) : field_(field) {}
   size_t bricks_max() override { return bricks; }
   Tick saved_tick() override { return saved; }
+  bool has_room() override { return asked.size() < room; }
   void ask(ChunkCoord chunk) override { asked.insert(chunk); }
   std::vector<SuppliedChunk> collect(size_t) override {
     std::vector<SuppliedChunk> chunks;
@@ -30,6 +31,7 @@ class SlowSupply final : public ChunkSupply {
 
   size_t bricks = 0;
   Tick saved = 0;
+  size_t room = SIZE_MAX;
   bool answers = true, lies = false;
   std::set<ChunkCoord> asked;
   size_t read = 0;

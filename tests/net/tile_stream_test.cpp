@@ -40,8 +40,8 @@ class TileTest : public ::testing::Test {
 };
 
 TEST_F(TileTest, each_tile_is_sent_once_and_what_is_held_never) {
-  ASSERT_TRUE(stream_->ask(1, {all(), {{0, 1, 1}}}, *view_));
-  ASSERT_TRUE(stream_->ask(1, {all(), {}}, *view_));
+  ASSERT_TRUE(stream_->ask(1, 1, {all(), {{0, 1, 1}}}, *view_));
+  ASSERT_TRUE(stream_->ask(1, 1, {all(), {}}, *view_));
   size_t sent = 0;
   for (int tick = 0; tick < 100; ++tick) sent += serve().size();
   EXPECT_EQ(sent, all().size() - 1);
@@ -50,7 +50,7 @@ TEST_F(TileTest, each_tile_is_sent_once_and_what_is_held_never) {
 }
 
 TEST_F(TileTest, a_tick_sends_no_more_than_its_bytes_and_one_tile) {
-  ASSERT_TRUE(stream_->ask(1, {all(), {}}, *view_));
+  ASSERT_TRUE(stream_->ask(1, 1, {all(), {}}, *view_));
   int64_t bytes = 0;
   for (int tick = 1; stream_->waiting(1) > 0; ++tick) {
     for (const SharedBytes& each : serve()) bytes += static_cast<int64_t>(each->size());
@@ -59,18 +59,18 @@ TEST_F(TileTest, a_tick_sends_no_more_than_its_bytes_and_one_tile) {
 }
 
 TEST_F(TileTest, requests_are_bounded_and_keys_of_no_tile_are_skipped) {
-  EXPECT_FALSE(stream_->ask(1, {std::vector<TileKey>(limits::tiles_wanted_max + 1), {}}, *view_));
-  ASSERT_TRUE(stream_->ask(1, {{{9, 0, 0}, {0, 3, 0}, {0, -1, 0}, {-1, 0, 0}}, {{7, 7, 7}}}, *view_));
+  EXPECT_FALSE(stream_->ask(1, 1, {std::vector<TileKey>(limits::tiles_wanted_max + 1), {}}, *view_));
+  ASSERT_TRUE(stream_->ask(1, 1, {{{9, 0, 0}, {0, 3, 0}, {0, -1, 0}, {-1, 0, 0}}, {{7, 7, 7}}}, *view_));
   EXPECT_EQ(stream_->waiting(1), 0U);
   EXPECT_FALSE(view_->holds_tile({7, 7, 7}));
   reads_ = false;
-  ASSERT_TRUE(stream_->ask(1, {std::vector<TileKey>(limits::tiles_wanted_max), {}}, *view_));
+  ASSERT_TRUE(stream_->ask(1, 1, {std::vector<TileKey>(limits::tiles_wanted_max), {}}, *view_));
   EXPECT_TRUE(serve().empty());
-  EXPECT_FALSE(stream_->ask(1, {{{0, 0, 0}}, {}}, *view_));
+  EXPECT_FALSE(stream_->ask(1, 1, {{{0, 0, 0}}, {}}, *view_));
   stream_->leave(1);
   EXPECT_EQ(stream_->waiting(1), 0U);
   TileStream none(nullptr);
-  EXPECT_TRUE(none.ask(1, {{{0, 0, 0}}, {}}, *view_)) << "a ground without tiles";
+  EXPECT_TRUE(none.ask(1, 1, {{{0, 0, 0}}, {}}, *view_)) << "a ground without tiles";
   EXPECT_EQ(none.waiting(1), 0U);
 }
 

@@ -178,6 +178,12 @@ std::map<std::string, double> stated_limits() {
           {"tiles_held_max", limits::tiles_held_max},
           {"tile_bytes_max", limits::tile_bytes_max},
           {"tile_bytes_per_tick", limits::tile_bytes_per_tick},
+          {"tile_bytes_per_tick_all", limits::tile_bytes_per_tick_all},
+          {"ground_work_min", limits::ground_work_min},
+          {"ground_work_max", limits::ground_work_max},
+          {"scanned_chunks_per_tick", limits::scanned_chunks_per_tick},
+          {"bytes_out_per_address", limits::bytes_out_per_address},
+          {"bytes_out_all", limits::bytes_out_all},
           {"chunk_bytes_per_tick", limits::chunk_bytes_per_tick},
           {"piece_bytes_per_tick", limits::piece_bytes_per_tick},
           {"ground_bytes_per_tick", limits::ground_bytes_per_tick},
@@ -206,6 +212,17 @@ TEST(ProtocolDocument, its_limits_are_the_programs) {
     EXPECT_EQ(std::stod(number), limit->second) << (*it)[1];
   }
   EXPECT_EQ(found, limits_by_name.size());
+}
+
+/// The document's table of what messages cost has a row for each.
+TEST(ProtocolDocument, its_costs_are_of_every_message) {
+  const std::string text = document(), heading = "| message | draws | bounded by |";
+  const size_t begin = text.find(heading);
+  ASSERT_NE(begin, text.npos);
+  std::istringstream table(text.substr(begin));
+  size_t rows = 0;
+  for (std::string line; std::getline(table, line) && !line.empty();) ++rows;
+  EXPECT_EQ(rows - 2, std::variant_size_v<ClientMessage>);
 }
 
 /// The document's table of refusals: rows "| `name`, `name`* | … | again |", which says what clients do.

@@ -174,6 +174,7 @@ class PublisherTest : public ::testing::Test {
     };
     receive(publisher.publish(delta, backlog));
     receive(publisher.answer(delta, [this](const Reply&) { return latency; }));
+    receive(publisher.stream(backlog));
   }
   void receive(const std::vector<Outgoing>& outgoing) {
     for (const Outgoing& each : outgoing) {
