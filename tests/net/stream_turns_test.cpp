@@ -9,21 +9,21 @@ namespace scree {
 namespace {
 
 constexpr uint64_t first_attacker = 1000;
-constexpr size_t attackers = 60;
+constexpr size_t greedy_clients = 60;
 constexpr uint64_t honest = 1;
 
 class StreamTurnsTest : public PublisherTest {
  protected:
-  /// `as_one`: the attackers are one party.
-  void join_attackers(bool as_one, float radius_m) {
-    for (uint64_t session = first_attacker; session < first_attacker + attackers; ++session)
+  /// `as_one`: the greedy_clients are one party.
+  void join_greedy_clients(bool as_one, float radius_m) {
+    for (uint64_t session = first_attacker; session < first_attacker + greedy_clients; ++session)
       publisher.join(session, {0.0F, 2.0F, 0.0F}, radius_m, 0, false, as_one ? first_attacker : session);
   }
   void join_honest(float radius_m) {
     publisher.join(honest, {0.0F, 2.0F, 0.0F}, radius_m, 0);
     followers.try_emplace(honest);
   }
-  /// What the attackers get is not looked at.
+  /// What the greedy_clients get is not looked at.
   void tick_for_honest() {
     const auto delta = source.step({});
     const auto backlog = [](uint64_t) { return Backlog(); };
@@ -37,8 +37,8 @@ class StreamTurnsTest : public PublisherTest {
 
   /// Ticks until the honest session has its 100 chunks of ground, 2000 at most.
   int ticks_for_ground(bool as_one) {
-    join_attackers(as_one, 2000.0F);
-    for (size_t i = 0; i < attackers; ++i) {
+    join_greedy_clients(as_one, 2000.0F);
+    for (size_t i = 0; i < greedy_clients; ++i) {
       std::vector<ChunkCoord> far;  // each its own, with the surface in them
       for (int k = 0; k < 24; ++k) far.push_back({k - 12, -1, 20 + static_cast<int>(i)});
       EXPECT_TRUE(publisher.ask_ground(first_attacker + i, {far}));
@@ -86,14 +86,14 @@ class ScanTurnsTest : public StreamTurnsTest {
   }
   /// Ticks until a step of the honest session shows: the chunks at its new place are wanted.
   int ticks_for_a_step(bool as_one) {
-    join_attackers(as_one, 2000.0F);
+    join_greedy_clients(as_one, 2000.0F);
     join_honest(20.0F);
-    const auto move_attackers = [&](int tick) {
-      for (uint64_t session = first_attacker; session < first_attacker + attackers; ++session)
+    const auto move_greedy_clients = [&](int tick) {
+      for (uint64_t session = first_attacker; session < first_attacker + greedy_clients; ++session)
         publisher.set_interest(session, {tick % 2 == 0 ? 0.0F : 400.0F, 2.0F, 0.0F}, 2000.0F);
     };
     for (int tick = 0; tick < 40; ++tick) {
-      move_attackers(tick);
+      move_greedy_clients(tick);
       tick_for_honest();
     }
     const glm::vec3 there_m{100.0F, 82.0F, 100.0F};
@@ -102,7 +102,7 @@ class ScanTurnsTest : public StreamTurnsTest {
     for (; publisher.view(honest)->held().empty() && publisher.view(honest)->wanted_chunks() == 0 &&
            ticks < 100;
          ++ticks) {
-      move_attackers(ticks);
+      move_greedy_clients(ticks);
       tick_for_honest();
     }
     return ticks;
@@ -162,7 +162,7 @@ int ticks_for_a_paged_chunk(TickSource& source, Workers& workers, bool as_one) {
   supply->saved = source.tick();
   play(*source.step({}));
   EXPECT_EQ(paged.state().bricks_in(), 0U);
-  for (uint64_t k = 0; k < attackers; ++k) {  // each wants other chunks
+  for (uint64_t k = 0; k < greedy_clients; ++k) {  // each wants other chunks
     const glm::vec3 eye_m{32.0F * static_cast<float>(k % 10) + 4.0F, 84.0F,
                           48.0F * static_cast<float>(k / 10) + 4.0F};
     paged.join(2 + k, eye_m, 14.0F, operation_kinds, false, as_one ? 2 : 2 + k);

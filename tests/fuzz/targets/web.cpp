@@ -85,6 +85,10 @@ class Server final : public HttpHost {
     CHECK_EQ(site_.answer(asks, {}).status, 200);
     return response;
   }
+  size_t file_room(const HttpConnection& /*connection*/) const override {
+    return limits::http_head_bytes_max;
+  }
+  void sent(const HttpConnection& /*connection*/, size_t bytes) override { CHECK(bytes > 0); }
   void answered(const HttpResponse& response, size_t bytes) override {
     CHECK(bytes > 0 && response.status >= 101 && response.status < 600);
   }
