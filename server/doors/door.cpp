@@ -39,7 +39,7 @@ std::string relayed_address(const std::string& ip) {
 }
 
 bool Door::is_free(const std::string& address) const {
-  return rules_.loopback_is_free && address == this_machine;
+  return rules_.loopback_is_free && !rules_.loopback_is_shared && address == this_machine;
 }
 
 Door::Visitor& Door::visitor(const std::string& address, double now_s, size_t addresses) {
@@ -76,10 +76,11 @@ std::optional<Refusal> Door::enter(const std::string& address, double now_s) {
     enter_unbounded(address, now_s);
     return std::nullopt;
   }
+  const bool is_shared = rules_.loopback_is_free && address == this_machine;
   std::vector<Visitor*> entered;
   const auto enter = [&](const std::string& network, size_t addresses) -> std::optional<Refusal> {
     Visitor& from = visitor(network, now_s, addresses);
-    if (!from.connects.try_spend(now_s)) return Refusal::connects_per_second;
+    if (!is_shared && !from.connects.try_spend(now_s)) return Refusal::connects_per_second;
     if (from.connections >= addresses * rules_.connections_max) return Refusal::connections_per_address;
     ++from.connections;
     entered.push_back(&from);

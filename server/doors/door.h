@@ -38,6 +38,9 @@ class Door {
     bool loopback_is_free = true;
     double requests_per_second = limits::http_requests_per_second_max;
     double requests_burst = limits::http_requests_burst_max;
+    /// Strangers may come by loopback, too: then it is not free, and holds no more connections than others.
+    /// It opens them as fast as it likes, because a proxy there opens one for each file of a page.
+    bool loopback_is_shared = false;
   };
 
   explicit Door(const Rules& rules) : rules_(rules) {}
@@ -68,8 +71,8 @@ class Door {
 
   /// Whether the address is this machine's own, and the rules except it.
   bool is_free(const std::string& address) const;
-  /// From now on this machine's own address is like any other: strangers come by it.
-  void bound_loopback() { rules_.loopback_is_free = false; }
+  /// From now on strangers come by this machine's own address (Rules::loopback_is_shared).
+  void share_loopback() { rules_.loopback_is_shared = true; }
   size_t addresses() const { return visitors_.size(); }
 
  private:

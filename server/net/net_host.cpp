@@ -39,7 +39,7 @@ PublisherConfig publisher_config(const NetConfig& config) {
 Door::Rules door_rules(const NetConfig& config) {
   Door::Rules rules = config.door;
   const bool is_public = !config.proxies.empty() || !config.web.hosts.empty() || !config.web.origins.empty();
-  rules.loopback_is_free = rules.loopback_is_free && !is_public;
+  rules.loopback_is_shared = rules.loopback_is_shared || is_public;
   return rules;
 }
 

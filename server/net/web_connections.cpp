@@ -101,7 +101,9 @@ WebConnections::Asker WebConnections::asker_of(const HttpConnection& from, const
 /// This machine's own programs ask by its own names. For others a proxy here asks that nobody has named, or a
 /// page: they share the limits of one address, as behind any proxy that is not trusted.
 std::optional<HttpResponse> WebConnections::treat_as_stranger(Entry& entry, const HttpRequest& request) {
-  if (!door_.is_free(entry.from.address) || !shows_strangers(request)) return std::nullopt;
+  const bool may_be_own = door_.is_free(entry.from.address) ||
+                          (has_proxy_here_ && entry.from.address == door_address(entry.connection->ip()));
+  if (!may_be_own || !shows_strangers(request)) return std::nullopt;
   const std::string address = relayed_address(entry.connection->ip());
   if (const auto no = door_.move(entry.from.address, address, steady_now_s())) {
     const Refused refused = door_refusal(*no);
@@ -118,7 +120,7 @@ std::optional<HttpResponse> WebConnections::treat_as_stranger(Entry& entry, cons
 void WebConnections::note_proxy_here() {
   if (has_proxy_here_) return;
   has_proxy_here_ = true;
-  door_.bound_loopback();
+  door_.share_loopback();
   spdlog::warn(
       "a proxy on this machine brings others here: from now on its own programs have no more rights than "
       "they. Name "

@@ -64,7 +64,12 @@ bool is_same_name(std::string_view a, std::string_view b) {
 }
 
 std::string_view name_of_host(std::string_view host) {
-  if (host.starts_with('[')) return host.substr(1, std::min(host.find(']'), host.size()) - 1);
+  if (host.starts_with('[')) {
+    const size_t end = std::min(host.find(']'), host.size() - 1);
+    const std::string_view behind = host.substr(end + 1);
+    return host[end] == ']' && (behind.empty() || behind.starts_with(':')) ? host.substr(1, end - 1)
+                                                                           : std::string_view();
+  }
   const std::string_view name = host.substr(0, host.find(':'));
   return name.ends_with('.') ? name.substr(0, name.size() - 1) : name;
 }

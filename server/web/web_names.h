@@ -37,7 +37,7 @@ class WebNames {
   std::vector<std::string> origins_;
 };
 
-/// The name of a Host, without port, brackets and the last dot.
+/// The name of a Host, without port, brackets and the last dot; empty: brackets do not end it.
 std::string_view name_of_host(std::string_view host);
 /// A loopback address, or localhost: no other machine is reached by it.
 bool is_loopback_host(std::string_view host);

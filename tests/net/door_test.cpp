@@ -68,9 +68,9 @@ TEST(Door, a_connection_that_turns_out_to_be_anothers_needs_a_place_there_and_co
   EXPECT_EQ(door.move(here, strangers, 0.0), Refusal::connections_per_address);
   door.leave(strangers, 0.0);
   EXPECT_EQ(door.move(here, strangers, 0.0), std::nullopt) << "however many came in this second";
-  door.bound_loopback();
+  door.share_loopback();
   EXPECT_FALSE(door.is_free(here));
-  EXPECT_TRUE(door.enter(here, 0.0).has_value());
+  EXPECT_EQ(door.enter(here, 0.0), Refusal::connections_per_address);
 }
 
 TEST(Door, each_wrong_guess_makes_the_next_wait_longer_up_to_a_bound_and_only_there) {
