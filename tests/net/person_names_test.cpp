@@ -95,13 +95,16 @@ class NamedPersons : public NetServerTest {
   std::string token_of(const std::string& name, uint64_t id) const {
     return *sign({id, Role::builder, 0, 0, name, ""}, key);
   }
-  /// The name under which others hear the speaker.
-  static std::string heard(RawClient& speaker, RawClient& listener) {
-    EXPECT_TRUE(speaker.send(SayMessage{"it is me"}));
-    const auto said = listener.receive_as<SaidMessage>();
-    return said ? said->name : "nothing was heard";
+  /// The name under which others hear the speaker. Who spoke before hears the own line, too.
+  std::string heard(RawClient& speaker, RawClient& listener) {
+    const std::string line = "it is me, " + std::to_string(++lines_);
+    EXPECT_TRUE(speaker.send(SayMessage{line}));
+    while (const auto said = listener.receive_as<SaidMessage>())
+      if (said->text == line) return said->name;
+    return "nothing was heard";
   }
 
+  int lines_ = 0;
   const TestFolder folder;
   const SigningKey key = SigningKey::generate();
 };
