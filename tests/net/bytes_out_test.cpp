@@ -139,7 +139,7 @@ TEST_F(BytesOutTest, this_machine_has_no_budget_and_a_proxy_that_speaks_for_many
     draw(loopback, 1'000'000, 100'000'000);
     draw("", 256 * 1024, 4'000'000);
   }
-  EXPECT_EQ(drawn(loopback), 300U * 100'000'000U);
+  EXPECT_EQ(drawn(loopback), uint64_t{300} * 100'000'000);
   EXPECT_GE(static_cast<double>(drawn("")), 0.9 * 10.0e6 * 5.0);
   EXPECT_LE(static_cast<double>(drawn("")), 10.0e6 * (5.0 + limits::bytes_out_saved_s_all) + 1.0e6);
 }
