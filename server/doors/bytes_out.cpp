@@ -103,6 +103,7 @@ void BytesOut::share(const std::vector<Receiver>& receivers, double now_s) {
       account->room = limits::bytes_without_limit;
       continue;
     }
+    held_back_ += account->room <= 0 ? 1 : 0;
     account->room = std::max(account->room, -limits::bytes_owed_max);
     Group& group = groups[address];
     group.accounts.push_back(account);
@@ -118,10 +119,7 @@ void BytesOut::share(const std::vector<Receiver>& receivers, double now_s) {
   auto part = granted.begin();
   for (auto& [address, group] : groups) {
     const std::vector<int64_t> parts = even_parts(group.wants, *part);
-    for (size_t i = 0; i < parts.size(); ++i) {
-      group.accounts[i]->room += parts[i];
-      held_back_ += group.accounts[i]->room <= 0 ? 1 : 0;
-    }
+    for (size_t i = 0; i < parts.size(); ++i) group.accounts[i]->room += parts[i];
     all_.bytes -= static_cast<double>(*part);
     if (group.tank != nullptr) group.tank->bytes -= static_cast<double>(*part);
     ++part;

@@ -54,7 +54,7 @@ class BytesOut {
 
   /// Bytes that were charged, since the start.
   uint64_t bytes() const { return bytes_; }
-  /// How often a receiver had no room after share(), since the start.
+  /// How often share() found a receiver that had used up its room, since the start.
   uint64_t held_back() const { return held_back_; }
   /// Addresses that have not saved up all they can.
   size_t addresses() const { return tanks_.size(); }
