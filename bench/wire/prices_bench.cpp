@@ -1,5 +1,5 @@
-// What a byte from outside costs the server, by kinds of message: 60 sessions of one address, not of this
-// machine, send as much of one kind as they may, and the bytes that they draw and the processor time that the
+// What a byte from outside costs the server, by kinds of message. Sixty sessions of one address, not of this
+// machine, send as much of one kind as they may. The bytes that they draw and the processor time that the
 // server takes are divided by the bytes that they send. What the same sessions draw without it is subtracted.
 #include <cmath>
 #include <csignal>

@@ -52,7 +52,7 @@ BytesOut::Tank& BytesOut::tank_of(const std::string& address, double now_s) {
   return tank;
 }
 
-/// Of a limit of 0, as much as anybody wants.
+/// Where the limit is 0, as much as anybody wants.
 int64_t BytesOut::left_in(const Tank& tank) const {
   const double per_second = &tank == &all_ ? rules_.all : rules_.per_address;
   return per_second == 0.0 ? limits::bytes_without_limit : static_cast<int64_t>(std::max(0.0, tank.bytes));

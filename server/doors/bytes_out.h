@@ -21,7 +21,7 @@
 
 namespace scree {
 
-/// Of one receiver.
+/// The account of one receiver.
 struct ByteAccount {
   int64_t room = 0;      ///< bytes of streams that it may be sent now; 0 and less: none
   uint64_t charged = 0;  ///< bytes that were sent, since the start
