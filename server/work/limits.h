@@ -56,8 +56,8 @@ inline constexpr float refracture_rest_s = 0.1F;
 /// so many seconds.
 inline constexpr float island_rest_s = 0.2F;
 
-/// Sooner where the budget has room to spare, but never enough for the next: as soon as this part of that room
-/// has paid for it. A whole would leave late ticks nothing to catch up by.
+/// Sooner where the budget has room to spare, but never enough for the next: as soon as this part of that
+/// room has paid for it. A whole would leave late ticks nothing to catch up by.
 inline constexpr float spare_share = 0.5F;
 
 /// Pieces that a volume is cut into at once, however large it is.
