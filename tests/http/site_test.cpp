@@ -264,9 +264,10 @@ TEST(WebNames, know_numbers_and_this_machine_and_what_the_operator_names) {
   config.hosts = {"play.example.org"};
   config.origins = {"https://game.example:8443"};
   const WebNames names(config);
+  const std::string own = own_host_name();
   for (const std::string host : {"127.0.0.1", "192.168.0.7:4177", "[::1]:4177", "[2001:db8::7]", "localhost",
                                  "LocalHost:80", "a.localhost", "localhost.", "play.example.org",
-                                 "Play.Example.ORG.:4177", "game.example", own_host_name().c_str(), ""})
+                                 "Play.Example.ORG.:4177", "game.example", own.c_str(), ""})
     EXPECT_TRUE(names.knows_host(host)) << host;
   EXPECT_TRUE(names.knows_host(own_host_name() + ".local:4177"));
   for (const char* host : {"evil.example",
