@@ -29,6 +29,14 @@ std::string fault_of_file(const std::string& path) {
   if (static_cast<size_t>(std::ranges::count(text, '\n')) > limits::config_lines_max)
     return fmt::format("{}: more than {} lines are no file of options (limits.config_lines_max)", path,
                        limits::config_lines_max);
+  std::istringstream lines(text);
+  const auto is_value = [](const ConfigEntry& entry) {
+    const size_t first = entry.text.find_first_not_of(" \t\r\n");
+    return first != std::string::npos && entry.text[first] != '#';
+  };
+  if (static_cast<size_t>(std::ranges::count_if(config_entries(lines), is_value)) > limits::config_values_max)
+    return fmt::format("{}: more than {} values are no file of options (limits.config_values_max)", path,
+                       limits::config_values_max);
   return {};
 }
 

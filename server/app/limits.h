@@ -11,6 +11,10 @@ namespace scree::limits {
 inline constexpr size_t config_bytes_max = size_t{256} << 10U;
 inline constexpr size_t config_lines_max = 4096;
 
+/// Values that a file of options sets; there are some hundred options. Above: refused, for to find the
+/// mistake among so many would take seconds.
+inline constexpr size_t config_values_max = 512;
+
 /// Ticks that a late simulation catches up with. Above: the ticks are lost, and counted as overruns.
 inline constexpr int catch_up_ticks_max = 5;
 

@@ -345,14 +345,13 @@ TEST(ServerOptions, a_file_of_options_is_a_file_and_no_longer_than_one) {
     for (size_t i = 0; i < times; ++i) all += line;
     return all;
   };
-  // A hundred thousand equal lines took 30 s.
-  const auto began = std::chrono::steady_clock::now();
+  // A hundred thousand equal lines took 30 s, and four thousand 8 s.
   EXPECT_TRUE(
       holds(words(lines("port = 4177\n", 100'000)), file + ": more than 256 KiB are no file of options"));
   EXPECT_TRUE(holds(words(lines("port = 1\n", 5'000)), "(limits.config_lines_max)"));
-  EXPECT_FALSE(words(lines("port = 1\n", 4'000)).empty());
-  EXPECT_FALSE(words("web-origin = [" + lines("'a',", 60'000) + "]\n").empty());
-  EXPECT_LT(std::chrono::steady_clock::now() - began, std::chrono::seconds(60));
+  EXPECT_TRUE(holds(words(lines("port = 1\n", 4'000)), "(limits.config_values_max)"));
+  EXPECT_FALSE(words(lines("port = 1\n", 200)).empty());
+  EXPECT_FALSE(words("web-origin = [" + lines("'a',", 1'000) + "]\n").empty());
   std::ofstream(file) << lines("# a remark\n", 4'000) + "port = 1\n";
   EXPECT_EQ(exit_code({"--config", file.c_str()}), -1) << "remarks are no mistakes";
   const std::string pipe = folder / "pipe.toml";
