@@ -74,7 +74,7 @@ void Arrivals::named(uint64_t id, const std::string& ip, const std::string& peer
   }
   parts_.door.leave(entry->session->address(), now_s);
   entry->session->come_from(address, peer);
-  entry->relayed = is_proxy;
+  entry->relayed = entry->is_many = is_proxy;
 }
 
 void Arrivals::accepting_failed(const std::string& why) {
@@ -100,7 +100,10 @@ void Arrivals::begin_session(std::shared_ptr<Transport> transport, const Visitor
   const auto session = std::make_shared<ClientSession>(std::move(transport), from.address, id, parts_.host,
                                                        times, steady_now_s());
   if (from.turned_away) session->turn_away(*from.turned_away);
-  parts_.sessions.add(session, from.relayed).at_door = from.at_door;
+  SessionEntry& entry = parts_.sessions.add(session, from.relayed);
+  entry.at_door = from.at_door;
+  // A client may say itself that it was relayed, which is no way around its address's budget.
+  entry.is_many = from.relayed && parts_.config.proxies.contains(session->ip());
   spdlog::debug("session {}: {} connected", id, session->peer());
   if (parts_.sessions.outsiders() + parts_.web.size() > parts_.room.outsiders_max())
     close_an_outsider("too many connections that have not said hello (limits.outsiders_max)");

@@ -30,6 +30,7 @@ struct SessionEntry {
   double joined_s = 0.0;
   uint64_t party = 0;        ///< as of Command; 0: an administrator, in none of Parties
   bool relayed = false;      ///< as of Caller
+  bool is_many = false;      ///< it is a trusted proxy's that names nobody
   bool administers = false;  ///< as of HelloMessage
   bool at_door = true;       ///< it has a place there (Door::enter), which it gives back
   ByteAccount bytes_out{};   ///< of a joined session
@@ -40,7 +41,7 @@ struct SessionEntry {
   /// Whether it counts among the sessions that the server has room for.
   bool needs_place() const { return grant.role != Role::admin && !administers; }
 
-  BytesOut::Receiver receiver() { return {relayed ? std::string() : session->address(), &bytes_out}; }
+  BytesOut::Receiver receiver() { return {is_many ? std::string() : session->address(), &bytes_out}; }
   Caller caller() const { return {session->address(), session->ip(), session->encrypted(), relayed}; }
 };
 

@@ -123,8 +123,7 @@ void WebConnections::note_proxy_here() {
   door_.share_loopback();
   spdlog::warn(
       "a proxy on this machine brings others here: from now on its own programs have no more rights than "
-      "they. Name "
-      "the proxy by --proxy 127.0.0.1, so that each of them has the own limits");
+      "they. Name the proxy by --proxy 127.0.0.1, so that each person behind it has limits of their own");
 }
 
 HttpResponse WebConnections::answer(const HttpConnection& from, const HttpRequest& request) {

@@ -40,6 +40,16 @@ TEST(SessionTable, a_session_is_an_outsider_until_it_joins_and_again_once_it_is_
   EXPECT_EQ(table.find(3), nullptr);
 }
 
+TEST(SessionTable, a_client_that_says_it_was_relayed_is_charged_to_its_address) {
+  MemorySessions sessions;
+  const auto session = sessions.join(1, "203.0.113.7");
+  SessionEntry& entry = sessions.table.at(1);
+  entry.relayed = true;
+  EXPECT_EQ(entry.receiver().address, session->address());
+  entry.is_many = true;
+  EXPECT_EQ(entry.receiver().address, "") << "a trusted proxy that names nobody";
+}
+
 TEST(SessionTable, a_session_that_goes_on_has_the_old_number) {
   MemorySessions sessions;
   const auto session = sessions.connect(5, "10.0.0.1");
