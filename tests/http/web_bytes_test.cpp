@@ -99,5 +99,26 @@ TEST_F(WebBytesTest, what_a_browser_or_a_proxy_has_is_not_sent_again) {
   EXPECT_LT(server->stats().bytes_out - before, 100U * 1500U);
 }
 
+/// A WebSocket that says it was relayed, where no proxy is trusted, is charged to its own address
+/// nevertheless.
+TEST_F(WebBytesTest, who_says_himself_that_he_was_relayed_has_the_budget_of_his_address) {
+  open([](NetConfig& config) {
+    config.bytes_out = {20.0e3, 0.0};
+    config.door.loopback_is_shared = true;
+  });
+  WebSocketClient attacker(server->port(), "Via: 1.1 nobody\r\n");
+  ASSERT_TRUE(attacker.open());
+  HelloMessage first = hello();
+  first.lacks_kernels = true;
+  ASSERT_TRUE(attacker.send(first));
+  ASSERT_TRUE(attacker.receive_as<WelcomeMessage>());
+  std::vector<ChunkCoord> chunks;
+  for (int x = -8; x < 8; ++x)
+    for (int z = -8; z < 8; ++z) chunks.push_back({x, -1, z});
+  for (const Within within(10.0); server->stats().bytes_out_held == 0 && !within.over(); tick())
+    ASSERT_TRUE(attacker.send(AskGroundMessage{chunks}));
+  EXPECT_GT(server->stats().bytes_out_held, 0U);
+}
+
 }  // namespace
 }  // namespace scree
