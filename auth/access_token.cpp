@@ -10,6 +10,7 @@
 #include "auth/limits.h"
 #include "proto/byte_stream.h"
 #include "proto/limits.h"
+#include "shared/base/regular_file.h"
 #include "shared/base/text.h"
 
 namespace scree {
@@ -118,9 +119,8 @@ Result<uint64_t> read_id(std::string_view text) {
 
 Result<std::vector<uint64_t>> read_revoked(const std::string& path) {
   // It is read again while the server runs, which must not wait for a pipe's other end.
-  std::error_code error;
-  if (std::filesystem::exists(path, error) && !std::filesystem::is_regular_file(path, error))
-    return fail("the list of revoked tokens " + path + " is not a file");
+  if (const auto small = check_is_small_file(path, limits::revoked_bytes_max); !small)
+    return fail("the list of revoked tokens cannot be read: " + small.error().message);
   std::ifstream file(path);
   if (!file) return fail("the list of revoked tokens " + path + " cannot be read");
   std::vector<uint64_t> ids;

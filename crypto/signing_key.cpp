@@ -10,6 +10,7 @@
 
 #include "crypto/openssl.h"
 #include "shared/base/check.h"
+#include "shared/base/limits.h"
 #include "shared/base/regular_file.h"
 
 namespace scree {
@@ -32,7 +33,8 @@ std::shared_ptr<const KeyHandle> handle_of(EVP_PKEY* key) {
 template <typename Read>
 Result<std::shared_ptr<const KeyHandle>> read_key(const std::string& path, const char* what,
                                                   const Read& read) {
-  TRY(check_no_device(path));
+  if (const auto small = check_is_small_file(path, limits::pem_bytes_max); !small)
+    return fail("the key cannot be read: " + small.error().message);
   const OwnedBio file(BIO_new_file(path.c_str(), "r"));
   ERR_clear_error();
   if (!file) return fail("the key " + path + " cannot be read");

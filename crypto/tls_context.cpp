@@ -6,6 +6,7 @@
 
 #include "crypto/tls_context_impl.h"
 #include "shared/base/check.h"
+#include "shared/base/limits.h"
 #include "shared/base/regular_file.h"
 
 namespace scree {
@@ -36,7 +37,7 @@ Result<OwnedContext> context_for(const SSL_METHOD* method) {
 }
 
 bool can_be_read(const std::string& path) {
-  return check_no_device(path) && std::ifstream(path).good();
+  return check_is_small_file(path, limits::pem_bytes_max) && std::ifstream(path).good();
 }
 
 /// In the notation of fingerprint_of().

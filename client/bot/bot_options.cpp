@@ -57,7 +57,9 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
       ->envname("SCREE_RATE")
       ->capture_default_str();
   // A radius over the server's limit is allowed, to show the server's refusal; so are too many seeds.
-  bounded(app.add_option("--radius", bot.carver.radius_m, "radius of a carve, metres"), {0.0, 1e6})
+  bounded(
+      app.add_option("--radius", bot.carver.radius_m, "radius of a carve, metres; servers allow 8 at most"),
+      {0.0, 1e6})
       ->envname("SCREE_RADIUS")
       ->capture_default_str();
   bounded(app.add_option("--seeds", bot.carver.seeds, "largest number of pieces of a carve"),
@@ -86,7 +88,9 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
                          "view of the world's spawn"),
           {-world_m, world_m})
       ->expected(2);
-  bounded(app.add_option("--area", bot.carver.area_m, "half the side of the square to carve in, metres"),
+  bounded(app.add_option(
+              "--area", bot.carver.area_m,
+              "half the side of the square to carve in, metres; 0: each carve at the centre, from above"),
           {0.0, world_m})
       ->envname("SCREE_AREA")
       ->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "client/bot/limits.h"
@@ -33,23 +34,31 @@ std::vector<glm::vec3> masonry(glm::vec3 centre_m, float radius_m, uint32_t coun
 
 }  // namespace
 
+bool Carver::is_within(glm::vec3 place_m) const {
+  constexpr float rounding_m = 0.01F;
+  const glm::vec3 off_m = glm::abs(place_m - config_.centre_m);
+  return std::max(off_m.x, off_m.z) <= config_.area_m + rounding_m;
+}
+
 Carver::Hit Carver::find_target(Field& field) {
   const TerrainSource& terrain = field.source();
   const auto around = [&](float half) { return (random_.unit() * 2.0F - 1.0F) * half; };
   const float x_m = config_.centre_m.x + around(config_.area_m);
   const float z_m = config_.centre_m.z + around(config_.area_m);
   const float ground_m = ground_height_m(terrain, x_m, z_m);
-  const glm::vec3 eye_m(x_m, ground_m + eye_height_m, z_m);
+  const glm::vec3 aim_m(x_m, ground_m, z_m);
   // Every second ray is slanted: it finds cliffs, overhangs and arches, which a vertical one would miss.
   glm::vec3 direction(0.0F, -1.0F, 0.0F);
   const glm::vec3 slanted = glm::normalize(glm::vec3(around(1.0F), -0.2F - random_.unit(), around(1.0F)));
   if (random_.below(2) == 1) direction = slanted;
   const float dx = terrain.voxel_size_m;
   for (const glm::vec3 direction_tried : {direction, glm::vec3(0.0F, -1.0F, 0.0F)}) {
+    const glm::vec3 eye_m = aim_m + direction_tried * (eye_height_m / direction_tried.y);
     const auto distance = trace(field, eye_m / dx, direction_tried, limits::bot_sight_m / dx);
-    if (distance) return {eye_m + direction_tried * (*distance * dx), direction_tried};
+    const glm::vec3 hit_m = eye_m + direction_tried * (distance.value_or(0.0F) * dx);
+    if (distance && is_within(hit_m)) return {hit_m, direction_tried};
   }
-  return {glm::vec3(x_m, ground_m, z_m), glm::vec3(0.0F, -1.0F, 0.0F)};
+  return {aim_m, glm::vec3(0.0F, -1.0F, 0.0F)};
 }
 
 CarveMessage Carver::next(Field& field, uint32_t request) {

@@ -20,7 +20,7 @@ inline constexpr auto bot_shapes = kinds_that<ShapeKind, is_centred>;
 
 struct CarverConfig {
   glm::vec3 centre_m{0.0F};             ///< y is found from the ground
-  float area_m = 20.0F;                 ///< half a side of the square around the centre
+  float area_m = 20.0F;                 ///< half a side of the square; 0: the centre itself, from above
   ShapeKind shape = ShapeKind::crater;  ///< one of bot_shapes
   float radius_m = 2.0F;
   uint32_t seeds = 64;
@@ -42,6 +42,8 @@ class Carver {
     glm::vec3 direction{0.0F};  ///< of the look that found it
   };
   Hit find_target(Field& field);
+  /// Whether a place lies in the square.
+  bool is_within(glm::vec3 place_m) const;
 
   CarverConfig config_;
   Random random_;

@@ -52,6 +52,7 @@ Result<void> draw_all(Viewing& viewing, std::optional<Flight>& flight) {
     } else {
       const size_t waiting = viewing.screenshots.waiting().size();
       TRY(viewing.step(now_s));
+      if (viewing.session.gave_up()) return fail(viewing.session.description());
       TRY(viewing.shoot_due(now_s));
       flying = flight && viewing.screenshots.empty() && viewing.joined(now_s);
       if (flying || waiting != viewing.screenshots.waiting().size()) progress_s = now_s;

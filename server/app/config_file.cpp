@@ -12,6 +12,17 @@
 
 namespace scree {
 
+namespace {
+
+/// A section's head, or a name with a dot.
+bool is_in_section(std::string_view entry) {
+  const std::string_view name = entry.substr(0, entry.find('='));
+  const size_t first = name.find_first_not_of(" \t");
+  return first != name.npos && (name[first] == '[' || (name[first] != '"' && name.find('.') != name.npos));
+}
+
+}  // namespace
+
 std::string named_file(const CLI::Option& config) {
   const std::vector<std::string>& given = config.results();
   return given.size() == 1 ? given.front() : std::string();
@@ -30,13 +41,21 @@ std::string fault_of_file(const std::string& path) {
     return fmt::format("{}: more than {} lines are no file of options (limits.config_lines_max)", path,
                        limits::config_lines_max);
   std::istringstream lines(text);
+  const std::vector<ConfigEntry> entries = config_entries(lines);
   const auto is_value = [](const ConfigEntry& entry) {
     const size_t first = entry.text.find_first_not_of(" \t\r\n");
     return first != std::string::npos && entry.text[first] != '#';
   };
-  if (static_cast<size_t>(std::ranges::count_if(config_entries(lines), is_value)) > limits::config_values_max)
+  if (static_cast<size_t>(std::ranges::count_if(entries, is_value)) > limits::config_values_max)
     return fmt::format("{}: more than {} values are no file of options (limits.config_values_max)", path,
                        limits::config_values_max);
+  // The library takes a time that grows with the square of the sections in sections, so it sees none.
+  for (const ConfigEntry& entry : entries) {
+    if (!is_value(entry)) continue;
+    if (!entry.closed) return fmt::format("{}:{}: a list that does not end", path, entry.line);
+    if (is_in_section(entry.text))
+      return fmt::format("{}:{}: options must not be in a section", path, entry.line);
+  }
   return {};
 }
 
@@ -45,11 +64,9 @@ std::string fault_in_file(const std::string& path, const EntryCheck& fault_of) {
   std::ifstream file(path);
   for (const ConfigEntry& entry : config_entries(file)) {
     const std::string place = fmt::format("{}:{}: ", path, entry.line);
-    if (!entry.closed) return place + "a list that does not end";
     std::istringstream text(entry.text);
     for (const CLI::ConfigItem& item : CLI::ConfigTOML().from_config(text)) {
-      const bool section = item.name == "++" || item.name == "--";
-      const std::string fault = section ? "options must not be in a section" : fault_of(item);
+      const std::string fault = fault_of(item);
       if (!fault.empty()) return place + fault;
     }
   }

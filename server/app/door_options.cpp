@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "auth/access_token.h"
 #include "auth/new_secret.h"
 #include "server/doors/limits.h"
 #include "shared/base/option_check.h"
@@ -110,6 +111,11 @@ void DoorOptions::complete_token(NetConfig& net) {
     net.admin_token = std::move(*read);
   }
   if (net.admin_token.empty()) return;
+  if (is_access_token(net.admin_token))
+    throw CLI::ValidationError(
+        "--admin-token",
+        "this is an access token, which --token-key verifies; an admin token is a secret "
+        "of its own (--make-admin-token)");
   if (Result<void> good = check_token(net.admin_token); !good)
     throw CLI::ValidationError("--admin-token", good.error().message);
 }

@@ -81,8 +81,8 @@ int run(const ServerOptions& options) {
   const auto stopped = (*server)->stop();
   const bool reported = write_report(**server, options.report_path);
   const ServerReport report = (*server)->report();
-  spdlog::info("{} ticks, {} carves, {} pieces made, {} merged, {} alive, ledger error {}", report.ticks,
-               report.operations.of<CarveOperation>(), report.pieces_made, report.pieces_merged,
+  spdlog::info("{} ticks, {} carves and dents, {} pieces made, {} merged, {} alive, ledger error {}",
+               report.ticks, report.operations.of<CarveOperation>(), report.pieces_made, report.pieces_merged,
                report.pieces_alive, report.ledger.error());
   return stopped && reported ? 0 : failed;
 }

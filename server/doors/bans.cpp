@@ -1,15 +1,14 @@
 #include "server/doors/bans.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
 #include <optional>
 #include <set>
 #include <sstream>
-#include <unistd.h>
 
 #include "server/doors/limits.h"
+#include "shared/base/regular_file.h"
 
 namespace scree {
 
@@ -37,11 +36,13 @@ Result<Bans::File> Bans::read_file() const {
   std::error_code error;
   read.is_there = !path_.empty() && std::filesystem::exists(path_, error);
   if (!read.is_there && !error) return read;
+  const auto unreadable = fail(fmt::format("the file of bans {} cannot be read (--bans)", path_));
+  if (error) return unreadable;
   // Writing takes the place of what is there, so it has to be a file.
-  if (!error && !std::filesystem::is_regular_file(path_, error))
-    return fail(path_ + " is not a file (--bans)");
+  if (const auto small = check_is_small_file(path_, limits::bans_bytes_max); !small)
+    return fail(small.error().message + " (--bans)");
   std::ifstream file(path_);
-  if (error || !file) return fail(fmt::format("the file of bans {} cannot be read (--bans)", path_));
+  if (!file) return unreadable;
   const auto parse = [](Line& line) -> Result<void> {
     std::istringstream words(line.text);
     std::string target;
@@ -145,12 +146,7 @@ Result<void> Bans::write() {
   }
   for (const auto& [key, ban] : bans_)
     if (!written.contains(key)) text += line_of(key, ban) + "\n";
-  const std::string fresh = path_ + ".new";
-  std::FILE* const file = std::fopen(fresh.c_str(), "wb");
-  bool done = file != nullptr && std::fwrite(text.data(), 1, text.size(), file) == text.size() &&
-              std::fflush(file) == 0 && fsync(fileno(file)) == 0;
-  if (file != nullptr) done = std::fclose(file) == 0 && done;
-  if (!done || std::rename(fresh.c_str(), path_.c_str()) != 0) return failed;
+  if (!replace_file(path_, text)) return failed;
   in_file_ = bans_;
   return {};
 }

@@ -17,8 +17,9 @@ struct Outsider {
 };
 
 /// Those of origins that hold more than limits::outsiders_of_an_address go first, the one that holds most;
-/// then those for which nobody waits, then silent ones: a client whose hello or handshake is on its way
-/// stays. The oldest of these. There must be one.
+/// then those for which nobody waits; then, of the silent ones and those that have begun to speak, whichever
+/// are more. The oldest of these. So a crowd of one kind takes no places from clients of the other kind, and
+/// a newcomer of its own kind has the time in which the crowd renews itself. There must be one.
 const Outsider& who_leaves(std::span<const Outsider> outsiders);
 
 }  // namespace scree

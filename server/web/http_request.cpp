@@ -5,6 +5,7 @@
 #include <boost/beast/http/empty_body.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/rfc7230.hpp>
+#include <charconv>
 #include <utility>  // Boost.Beast 1.74 lacks it
 
 #include "server/web/limits.h"
@@ -73,6 +74,18 @@ std::string first_of(const std::string& list) {
   return entry.substr(0, entry.find_last_not_of(" \t") + 1);
 }
 
+/// NAME or NAME:PORT; an IPv6 address as NAME is in brackets.
+bool has_sound_port(std::string_view host) {
+  const size_t name_end = host.starts_with('[') ? host.find(']') : 0;
+  if (name_end == host.npos) return false;
+  const size_t colon = host.find(':', name_end);
+  if (colon == host.npos) return true;
+  const std::string_view digits = host.substr(colon + 1);
+  uint16_t port = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), port);
+  return digits.empty() || (error == std::errc() && end == digits.data() + digits.size());
+}
+
 bool has_body(const Head& head) {
   const auto length = head[http::field::content_length];
   return head.count(http::field::transfer_encoding) > 0 || (!length.empty() && length != "0");
@@ -100,6 +113,8 @@ Result<HttpRequest> parse_http_head(std::string_view text) {
   request.path = target.substr(0, target.find('?'));
   if (request.path.size() < target.size()) request.query = target.substr(request.path.size() + 1);
   request.host = text_of(head, http::field::host);
+  if (!has_sound_port(request.host)) return fail("the port in Host is none");
+  if (head.count(http::field::origin) > 1) return fail("a request has one origin");
   if (head.count(http::field::origin) > 0) request.origin = text_of(head, http::field::origin);
   request.authorization = text_of(head, http::field::authorization);
   request.if_none_match = text_of(head, http::field::if_none_match);

@@ -70,6 +70,8 @@ inline constexpr size_t setting_value_bytes_max = 64;
 /// refused.
 inline constexpr size_t token_bytes_min = 8;
 inline constexpr size_t token_bytes_max = 128;
+/// A file of keys or certificates (PEM), bytes.
+inline constexpr size_t pem_bytes_max = size_t{1} << 20;
 
 /// Lines of one kind in a log, a second and at once, where the other side of a connection causes them; above:
 /// counted (log_limit.h).

@@ -60,6 +60,8 @@ NumberWithin whole_within(double least, double most) {
 Result<void> can_be_written(const std::string& path) {
   std::error_code ignored;
   const bool was_there = std::filesystem::exists(path, ignored);
+  if (std::filesystem::is_fifo(path, ignored) || std::filesystem::is_socket(path, ignored))
+    return fail(path + " cannot be written: it is a pipe or a socket, not a file");
   errno = 0;
   if (!std::ofstream(path, std::ios::app))
     return fail(path + " cannot be written: " + std::strerror(errno != 0 ? errno : EIO));

@@ -32,8 +32,8 @@ Result<std::string> read_secret(const std::string& path, size_t bytes_max) {
 }
 
 Result<std::string> read_token(const std::string& path) {
-  // One more, so that check_token says what the bounds are.
-  Result<std::string> token = read_secret(path, limits::token_bytes_max + 1);
+  // More, so that check_token says what the bounds are.
+  Result<std::string> token = read_secret(path, 16 * limits::token_bytes_max);
   if (!token) return token;
   if (Result<void> good = check_token(*token); !good) return fail(path + ": " + good.error().message);
   return token;

@@ -304,10 +304,10 @@ Result<void> validate_edit(const Shape& shape) {
   TRY(validate(shape));
   const float reach = reach_of(shape);
   if (reach > limits::edit_reach_max_m + limits::edit_reach_rounding_m)
-    return fail("reach " + std::to_string(reach) + " m is over the limit of " +
+    return fail("half the shape's longest extent is " + std::to_string(reach) + " m, and may be at most " +
                 std::to_string(limits::edit_reach_max_m) + " m (limits.edit_reach_max_m)");
   if (reach < limits::edit_reach_min_m - limits::edit_reach_rounding_m)
-    return fail("reach " + std::to_string(reach) + " m is under the limit of " +
+    return fail("half the shape's longest extent is " + std::to_string(reach) + " m, and must be at least " +
                 std::to_string(limits::edit_reach_min_m) + " m (limits.edit_reach_min_m)");
   if (!in_world(centre_of(shape)))
     return fail("the place is outside the world (limits.world_half_width_m, limits.world_half_height_m)");

@@ -373,8 +373,11 @@ TEST(BanList, keeps_time_and_its_limits) {
   EXPECT_TRUE(holds(Bans::open(folder / "loop").error().message, "cannot be read")) << "it may hold some";
   ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
   for (const std::string& odd : {folder / "pipe", folder / "", std::string("/dev/zero")})
-    EXPECT_TRUE(holds(Bans::open(odd).error().message, "is not a file"))
+    EXPECT_TRUE(holds(Bans::open(odd).error().message, "not a file"))
         << "it could not take the list: " << odd;
+  std::ofstream(folder / "long") << "#";
+  std::filesystem::resize_file(folder / "long", limits::bans_bytes_max + 1);
+  EXPECT_TRUE(holds(Bans::open(folder / "long").error().message, "KiB")) << "it is not read";
   const auto nowhere = Bans::open(folder / "no/such/folder");
   ASSERT_TRUE(nowhere);
   Bans unkept = *nowhere;

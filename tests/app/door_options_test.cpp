@@ -79,6 +79,8 @@ TEST(DoorOptions, make_an_admin_token_once_that_only_the_owner_reads) {
   EXPECT_EQ(std::get<ServerOptions>(second).live.net.admin_token, options.live.net.admin_token);
   EXPECT_FALSE(write_new_secret(file)) << "it is there";
   EXPECT_TRUE(is_refused({"--admin-token-file", folder / "none/admin.token", "--make-admin-token"}));
+  std::ofstream(folder / "access") << "scree1." << std::string(100, 'x') << "\n";
+  EXPECT_TRUE(is_refused({"--admin-token-file", folder / "access"})) << "an access token is no admin token";
   std::ofstream(folder / "empty") << "";
   EXPECT_TRUE(is_refused({"--admin-token-file", folder / "empty", "--make-admin-token"}))
       << "it is somebody's";

@@ -325,6 +325,11 @@ TEST(ServerOptions, a_mistake_in_the_file_is_told_with_file_and_line) {
   EXPECT_TRUE(holds(words("dents = true\nimpacts = perhaps\n"), file + ":2: "));
   EXPECT_TRUE(holds(words("voxel-size = nan\n"), file + ":1: --voxel-size"));
   EXPECT_TRUE(holds(words("port = 1\n[server]\nseed = 3\n"), file + ":2: options must not be in a section"));
+  std::string deep = "[a";
+  for (int i = 0; i < 40'000; ++i) deep += ".b";
+  EXPECT_TRUE(holds(words(deep + "]\n"), file + ":1: options must not be in a section"));
+  EXPECT_TRUE(holds(words("a.b.c = 1\n"), file + ":1: options must not be in a section"));
+  EXPECT_TRUE(holds(words("proxy = [\"127.0.0.1\"\n"), file + ":1: a list that does not end"));
   EXPECT_TRUE(holds(words("seed = 3\nport = [1\n"), file + ":2: a list that does not end"));
   EXPECT_TRUE(holds(words("seed = 3\nport =\n"), file + ":2: --port: "));
   EXPECT_TRUE(

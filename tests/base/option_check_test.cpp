@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "tests/support/holds.h"
 #include "tests/support/test_folder.h"
@@ -34,6 +35,8 @@ TEST(OptionCheck, a_file_that_cannot_be_written_is_named_and_nothing_is_left_beh
   const std::string lost = folder / "no/such/folder/report.json";
   EXPECT_TRUE(holds(check_writable(lost), lost + " cannot be written: No such file or directory"));
   EXPECT_EQ(check_writable(fresh), "");
+  ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(holds(check_writable(folder / "pipe"), "it is a pipe")) << "an open would wait for its reader";
 }
 
 }  // namespace

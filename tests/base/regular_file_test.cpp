@@ -32,5 +32,39 @@ TEST(RegularFile, a_pipe_a_device_a_folder_and_nothing_are_told_apart) {
   EXPECT_EQ(check_no_device(pipe).error().message, pipe + ": it is a pipe, not a file");
 }
 
+TEST(RegularFile, a_small_file_is_no_longer_than_it_may_be) {
+  const TestFolder folder;
+  std::ofstream(folder / "file") << std::string(4096, 'x');
+  EXPECT_TRUE(check_is_small_file(folder / "file", 4096));
+  EXPECT_EQ(check_is_small_file(folder / "file", 2048).error().message,
+            folder / "file" + ": a file of 4 KiB is not what is wanted here, at most 2 KiB");
+  EXPECT_EQ(check_is_small_file(folder / "none", 2048).error().message,
+            folder / "none" + ": there is no such file");
+}
+
+TEST(RegularFile, is_replaced_whole_with_its_rights_and_writes_through_no_link) {
+  const TestFolder folder;
+  const std::string file = folder / "file", victim = folder / "victim";
+  const auto text_of = [](const std::string& path) {
+    std::ifstream in(path);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  EXPECT_TRUE(replace_file(file, "first"));
+  EXPECT_EQ(text_of(file), "first");
+  ASSERT_EQ(::chmod(file.c_str(), 0640), 0);
+  std::ofstream(victim) << "somebody's";
+  std::filesystem::create_symlink(victim, file + ".new");
+  EXPECT_TRUE(replace_file(file, "second"));
+  EXPECT_EQ(text_of(file), "second");
+  EXPECT_EQ(text_of(victim), "somebody's");
+  struct stat is {};
+  ASSERT_EQ(::stat(file.c_str(), &is), 0);
+  EXPECT_EQ(is.st_mode & 0777U, 0640U);
+  EXPECT_FALSE(std::filesystem::exists(std::filesystem::symlink_status(file + ".new")));
+  EXPECT_FALSE(replace_file(folder / "no/such/folder", "x"));
+  EXPECT_FALSE(replace_file("/dev/null", "x")) << "a device stays";
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+}
+
 }  // namespace
 }  // namespace scree

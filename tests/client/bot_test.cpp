@@ -17,6 +17,19 @@ namespace {
 
 using namespace std::chrono_literals;
 
+/// By slanted looks, too, which see far on a canyon's sides.
+TEST(Carver, carves_within_its_square) {
+  MapField field(TerrainSource{TerrainKind::canyon, 1, 0.25F});
+  for (const float area_m : {0.0F, 5.0F}) {
+    Carver carver({.centre_m = {10.0F, 0.0F, -8.0F}, .area_m = area_m}, 7);
+    for (uint32_t i = 0; i < 60; ++i) {
+      const glm::vec3 place_m = carver.next(field, i).impact_m;
+      EXPECT_NEAR(place_m.x, 10.0F, area_m + 0.011F);
+      EXPECT_NEAR(place_m.z, -8.0F, area_m + 0.011F);
+    }
+  }
+}
+
 class BotTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -162,7 +175,9 @@ TEST_F(BotTest, a_cut_connection_is_made_anew_and_ends_with_the_same_hash) {
 }
 
 TEST_F(BotTest, damage_in_the_copy_is_found_by_the_checks_and_repaired) {
-  Bot bot(config(20));
+  BotConfig apart = config(20);
+  apart.carver.area_m = 25.0F;
+  Bot bot(apart);
   ASSERT_TRUE(bot.join());
   ASSERT_TRUE(go_on_until(bot, [&] { return bot.report().carves_accepted >= 2; }));
   Field& field = bot.mirror()->field();

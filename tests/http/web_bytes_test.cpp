@@ -91,11 +91,13 @@ TEST_F(WebBytesTest, what_a_browser_or_a_proxy_has_is_not_sent_again) {
   EXPECT_EQ(named.field("Cache-Control"), "public, max-age=31536000, immutable");
   const HttpAnswer page = browser.get("/large.bin", from("203.0.113.1"));
   EXPECT_EQ(page.field("Cache-Control"), "no-cache") << "may be kept, and is asked about";
+  const auto ask_again = [&] {
+    const std::string has = "If-None-Match: " + page.field("ETag") + "\r\n";
+    return browser.get("/large.bin", from("203.0.113.1") + has).status;
+  };
+  ASSERT_EQ(ask_again(), 304);  // what came before is charged by now
   const uint64_t before = server->stats().bytes_out;
-  for (int i = 0; i < 100; ++i)
-    EXPECT_EQ(browser.get("/large.bin", from("203.0.113.1") + "If-None-Match: " + page.field("ETag") + "\r\n")
-                  .status,
-              304);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(ask_again(), 304);
   EXPECT_LT(server->stats().bytes_out - before, 100U * 1500U);
 }
 

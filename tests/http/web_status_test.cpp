@@ -46,6 +46,8 @@ TEST_F(WebStatusTest, tells_this_machine_of_an_open_server) {
   EXPECT_EQ(json["sessions"].size(), 1U);
   EXPECT_EQ(json["sessions"][0]["program"], "test");
   EXPECT_EQ(json["sessions"][0]["role"], "builder");
+  EXPECT_EQ(json["sessions"][0]["address"], "") << "who asks without a token may be anybody behind a proxy";
+  EXPECT_EQ(json["sessions"][0]["name"], "");
   EXPECT_EQ(json["report"]["ledger"]["error"], 0);
   EXPECT_EQ(json["report"]["sessions"]["now"], 1);
   EXPECT_EQ(json["report"]["web"]["websockets"], 1);

@@ -2,6 +2,7 @@
 // their copies have the server's hash, each attack is counted under its name, and the log stays short.
 #include <csignal>
 #include <deque>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -9,6 +10,7 @@
 #include "shared/base/random.h"
 #include "tests/support/attack_fixture.h"
 #include "tests/support/holds.h"
+#include "tests/support/proxied_client.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {
@@ -86,6 +88,33 @@ TEST_F(AttackTest, as_many_silent_connections_as_sessions_renewed_again_and_agai
     if (silent.size() > 64) silent.pop_front();
     if (i % 80 == 79) expect_honest_served();
   }
+}
+
+/// As many as there are places, each of an address of its own, and whatever is ended comes again.
+TEST_F(AttackTest, half_a_hello_from_more_addresses_than_there_are_places_renewed_all_the_time) {
+  const Descriptors descriptors(6000);
+  open([](NetConfig& config) {
+    config.proxies = *Proxies::parse({"127.0.0.1"});
+    config.hello_seconds = 1000.0;
+  });
+  const std::vector<uint8_t> whole = encode(ClientMessage(hello()));
+  std::deque<ProxiedClient> crowd;
+  const auto renew = [&](size_t count) {
+    for (size_t i = 0; i < count; ++i) {
+      static uint32_t next = 0;
+      crowd.emplace_back(server->port(), fmt::format("10.{}.{}.7", next / 250 % 250, next % 250));
+      crowd.back().send_bytes(std::span(whole).first(whole.size() / 2));
+      if (crowd.size() > limits::outsiders_max + 500) crowd.pop_front();
+      ++next;
+    }
+  };
+  renew(limits::outsiders_max + 50);
+  for (int i = 0; i < 10; ++i) {
+    ProxiedClient newcomer(server->port(), fmt::format("203.0.113.{}", i + 1));
+    renew(20);  // meanwhile
+    EXPECT_TRUE(newcomer.join(hello())) << i;
+  }
+  expect_refused_as(Refusal::outsiders_max, 50);
 }
 
 TEST_F(AttackTest, half_a_hello_from_each_of_many) {

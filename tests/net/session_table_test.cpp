@@ -155,7 +155,7 @@ TEST(Room, households_and_single_persons_keep_their_places_while_they_play) {
   EXPECT_EQ(let_in(64, 15, [](size_t i) { return fmt::format("2001:db8:{:x}:1::1", i); }), 0U);
 }
 
-TEST(Outsiders, those_of_whom_there_are_most_leave_first_then_the_silent_then_the_oldest) {
+TEST(Outsiders, those_of_whom_there_are_most_leave_first_then_the_oldest) {
   std::vector<Outsider> outsiders;
   uint64_t id = 1;
   const auto add = [&](const std::string& ip, bool is_done, bool is_silent) {
@@ -164,11 +164,13 @@ TEST(Outsiders, those_of_whom_there_are_most_leave_first_then_the_silent_then_th
   add("198.51.100.1", false, true);
   add("198.51.100.2", false, false);
   EXPECT_EQ(who_leaves(outsiders).id, 1U) << "it is silent";
+  add("198.51.100.5", false, false);
+  EXPECT_EQ(who_leaves(outsiders).id, 2U) << "most have begun to speak, and it is the oldest of them";
   add("198.51.100.3", true, false);
-  EXPECT_EQ(who_leaves(outsiders).id, 3U) << "nobody waits for it";
+  EXPECT_EQ(who_leaves(outsiders).id, 4U) << "nobody waits for it";
   add("198.51.100.4", true, true);
   for (int i = 0; i < 64; ++i) add(fmt::format("2001:db8:1:1{:02x}::1", i), false, false);
-  EXPECT_EQ(who_leaves(outsiders).id, 5U) << "one site holds most";
+  EXPECT_EQ(who_leaves(outsiders).id, 6U) << "one site holds most";
 }
 
 TEST(Room, of_those_who_may_go_one_of_the_address_with_the_most_sessions_goes) {

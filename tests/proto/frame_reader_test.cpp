@@ -51,6 +51,17 @@ TEST(FrameReader, an_oversized_length_is_refused_as_soon_as_it_is_there) {
   EXPECT_FALSE(reader.next()) << "the refusal stays";
 }
 
+TEST(FrameReader, a_proxys_header_is_called_so) {
+  for (const std::string_view header :
+       {"PROXY TCP4 192.0.2.7 192.0.2.1 50000 4177\r\n", "\r\n\r\n\0\r\nQUIT\n"}) {
+    FrameReader reader;
+    reader.push(std::vector<uint8_t>(header.begin(), header.begin() + 4));
+    const auto refused = reader.next();
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("--proxy"), std::string::npos) << refused.error().message;
+  }
+}
+
 TEST(FrameReader, a_message_of_exactly_the_limit_passes) {
   FrameReader reader(100);
   std::vector<uint8_t> bytes(104, 7);

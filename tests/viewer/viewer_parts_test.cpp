@@ -42,6 +42,14 @@ TEST(Screenshots, each_waits_for_its_own_moment) {
   EXPECT_TRUE(queue.pop_due(moment).empty());
   moment.joined = true;
   EXPECT_EQ(queue.pop_due(moment).at(0).file, "1.png");
+  moment.joined = false;
+  moment.now_s = 50.0;
+  moment.pieces = 6;
+  EXPECT_TRUE(queue.pop_due(moment).empty());
+  moment.now_s += limits::flight_s + 0.01;
+  EXPECT_TRUE(queue.pop_due(moment).empty()) << "pieces fly, but there is no terrain to see";
+  moment.joined = true;
+  moment.pieces = 0;
   moment.now_s = 100.0;
   EXPECT_TRUE(queue.pop_due(moment).empty()) << "settled, though nothing was ever carved";
   moment.pieces = 6;

@@ -54,7 +54,7 @@ std::vector<ScreenshotOrder> ScreenshotQueue::pop_due(const Moment& moment) {
   }
   std::vector<ScreenshotOrder> taken;
   for (size_t i = 0; i < orders_.size();) {
-    const bool many = moment.pieces >= orders_[i].pieces;
+    const bool many = moment.joined && moment.pieces >= orders_[i].pieces;
     if (orders_[i].when == ScreenshotOrder::When::pieces && many && !reached_s_[i])
       reached_s_[i] = moment.now_s;
     const bool flown = reached_s_[i] && moment.now_s - *reached_s_[i] >= limits::flight_s;

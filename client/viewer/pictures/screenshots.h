@@ -27,7 +27,8 @@ Result<ScreenshotOrder> parse_screenshot(std::string_view text);
 /// The state of the viewer at some moment (seconds of any clock).
 struct Moment {
   double now_s = 0.0;
-  bool joined = false;   ///< the terrain around the camera has arrived and is shown
+  bool joined =
+      false;  ///< every other moment waits for it: the terrain around the camera has arrived and is shown
   size_t pieces = 0;     ///< in sight
   bool carved = false;   ///< pieces were made at some time
   bool alive = false;    ///< pieces exist, shown or not

@@ -106,7 +106,7 @@ Result<void> Viewing::shoot(const ScreenshotOrder& order, double now_s) {
   if (!image) return fail(image.error().message);
   TRY(write_png(order.file, *image));
   // Standard output is for figures only.
-  std::fprintf(stderr, "wrote %s\n", order.description().c_str());
+  std::fprintf(stderr, "wrote %s\n", order.file.c_str());
   if (options.reference.empty()) return {};
   const Result<Image> reference = read_png(options.reference);
   if (!reference) return fail("--reference: " + reference.error().message);
