@@ -50,10 +50,11 @@ std::optional<HttpResponse> Site::refuse_host(const HttpRequest& request, const 
           name));
 }
 
-/// Whether the path's end is one of this site's own.
+/// Whether the path's end is one of this site's own, or the path is a single word, as of a folder.
 bool Site::below_another_path(std::string_view path) const {
   const size_t last = path.rfind('/');
-  if (last == path.npos || last == 0) return false;
+  if (last == path.npos) return false;
+  if (last == 0) return path.size() > 1 && path.find('.') == path.npos;
   const std::string end(path.substr(last));
   return end == "/session" || files_->find(end) != nullptr;
 }

@@ -103,6 +103,7 @@ std::string showable(std::string_view text, size_t bytes_max) {
 }
 
 std::string endpoint_text(std::string_view host, uint16_t port) {
+  if (port == 0) return std::string(host);
   const bool is_v6 = std::ranges::count(host, ':') > 1 && !host.starts_with('[');
   std::string text(is_v6 ? "[" : "");
   text.append(host).append(is_v6 ? "]:" : ":").append(std::to_string(port));

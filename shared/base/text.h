@@ -19,7 +19,7 @@ std::optional<std::string_view> fault_of_text(std::string_view text);
 /// space, each byte that is no UTF-8 by '?'. fault_of_text() finds nothing in it.
 std::string showable(std::string_view text, size_t bytes_max);
 
-/// "host:port", an IPv6 address in brackets.
+/// "host:port", an IPv6 address in brackets; the host alone where the port is not known, 0.
 std::string endpoint_text(std::string_view host, uint16_t port);
 
 }  // namespace scree

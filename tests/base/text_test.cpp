@@ -10,6 +10,7 @@ namespace {
 TEST(Text, an_ipv6_address_with_a_port_stands_in_brackets) {
   EXPECT_EQ(endpoint_text("127.0.0.1", 7777), "127.0.0.1:7777");
   EXPECT_EQ(endpoint_text("::1", 7777), "[::1]:7777");
+  EXPECT_EQ(endpoint_text("192.0.2.7", 0), "192.0.2.7");
   EXPECT_EQ(endpoint_text("[fe80::2]", 1), "[fe80::2]:1");
   EXPECT_EQ(endpoint_text("scree.example", 80), "scree.example:80");
   EXPECT_EQ(endpoint_text("127.0.0.1:5100", 5100), "127.0.0.1:5100:5100") << "a mistake, and no IPv6 address";

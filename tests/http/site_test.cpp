@@ -315,6 +315,8 @@ TEST(WebNames, say_what_shows_a_stranger_on_a_connection_from_this_machine) {
 TEST_F(SiteTest, says_that_a_proxy_left_its_path_in) {
   EXPECT_TRUE(holds(*ask("/scree/main.js").body, "has to take that path away"));
   EXPECT_TRUE(holds(*ask("/scree/session").body, "has to take that path away"));
+  EXPECT_TRUE(holds(*ask("/scree").body, "has to take that path away")) << "as of `location /scree`";
+  EXPECT_FALSE(holds(*ask("/nothing.js").body, "path"));
   EXPECT_FALSE(holds(*ask("/scree/nothing.js").body, "path"));
   EXPECT_EQ(ask("/scree/main.js").status, 404);
 }
