@@ -130,6 +130,64 @@ TEST(HeightsImport, cells_that_are_no_squares_keep_the_size_of_a_small_raster) {
       << scaled->said.front();
 }
 
+/// 10 m a cell to the east, and 20 m to the south.
+double slope_m(double x_m, double z_m) {
+  return 100.0 + 0.5 * x_m + 0.25 * z_m;
+}
+
+TEST(HeightsImport, the_ground_has_the_scale_of_the_raster_whatever_the_samples) {
+  struct Case {
+    int columns, rows;
+    double cell_x_m, cell_z_m, sample_m;
+    int ground_columns, ground_rows;
+  };
+  const TestFolder folder;
+  for (const auto& [columns, rows, cell_x_m, cell_z_m, sample_m, ground_columns, ground_rows] :
+       {Case{10, 10, 5.0, 5.0, 30.0, 3, 3}, Case{21, 31, 1.0, 1.0, 7.0, 4, 6},
+        Case{41, 61, 1.0, 1.0, 7.0, 7, 10}, Case{41, 81, 4.0, 4.0, 5.0, 33, 65},
+        Case{51, 51, 10.0, 10.7, 10.0, 51, 55}}) {
+    const double middle_x_m = 0.5 * (columns - 1) * cell_x_m, middle_z_m = 0.5 * (rows - 1) * cell_z_m;
+    FunctionRaster slope(columns, rows, cell_x_m, [&](int x, int z) {
+      return slope_m(x * cell_x_m - middle_x_m, z * cell_z_m - middle_z_m);
+    });
+    slope.deepen(cell_z_m);
+    const auto ground = import_and_open(slope, folder / "a.ground", {.sample_m = sample_m, .zero_m = 0.0});
+    EXPECT_EQ(ground->layout().columns, ground_columns);
+    EXPECT_EQ(ground->layout().rows, ground_rows);
+    if (columns < 40) continue;  // the spline meets the edge everywhere
+    for (const double part : {-0.3, 0.0, 0.25}) {
+      const double x_m = part * middle_x_m, z_m = part * middle_z_m;
+      EXPECT_NEAR(height_at(*ground, x_m, z_m), slope_m(x_m, z_m), 0.15) << sample_m << " at " << part;
+    }
+  }
+}
+
+TEST(HeightsImport, samples_beyond_the_model_and_a_stretch_are_said) {
+  const TestFolder folder;
+  const auto said = [&](FunctionRaster&& raster, const HeightsImport& how) {
+    const auto imported = import_heights(raster, folder / "a.ground", how, no_progress);
+    EXPECT_TRUE(imported) << imported.error().message;
+    std::string words;
+    for (const std::string& line : imported->said) words += line + "\n";
+    return words;
+  };
+  const auto level = [](int, int) { return 7.0; };
+  const std::string far = said(FunctionRaster(10, 10, 5.0, level), {.sample_m = 30.0});
+  EXPECT_TRUE(has(far,
+                  "it is 45 m deep, and the ground 60 m, in samples 30 m apart: the heights at its edges "
+                  "continue for 7.5 m"))
+      << far;
+  FunctionRaster tiny(2, 2, 47.34, level);
+  tiny.deepen(50.0);
+  const std::string two = said(std::move(tiny), {});
+  EXPECT_TRUE(has(two, "it is 50 m deep, and the ground 53.2575 m")) << two;
+  FunctionRaster near(101, 101, 10.0, level);
+  near.deepen(10.03);
+  const std::string stretched = said(std::move(near), {});
+  EXPECT_TRUE(has(stretched, "the ground is 0.3 % shorter there")) << stretched;
+  EXPECT_EQ(said(FunctionRaster(101, 101, 10.0, level), {.sample_m = 5.0}), "");
+}
+
 TEST(HeightsImport, models_that_cannot_be_a_ground_are_refused_with_the_way_out) {
   const auto level = [](int, int) { return 1.0; };
   EXPECT_TRUE(has(refusal_of_import(FunctionRaster(1, 1, 1.0, level)), "at least 2 × 2"));
@@ -144,6 +202,7 @@ TEST(HeightsImport, models_that_cannot_be_a_ground_are_refused_with_the_way_out)
       has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int, int) { return 1.0e9; })), "--vertical-scale"));
   EXPECT_TRUE(has(refusal_of_import(FunctionRaster(8, 8, 1.0, [](int x, int) { return x * 400.0; })),
                   "limits.height_max_m"));
+  EXPECT_TRUE(has(refusal_of_import(FunctionRaster(8, 8, 0.1, level)), "--sample chooses their distance"));
   FunctionRaster broken(8, 8, 1.0, level);
   broken.fails_at = 5;
   EXPECT_TRUE(has(refusal_of_import(std::move(broken)), "the disk is gone"));

@@ -215,12 +215,33 @@ TEST_F(MeshKinds, surfaces_with_two_sides_and_cavities_are_told_apart) {
   }
 }
 
+TEST_F(MeshKinds, walls_of_a_hollow_body_thinner_than_a_voxel_are_named) {
+  std::vector<std::array<double, 3>> points = house_points;
+  for (const auto& p : house_points) points.push_back({0.96 * p[0], 0.96 * p[1] + 0.12, 0.96 * p[2]});
+  std::vector<Face> faces = house_faces;
+  for (Face face : house_faces) {
+    for (int& corner : face.corners) corner += 8;
+    std::ranges::reverse(face.corners);
+    faces.push_back(face);
+  }
+  const auto read = read_solids({obj(points, faces)}, {});
+  ASSERT_TRUE(read);
+  expect_words(read->said.back(), "1 part with 55.3 m³ is thinner than a voxel of 0.25 m");
+}
+
+TEST_F(MeshKinds, a_plate_thinner_than_two_voxels_is_named) {
+  std::vector<std::array<double, 3>> points = house_points;
+  for (auto& p : points) p[1] = 3.05 + 0.07 * p[1];
+  const Imported plate = imported(obj(points, house_faces));
+  expect_words(plate.said, "is thinner than two voxels of 0.25 m, the thinnest about 0.38");
+}
+
 TEST_F(MeshKinds, a_plate_thinner_than_a_voxel_is_refused_in_its_own_words) {
   std::vector<std::array<double, 3>> points = house_points;
   for (auto& p : points) p[1] = 3.05 + 0.005 * p[1];
   const auto read = read_solids({obj(points, house_faces)}, {});
   ASSERT_TRUE(read);
-  expect_words(read->said.back(), "1 part with 2.4 m³ are thinner than a voxel of 0.25 m");
+  expect_words(read->said.back(), "1 part with 2.4 m³ is thinner than a voxel of 0.25 m");
   const auto made = import_bricks(read->solids, folder_ / "plate.ground",
                                   {.level_m = 0.0, .least_m3 = least_volume_m3(*read)}, [](double) {});
   ASSERT_FALSE(made);

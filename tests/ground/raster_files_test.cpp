@@ -2,6 +2,7 @@
 // names the kind and the way out.
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -150,6 +151,39 @@ TEST(RasterFiles, an_archive_gives_its_only_raster_or_lists_its_files) {
   const WholeRaster none = read_whole(rasters + "no_grid.zip");
   EXPECT_TRUE(none.refuses("an archive without a raster")) << none.refusal;
   EXPECT_TRUE(none.refuses("'house.obj'")) << none.refusal;
+}
+
+/// Their library maps files, and within an archive it would do so in a way that the reader's walls refuse.
+TEST(RasterFiles, netcdf_in_an_archive_is_unpacked_and_leaves_nothing) {
+  const TestFolder folder;
+  ASSERT_EQ(::setenv("TMPDIR", (folder / "").c_str(), 1), 0);
+  const auto read = [](const std::string& file, const std::string& layer) {
+    const auto raster = open_raster_apart(rasters + file, {.layer = layer}, {});
+    if (raster) return read_whole(**raster);
+    WholeRaster none;
+    none.refusal = raster.error().message;
+    return none;
+  };
+  for (const auto& [file, layer] :
+       {std::pair("netcdf.zip", "four.nc"), {"four.nc.gz", ""}, {"netcdf.zip", "two_variables.nc:height1"}}) {
+    const WholeRaster slope = read(file, layer);
+    ASSERT_EQ(slope.refusal, "") << file << " " << layer;
+    EXPECT_EQ(slope.at(0, 0), 100.0);
+    EXPECT_EQ(slope.at(5, 4), 129.0);
+  }
+  EXPECT_TRUE(read("netcdf.zip", "four.nc").says("its file 'four.nc' was read"));
+  EXPECT_TRUE(read("netcdf.zip", "").refuses("it holds 2 files; --layer NAME"));
+  const WholeRaster two = read("netcdf.zip", "two_variables.nc");
+  EXPECT_TRUE(two.refuses("it holds 2 rasters; --layer NAME")) << two.refusal;
+  EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
+  ::unsetenv("TMPDIR");
+}
+
+TEST(RasterFiles, a_form_that_is_not_read_is_refused_with_the_way_out) {
+  const TestFolder folder;
+  std::ofstream(folder / "a.grd") << "[general]\ncreator=R package 'raster'\n";
+  const WholeRaster grid = read_whole(folder / "a.grd");
+  EXPECT_TRUE(grid.refuses("gdal_translate FILE out.tif")) << grid.refusal;
 }
 
 TEST(RasterFiles, a_reader_process_gives_the_same_as_this_one) {

@@ -130,6 +130,15 @@ TEST(RasterValues, undeclared_nodata_is_refused_until_the_command_line_decides) 
       << hole.said;
 }
 
+TEST(RasterValues, values_that_are_all_too_high_are_no_nodata) {
+  const TestFolder folder;
+  const std::string path = write_vrt(folder, {.columns = 10, .rows = 10, .stored = [](int x, int z) {
+                                                return 1.0e8 + 1.0e5 * (10 * z + x);
+                                              }});
+  const WholeRaster high = read_whole(path);
+  EXPECT_EQ(high.refusal, "") << "the import says how high they are";
+}
+
 TEST(RasterValues, the_command_line_may_say_that_declared_nodata_are_heights) {
   EXPECT_EQ(holes(read_band("<NoDataValue>150</NoDataValue>", "Float32", {.no_nodata = true})), 0);
   EXPECT_EQ(holes(read_band("<NoDataValue>150</NoDataValue>", "Float32", {.nodata = {151.0}})), 4)

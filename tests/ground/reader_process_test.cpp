@@ -57,7 +57,9 @@ TEST(ReaderProcess, ends_of_every_kind_become_words) {
   };
   EXPECT_EQ(end_of([](ReaderChannel&) -> Result<void> { return fail("row 3 is cut off"); }),
             "row 3 is cut off");
-  EXPECT_EQ(end_of([](ReaderChannel&) -> Result<void> { throw std::runtime_error("thrown"); }), "thrown");
+  EXPECT_EQ(
+      end_of([](ReaderChannel&) -> Result<void> { throw std::runtime_error("thrown"); }),
+      "libthing failed on it: the file is damaged, or of a form that libthing does not read well (thrown)");
   EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> { throw std::bad_alloc(); }), "--memory-max"), "");
   EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> { _exit(5); }), "status 5"), "");
   EXPECT_EQ(has(end_of([](ReaderChannel&) -> Result<void> { return {}; }), "without an answer"), "");

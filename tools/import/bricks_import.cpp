@@ -119,6 +119,7 @@ class Importer {
                         limits::import_chunks_max, chunk_size));
       progress(0.8 * static_cast<double>(++done) / static_cast<double>(candidates.size()));
     }
+    TRY(check_is_rock());
     if (volume_m3() < how_.least_m3)
       return fail(fmt::format(
           "voxels of {} m hold {:.3g} m³ of it, not half: it is thinner than they are; --voxel-size makes "
@@ -131,6 +132,14 @@ class Importer {
 
  private:
   static constexpr size_t fields_bytes_max = size_t{16} << 20U;
+
+  Result<void> check_is_rock() const {
+    if (mass_ > 0 || how_.exact) return {};
+    return fail(
+        fmt::format("voxels of {} m hold no rock of it: it encloses none, as an open sheet that is closed by "
+                    "winding numbers (--sheet), or is thinner than they are (--voxel-size)",
+                    grounds_.bare.voxel_size_m));
+  }
 
   /// And the chunks that are all rock, where the ground is not.
   std::set<ChunkCoord> with_interior(const std::set<ChunkCoord>& surface, const VoxelBox& box) {

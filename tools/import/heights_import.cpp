@@ -61,13 +61,36 @@ double spline(double distance) {
   return u < 2.0 ? (2.0 - u) * (2.0 - u) * (2.0 - u) / 6.0 : 0.0;
 }
 
-/// Sample `i` of `count` in a raster of `source_count` cells. Samples farther apart than cells have a wider
-/// spline, so that no cell is left out.
-Taps taps_of(int i, int count, int source_count) {
-  if (count == source_count) return {i, {1.0}};
-  const double step = static_cast<double>(source_count - 1) / static_cast<double>(count - 1);
-  const double at = static_cast<double>(i) * static_cast<double>(source_count - 1) / (count - 1);
-  const double width = std::max(1.0, step);
+/// The samples of the ground along one axis, in the raster. The middles of both lie at one place.
+struct Axis {
+  int count = 0;      ///< samples
+  int cells = 0;      ///< of the raster
+  double step = 1.0;  ///< from sample to sample, cells
+  bool fits = true;   ///< the outermost samples are the outermost cells
+  bool is_taken() const { return fits && count == cells; }
+
+  double place(int sample) const {
+    if (fits) return static_cast<double>(sample) * static_cast<double>(cells - 1) / (count - 1);
+    return 0.5 * (cells - 1) + (sample - 0.5 * (count - 1)) * step;
+  }
+};
+
+/// Lengths that differ by less, relative, are equal: cells of degrees and of 32-bit floats are rounded.
+constexpr double rounding = 1.0e-6;
+
+Axis axis_of(int count, int cells, double cell_m, double sample_m) {
+  const double exact = static_cast<double>(cells - 1) / static_cast<double>(count - 1);
+  const double step = sample_m / cell_m;
+  const double error = std::abs(step / exact - 1.0);
+  const bool fits = error < rounding || (count == cells && error <= limits::extent_error_max);
+  return {count, cells, fits ? exact : step, fits};
+}
+
+/// Samples farther apart than cells have a wider spline, so that no cell is left out.
+Taps taps_of(const Axis& axis, int sample) {
+  if (axis.is_taken()) return {sample, {1.0}};
+  const double at = axis.place(sample);
+  const double width = std::max(1.0, axis.step);
   Taps taps;
   taps.first = static_cast<int>(std::floor(at - 2.0 * width)) + 1;
   double sum = 0.0;
@@ -79,18 +102,23 @@ Taps taps_of(int i, int count, int source_count) {
   return taps;
 }
 
+struct Axes {
+  Axis x;
+  Axis z;
+};
+
 /// A raster's rows in the ground's samples. Where these lie between cells, by the cubic B-spline, as the
 /// ground's own surface (shared/field/heights.h): heights in whole metres make no terraces. Rows are asked
 /// for from the north.
 class Resampled {
  public:
-  Resampled(Raster& raster, const HeightLayout& layout, double scale, double fill_m)
-      : raster_(raster), shape_(raster.shape()), layout_(layout), scale_(scale), fill_m_(fill_m) {
-    for (int x = 0; x < layout.columns; ++x) columns_.push_back(taps_of(x, layout.columns, shape_.columns));
+  Resampled(Raster& raster, const Axes& axes, double scale, double fill_m)
+      : raster_(raster), shape_(raster.shape()), axis_z_(axes.z), scale_(scale), fill_m_(fill_m) {
+    for (int x = 0; x < axes.x.count; ++x) columns_.push_back(taps_of(axes.x, x));
   }
 
   Result<void> row(int z, std::span<double> heights_m) {
-    const Taps taps = taps_of(z, layout_.rows, shape_.rows);
+    const Taps taps = taps_of(axis_z_, z);
     std::ranges::fill(heights_m, 0.0);
     for (size_t k = 0; k < taps.weights.size(); ++k) {
       const auto* const row = TRY(source(std::clamp(taps.first + static_cast<int>(k), 0, shape_.rows - 1)));
@@ -123,7 +151,7 @@ class Resampled {
 
   Raster& raster_;
   const Raster::Shape shape_;
-  const HeightLayout& layout_;
+  const Axis axis_z_;
   double scale_;
   double fill_m_;
   std::vector<Taps> columns_;
@@ -142,20 +170,32 @@ Cells cells_of(const Raster::Shape& shape, const HeightsImport& how) {
   return {known ? *how.cell_m * x_m / z_m : *how.cell_m, *how.cell_m};
 }
 
-/// Distance of the ground's samples: that of the closest cells, or a part of it where its multiples would
-/// miss the width or the depth of a small raster.
+/// Samples less one along a raster's side: as far as it, or farther where that would be short.
+double steps_of(double length_m, double sample_m) {
+  const double nearest = std::round(length_m / sample_m);
+  const bool fits = std::abs(nearest * sample_m / length_m - 1.0) <= limits::extent_error_max;
+  return fits ? nearest : std::ceil(length_m / sample_m);
+}
+
+/// Distance of the ground's samples: that of the closest cells, or the part of it whose multiples come as
+/// near the width and the depth of a small raster as they have to, or can.
 double sample_of(const Raster::Shape& shape, const Cells& cells) {
   const double closest_m = std::min(cells.x_m, cells.z_m);
-  const auto misses = [](double length_m, double sample_m) {
-    return std::abs(std::round(length_m / sample_m) * sample_m / length_m - 1.0) > limits::extent_error_max;
+  const auto miss = [](double length_m, double sample_m) {
+    return std::abs(steps_of(length_m, sample_m) * sample_m / length_m - 1.0);
   };
+  double best_m = closest_m, least = std::numeric_limits<double>::infinity();
   for (int parts = 1; parts <= limits::sample_parts_max; ++parts) {
     const double sample_m = closest_m / parts;
     if (sample_m < static_cast<double>(limits::height_cell_min_m)) break;
-    if (!misses(cells.x_m * (shape.columns - 1), sample_m) && !misses(cells.z_m * (shape.rows - 1), sample_m))
-      return sample_m;
+    const double worse = std::max(miss(cells.x_m * (shape.columns - 1), sample_m),
+                                  miss(cells.z_m * (shape.rows - 1), sample_m));
+    if (worse <= limits::extent_error_max) return sample_m;
+    if (worse >= least) continue;
+    least = worse;
+    best_m = sample_m;
   }
-  return closest_m;
+  return best_m;
 }
 
 Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& how) {
@@ -170,8 +210,8 @@ Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& 
   if (!std::isfinite(cell_x_m) || !std::isfinite(cell_z_m))
     return fail("the file does not say how wide its cells are: use --cell METRES");
   const double sample_m = how.sample_m.value_or(sample_of(shape, cells));
-  const double width = std::round(cell_x_m * (shape.columns - 1) / sample_m);
-  const double depth = std::round(cell_z_m * (shape.rows - 1) / sample_m);
+  const double width = steps_of(cell_x_m * (shape.columns - 1), sample_m);
+  const double depth = steps_of(cell_z_m * (shape.rows - 1), sample_m);
   if (width * sample_m > 2.0 * static_cast<double>(limits::world_half_width_m) ||
       depth * sample_m > 2.0 * static_cast<double>(limits::world_half_width_m))
     return fail(fmt::format(
@@ -181,6 +221,14 @@ Result<HeightLayout> layout_of(const Raster::Shape& shape, const HeightsImport& 
   if (!(width + 1.0 <= limits::height_samples_max && depth + 1.0 <= limits::height_samples_max))
     return fail(fmt::format("samples every {} m are more than {} a side (limits.height_samples_max)",
                             sample_m, limits::height_samples_max));
+  constexpr auto min_m = static_cast<double>(limits::height_cell_min_m);
+  constexpr auto max_m = static_cast<double>(limits::height_cell_max_m);
+  if (!(sample_m >= min_m && sample_m <= max_m))
+    return fail(fmt::format(
+        "the ground's samples would lie {:.4g} m apart, and {:.4g} to {:.4g} m are possible "
+        "(limits.height_cell_min_m, height_cell_max_m): --sample chooses their distance, and --cell another "
+        "scale of the map",
+        sample_m, min_m, max_m));
   HeightLayout layout;
   layout.columns = static_cast<int32_t>(width) + 1;
   layout.rows = static_cast<int32_t>(depth) + 1;
@@ -210,11 +258,17 @@ int32_t quantised(double height_m) {
   return static_cast<int32_t>(std::lround(std::clamp(height_m, -max_m, max_m) * height_steps_per_m));
 }
 
-void note(HeightsImported& imported, const HeightLayout& layout, const Cells& cells, int z,
+/// What an outermost sample stands for, metres: up to the raster's edge, half a cell beyond its last one.
+double edge_of(const Axis& axis, double cell_m, double sample_m) {
+  const double beyond_m = axis.fits ? 0.0 : -axis.place(0) * cell_m;
+  return 0.5 * (sample_m + cell_m) - beyond_m;
+}
+
+void note(HeightsImported& imported, const HeightLayout& layout, const Cells& cells, const Axes& axes, int z,
           std::span<const int32_t> heights) {
   const double sample_m = static_cast<double>(layout.cell_m);
-  // The outermost samples lie half a cell from the raster's edge.
-  const double edge_x_m = 0.5 * (sample_m + cells.x_m), edge_z_m = 0.5 * (sample_m + cells.z_m);
+  const double edge_x_m = edge_of(axes.x, cells.x_m, sample_m);
+  const double edge_z_m = edge_of(axes.z, cells.z_m, sample_m);
   double sum = 0.0;
   for (const int32_t height : heights) sum += static_cast<double>(height);
   const double ends = static_cast<double>(heights.front()) + static_cast<double>(heights.back());
@@ -238,6 +292,30 @@ void say_cells(const Raster::Shape& shape, const HeightsImport& how, HeightsImpo
                   cells.x_m, cells.z_m);
   if (how.vertical_scale == 1.0) words += "; --vertical-scale does so to heights, which stay as they are";
   imported.said.push_back(std::move(words));
+}
+
+/// `length`: "wide" or "deep".
+void say_extent(const Axis& axis, double cell_m, double sample_m, const char* length,
+                HeightsImported& imported) {
+  const double own_m = cell_m * (axis.cells - 1), ground_m = sample_m * (axis.count - 1);
+  const double beyond_m = 0.5 * (ground_m - own_m);
+  if (std::abs(ground_m / own_m - 1.0) < rounding) return;
+  if (axis.fits)
+    imported.said.push_back(
+        fmt::format("it is {:.6g} m {}, and its cells, as samples {:.6g} m apart, {:.6g} m: the ground is "
+                    "{:.2g} % {} there",
+                    own_m, length, sample_m, ground_m, 100.0 * std::abs(ground_m / own_m - 1.0),
+                    ground_m > own_m ? "longer" : "shorter"));
+  else if (beyond_m > 0.0)
+    imported.said.push_back(
+        fmt::format("it is {:.6g} m {}, and the ground {:.6g} m, in samples {:.6g} m apart: the heights at "
+                    "its edges continue for {:.3g} m (--sample)",
+                    own_m, length, ground_m, sample_m, beyond_m));
+  else
+    imported.said.push_back(
+        fmt::format("it is {:.6g} m {}, and the ground {:.6g} m, in samples {:.6g} m apart: {:.3g} m at its "
+                    "edges are left out (--sample)",
+                    own_m, length, ground_m, sample_m, -beyond_m));
 }
 
 void say_fill(const Raster::Shape& shape, const HeightsImport& how, double fill_m,
@@ -264,8 +342,11 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
   auto writer = TRY(GroundWriter::create(path, layout, static_cast<float>(*zero_m)));
   HeightsImported imported;
   const double fill_m = how.fill_m.value_or(found.lowest_m);
-  Resampled resampled(raster, layout, how.vertical_scale, fill_m);
   const Cells cells = cells_of(raster.shape(), how);
+  const auto sample_m = static_cast<double>(layout.cell_m);
+  const Axes axes{axis_of(layout.columns, raster.shape().columns, cells.x_m, sample_m),
+                  axis_of(layout.rows, raster.shape().rows, cells.z_m, sample_m)};
+  Resampled resampled(raster, axes, how.vertical_scale, fill_m);
   std::vector<double> row(static_cast<size_t>(layout.columns));
   std::vector<int32_t> heights(row.size());
   for (int z = 0; z < layout.rows; ++z) {
@@ -273,7 +354,7 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
     std::ranges::transform(row, heights.begin(),
                            [&](double height_m) { return quantised(height_m - *zero_m); });
     writer->add_row(heights);
-    note(imported, layout, cells, z, heights);
+    note(imported, layout, cells, axes, z, heights);
     progress(0.4 + 0.6 * (z + 1) / layout.rows);
   }
   const auto header = TRY(writer->finish());
@@ -283,6 +364,8 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
   imported.lowest_m = found.lowest_m;
   imported.highest_m = found.highest_m;
   say_cells(raster.shape(), how, imported);
+  say_extent(axes.x, cells.x_m, sample_m, "wide", imported);
+  say_extent(axes.z, cells.z_m, sample_m, "deep", imported);
   say_fill(raster.shape(), how, fill_m, imported);
   return imported;
 }

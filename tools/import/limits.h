@@ -28,8 +28,12 @@ inline constexpr size_t raster_names_max = 12;
 /// Files of an archive that are examined. Above: refused.
 inline constexpr size_t archive_files_max = 4096;
 
-/// The ground of a raster is as wide and as deep as the raster within this part: closer samples make it so,
-/// up to so many in the place of one. Beyond: the ground is stretched.
+/// Bytes of a file that is unpacked from an archive, because its library reads none. Above: refused.
+inline constexpr uint64_t unpacked_bytes_max = uint64_t{1} << 30U;
+
+/// The ground of a raster ends where the raster does within this part: closer samples make it so, up to so
+/// many in the place of one. Beyond: the ground is longer, and continues the heights at the edge. Its scale
+/// is true, but where each sample is a cell: cells that differ from the samples by less are stretched.
 inline constexpr double extent_error_max = 0.005;
 inline constexpr int sample_parts_max = 8;
 

@@ -53,7 +53,9 @@ Result<MeshFile> meshes_in(const std::string& path, const Placement& place, cons
       "assimp", bounds, [&](ReaderChannel& channel) { return send_scene(channel, path, ending_of(path)); },
       file_and_its_folder(path)));
   const auto head = TRY(reader->get<SceneHead>());
-  if (head.names > scene_names_max || !std::isfinite(head.metres_a_unit)) return fail("its form is unknown");
+  if (head.names > scene_names_max || head.warnings > scene_warnings_max ||
+      !std::isfinite(head.metres_a_unit))
+    return fail("its form is unknown");
   MeshFile file;
   file.meshes = head.meshes;
   file.foreign_materials = head.foreign_materials;
@@ -62,6 +64,7 @@ Result<MeshFile> meshes_in(const std::string& path, const Placement& place, cons
   file.mesh.name = std::filesystem::path(path).filename();
   TRY(receive_mesh(*reader, place, file));
   for (uint64_t i = 0; i < head.names; ++i) file.materials.push_back(TRY(reader->get_text()));
+  for (uint64_t i = 0; i < head.warnings; ++i) file.warnings.push_back(TRY(reader->get_text()));
   return file;
 }
 

@@ -15,6 +15,7 @@ struct MeshFile {
   uint64_t meshes = 0;                   ///< that have triangles
   std::vector<std::string> materials{};  ///< the first names of materials that are none of ours
   uint64_t foreign_materials = 0;        ///< how many such names there are
+  std::vector<std::string> warnings{};   ///< of assimp, on faces and points
   double metres_a_unit = 0.0;            ///< by the file; 0: it does not say
   bool says_up = false;                  ///< the file's form, or the file, says which axis is up
   double step_m = 0.0;                   ///< coarsest rounding of its coordinates, as they are read

@@ -20,6 +20,7 @@
 #include "tools/import/assimp/folder_files.h"
 #include "tools/import/assimp/nesting.h"
 #include "tools/import/assimp/ply_header.h"
+#include "tools/import/assimp/scene_warnings.h"
 #include "tools/import/limits.h"
 
 namespace scree {
@@ -154,6 +155,22 @@ Result<const aiScene*> read_scene(Assimp::Importer& importer, const std::string&
   return importer.ApplyPostProcessing(steps);
 }
 
+/// For a file in which nothing was found: letters of two bytes, by a mark or by the zeros among the first.
+Result<void> check_letters(const std::string& path) {
+  std::string start(64, '\0');
+  std::ifstream in(path, std::ios::binary);
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  start.resize(static_cast<size_t>(in.gcount()));
+  const bool has_mark = start.starts_with("\xFF\xFE") || start.starts_with("\xFE\xFF");
+  size_t zeros[2] = {0, 0};
+  for (size_t i = 0; i < start.size(); ++i) zeros[i % 2] += start[i] == '\0' ? 1 : 0;
+  const size_t letters = start.size() / 2;
+  const bool in_pairs =
+      letters > 0 && ((zeros[0] == letters && zeros[1] == 0) || (zeros[1] == letters && zeros[0] == 0));
+  if (!has_mark && !in_pairs) return {};
+  return fail("its letters are not UTF-8: write it as UTF-8");
+}
+
 Result<const aiScene*> opened(Assimp::Importer& importer, const std::string& path,
                               const std::string& ending) {
   leave_readers_of(importer, ending);
@@ -166,6 +183,7 @@ Result<const aiScene*> opened(Assimp::Importer& importer, const std::string& pat
                     "in its own folder. Put the file there, and write its name alone",
                     files->refused()));
   if (scene != nullptr && scene->mRootNode != nullptr) return scene;
+  TRY(check_letters(path));
   const std::string words = importer.GetErrorString();
   if (words.starts_with("No suitable reader"))
     return fail("it is not of the form that its name says, or damaged");
@@ -173,13 +191,15 @@ Result<const aiScene*> opened(Assimp::Importer& importer, const std::string& pat
 }
 
 /// Unit and axis of the file's form: glTF's by its standard, Collada's by assimp, which turns and scales by
-/// the file, FBX's by the file. The transform that is left to do.
+/// the file, FBX's by the file. In 3DS z points up, and assimp has turned it. The transform that is left to
+/// do.
 aiMatrix4x4 read_unit(const aiScene& scene, const std::string& ending, SceneHead& head) {
   aiMatrix4x4 transform;
   if (std::ranges::find(metre_endings, ending) != metre_endings.end() || ending == ".dae") {
     head.metres_a_unit = 1.0;
     head.says_up = 1;
   }
+  if (ending == ".3ds") head.says_up = 1;
   if (ending != ".fbx" || scene.mMetaData == nullptr) return transform;
   double centimetres = 0.0;
   float rounded = 0.0F;
@@ -202,6 +222,7 @@ aiMatrix4x4 read_unit(const aiScene& scene, const std::string& ending, SceneHead
 }  // namespace
 
 Result<void> send_scene(ReaderChannel& channel, const std::string& path, const std::string& ending) {
+  const SceneWarnings warnings;
   Assimp::Importer importer;
   const aiScene* const scene = TRY(opened(importer, path, ending));
   SceneHead head;
@@ -211,6 +232,8 @@ Result<void> send_scene(ReaderChannel& channel, const std::string& path, const s
   head.meshes = all.meshes;
   head.foreign_materials = all.foreign_materials.size();
   head.names = std::min(head.foreign_materials, scene_names_max);
+  head.warnings = warnings.lines().size();
+  if (all.triangles.empty()) TRY(check_letters(path));
   TRY(channel.put(head));
   TRY(channel.put_list(all.points));
   TRY(channel.put_list(all.triangles));
@@ -221,6 +244,7 @@ Result<void> send_scene(ReaderChannel& channel, const std::string& path, const s
       --names;
       TRY(channel.put_text(name));
     }
+  for (const std::string& line : warnings.lines()) TRY(channel.put_text(line));
   return {};
 }
 

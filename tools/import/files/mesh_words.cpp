@@ -61,8 +61,10 @@ std::string repairs(const MeshBodies& bodies, size_t all_parts) {
     add(fmt::format("{} of {} parts had their inside outside and were turned", bodies.turned.turned_parts,
                     all_parts));
   if (bodies.turned.turned_triangles > 0)
-    add(fmt::format("{} triangles stood against their neighbours and were turned",
-                    bodies.turned.turned_triangles));
+    add(bodies.turned.turned_triangles == 1
+            ? "a triangle stood against its neighbours and was turned"
+            : fmt::format("{} triangles stood against their neighbours and were turned",
+                          bodies.turned.turned_triangles));
   if (bodies.turned.cavities > 0)
     add(fmt::format("{} within others are cavities", parts(bodies.turned.cavities)));
   if (bodies.welded.joined_points > 0)
@@ -84,12 +86,21 @@ std::vector<std::string> words_on(const MeshFile& file, const MeshBodies& bodies
                              surfaces(bodies)));
   said.push_back(assumptions(file, how));
   if (std::string words = repairs(bodies, all_parts); !words.empty()) said.push_back(std::move(words));
+  for (const std::string& warning : file.warnings) said.push_back("assimp warns: " + warning);
   const auto voxel_m = static_cast<double>(how.voxel_size_m);
   if (bodies.thin.parts > 0)
     said.push_back(
-        fmt::format("{} with {:.3g} m³ are thinner than a voxel of {} m, the thinnest about {:.3g} m: some "
+        fmt::format("{} with {:.3g} m³ {} thinner than a voxel of {} m, the thinnest about {:.3g} m: some "
                     "of their rock may be lost (--voxel-size)",
-                    parts(bodies.thin.parts), bodies.thin.volume_m3, how.voxel_size_m, bodies.thinnest_m));
+                    parts(bodies.thin.parts), bodies.thin.volume_m3, bodies.thin.parts == 1 ? "is" : "are",
+                    how.voxel_size_m, bodies.thinnest_m));
+  if (bodies.slim.parts > 0)
+    said.push_back(fmt::format(
+        "{} with {:.3g} m³ {} thinner than two voxels of {} m{}: voxels round off a "
+        "part of such rock (--voxel-size)",
+        parts(bodies.slim.parts), bodies.slim.volume_m3, bodies.slim.parts == 1 ? "is" : "are",
+        how.voxel_size_m,
+        bodies.thin.parts > 0 ? "" : fmt::format(", the thinnest about {:.3g} m", bodies.thinnest_m)));
   if (file.step_m > rounding_said_voxels * voxel_m)
     said.push_back(
         fmt::format("its coordinates are so large that they are read in steps of {:.3g} m: move the mesh "

@@ -1,5 +1,6 @@
 #include "tools/import/files/solid_files.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -16,6 +17,9 @@ namespace {
 /// A difference of volumes that is worth a word, relative.
 constexpr double difference_said = 0.01;
 
+/// Meshes with less than this part of the rock enclose nothing: it is rounding.
+constexpr double nothing_share = 1.0e-6;
+
 Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, bool alone, SolidsRead& read) {
   auto vdb = read_vdb(file, {how.grid, how.density, how.place, how.voxel_size_m, how.reader});
   TRY(vdb);
@@ -26,6 +30,8 @@ Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, boo
   if (!vdb->all_grids.empty()) words += "; the file holds " + vdb->all_grids + " (--grid)";
   read.said.push_back(std::move(words));
   read.solids.push_back(std::move(vdb->solid));
+  ++read.volumes;
+  read.volumes_volume_m3 += vdb->own_volume_m3;
   if (!alone) return {};
   read.exact = vdb->exact;
   read.level_m = vdb->level_m;
@@ -45,9 +51,15 @@ Result<void> read_mesh_file(const std::string& path, const SolidsImport& how, So
   auto bodies = bodies_of(std::move(file.mesh), {how.sheet, voxel_m, how.level_m});
   if (!bodies) return fail(path + ": " + bodies.error().message);
   for (const std::string& words : words_on(file, *bodies, how)) read.said.push_back(path + ": " + words);
+  ++read.meshes;
+  const size_t parts = bodies->whole.parts + bodies->holed.parts + bodies->filled.parts;
+  read.parts += parts - std::min(parts, bodies->turned.cavities);
   read.meshes_volume_m3 += bodies->volume_m3();
   read.thin_volume_m3 += bodies->thin.volume_m3;
   read.holed_volume_m3 += bodies->holed.volume_m3;
+  if (bodies->closed.triangles.empty() && bodies->open.empty() && bodies->dropped.parts == 0)
+    return fail(path +
+                ": nothing of it is left: none of its triangles has an area, or each has its other side");
   if (bodies->closed.triangles.empty() && bodies->open.empty())
     return fail(path + ": nothing of it is left: it holds open sheets alone (--sheet)");
   const auto add = [&](TriangleMesh mesh, const std::vector<OpenBody::Edge>& edges) -> Result<void> {
@@ -68,18 +80,27 @@ bool is_solid_file(const std::string& path) {
 }
 
 std::optional<std::string> words_on_difference(const SolidsRead& read, double imported_m3) {
-  const double own_m3 = read.meshes_volume_m3;
-  if (own_m3 == 0.0 || std::abs(imported_m3 - own_m3) <= difference_said * std::abs(own_m3))
-    return std::nullopt;
+  const double own_m3 = read.meshes_volume_m3 + read.volumes_volume_m3;
+  if (read.exact) return std::nullopt;
+  if (std::abs(own_m3) < nothing_share * imported_m3)
+    return fmt::format(
+        "the rock has {:.6g} m³, and the meshes enclose none by themselves: winding numbers close open "
+        "sheets around it (--sheet)",
+        imported_m3);
+  if (std::abs(imported_m3 - own_m3) <= difference_said * std::abs(own_m3)) return std::nullopt;
   const bool less = imported_m3 < own_m3;
   std::string words =
-      fmt::format("the rock has {:.6g} m³, {:.2g} % {} than the meshes by themselves; ", imported_m3,
-                  100.0 * std::abs(imported_m3 - own_m3) / std::abs(own_m3), less ? "less" : "more");
+      fmt::format("the rock has {:.6g} m³, {:.2g} % {} than the {} by themselves; ", imported_m3,
+                  100.0 * std::abs(imported_m3 - own_m3) / std::abs(own_m3), less ? "less" : "more",
+                  read.volumes == 0  ? "meshes"
+                  : read.meshes == 0 ? "volumes' voxels"
+                                     : "files");
   if (read.thin_volume_m3 > 0.0) words += "parts thinner than a voxel are lost in part (--voxel-size), ";
   if (read.holed_volume_m3 != 0.0) words += "holes are not closed by flat caps, ";
   return words +
-         (less ? "where parts overlap, their rock counts once, and voxels round edges off (--voxel-size)"
-               : "voxels round edges off (--voxel-size)");
+         (less && read.parts + read.volumes > 1
+              ? "where parts overlap, their rock counts once, and voxels round edges off (--voxel-size)"
+              : "voxels round edges off (--voxel-size)");
 }
 
 double least_volume_m3(const SolidsRead& read) {

@@ -28,16 +28,20 @@ struct SolidsRead {
   std::vector<std::unique_ptr<Solid>> solids;
   /// Sentences on each: what was found, and what was repaired.
   std::vector<std::string> said;
-  double meshes_volume_m3 = 0.0;  ///< the sum of the meshes' own
-  double thin_volume_m3 = 0.0;    ///< of these, in parts that are thinner than a voxel
-  double holed_volume_m3 = 0.0;   ///< and in parts with holes
+  size_t parts = 0;                ///< of meshes, without their cavities
+  size_t meshes = 0;               ///< files of meshes
+  size_t volumes = 0;              ///< and of volumes
+  double volumes_volume_m3 = 0.0;  ///< of these, by their own voxels
+  double meshes_volume_m3 = 0.0;   ///< the sum of the meshes' own
+  double thin_volume_m3 = 0.0;     ///< of these, in parts that are thinner than a voxel
+  double holed_volume_m3 = 0.0;    ///< and in parts with holes
   /// For a single file that was exported from a world (VdbSolid).
   std::optional<BricksImport::Exact> exact{};
   std::optional<double> level_m{};
   std::optional<MaterialHeights> layers{};
 };
 
-/// Words on rock that is more or less than the meshes' own volume, by more than a hundredth.
+/// Words on rock that is more or less than the files' own volume, by more than a hundredth.
 std::optional<std::string> words_on_difference(const SolidsRead& read, double imported_m3);
 
 /// Less rock than this means that thin meshes were lost.

@@ -89,6 +89,10 @@ Result<Dataset> open(const std::string& address) {
   if (!dataset) {
     const std::string words = gdal_words("GDAL does not know its format");
     TRY(check_holds_numbers(address));
+    if (words.find("not recognized as a supported file format") != std::string::npos)
+      return fail(
+          "not an elevation model of a form that import reads; if gdalinfo knows it, make a GeoTIFF of it "
+          "(gdal_translate FILE out.tif), import that");
     return fail("not an elevation model: " + words);
   }
   const GDALDriver* const driver = dataset->GetDriver();
@@ -165,21 +169,23 @@ Result<std::vector<Part>> files_of(const std::string& archive) {
 
 }  // namespace
 
+Result<std::optional<std::string>> address_in_archive(const std::string& path, std::string& layer,
+                                                      std::vector<std::string>& said) {
+  const auto archive = archive_of(path);
+  if (!archive || archive->starts_with("/vsigzip/")) return archive;
+  const auto files = TRY(files_of(*archive));
+  const bool two = find_part(files, layer) == nullptr && layer.find(':') != std::string::npos;
+  const auto file = TRY(choose_part(files, two ? layer.substr(0, layer.find(':')) : layer, "file", said));
+  layer = two ? layer.substr(layer.find(':') + 1) : std::string();
+  return std::optional(file.address);
+}
+
 Result<Dataset> open_raster_file(const std::string& path, const std::string& layer,
                                  std::vector<std::string>& said) {
   TRY(check_is_file(path));
-  std::string address = path, left = layer;
-  if (const auto archive = archive_of(path)) {
-    address = *archive;
-    if (!archive->starts_with("/vsigzip/")) {
-      const auto files = TRY(files_of(*archive));
-      // "file.nc:height" chooses a raster of a file.
-      const bool two = find_part(files, layer) == nullptr && layer.find(':') != std::string::npos;
-      const auto file = TRY(choose_part(files, two ? layer.substr(0, layer.find(':')) : layer, "file", said));
-      address = file.address;
-      left = two ? layer.substr(layer.find(':') + 1) : std::string();
-    }
-  }
+  std::string left = layer;
+  const auto packed = TRY(address_in_archive(path, left, said));
+  const std::string address = packed.value_or(path);
   Dataset dataset = TRY(open(address));
   const std::vector<Part> parts = subdatasets_of(*dataset, address);
   if (dataset->GetRasterCount() > 0 && (parts.size() < 2 || left.empty())) {

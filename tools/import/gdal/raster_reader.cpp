@@ -1,7 +1,9 @@
 #include "tools/import/gdal/raster_reader.h"
 
 #include "shared/base/regular_file.h"
+#include "tools/import/gdal/gdal_library.h"
 #include "tools/import/gdal/gdal_raster.h"
+#include "tools/import/gdal/packed_file.h"
 #include "tools/import/limits.h"
 
 namespace scree {
@@ -38,6 +40,10 @@ Result<void> put_check(Raster& raster, ReaderChannel& channel) {
 
 /// The reader's side: answers until the import ends it.
 Result<void> answer(const std::string& path, const RasterChoice& choice, ReaderChannel& channel) {
+  prepare_gdal();
+  const auto packed = TRY(find_packed(path, choice.layer));
+  TRY(channel.put(packed.has_value()));
+  if (packed) return send_packed(*packed, channel);
   const auto raster = TRY(open_raster(path, choice));
   TRY(channel.put(raster->shape()));
   const auto place = raster->place();
@@ -63,15 +69,24 @@ Result<void> answer(const std::string& path, const RasterChoice& choice, ReaderC
 
 class ReaderRaster final : public Raster {
  public:
-  explicit ReaderRaster(std::unique_ptr<ReaderProcess> reader) : reader_(std::move(reader)) {}
-
-  Result<void> open() {
+  /// The first reader may send a file out of an archive; another one reads that.
+  Result<void> open(const std::string& path, const RasterChoice& choice, const ReaderLimits& bounds) {
+    TRY(start(path, choice, bounds));
+    if (TRY(reader_->get<bool>())) {
+      unpacked_ = TRY(UnpackedFile::receive(*reader_));
+      RasterChoice left = choice;
+      left.layer = unpacked_->layer();
+      TRY(start(unpacked_->path(), left, bounds));
+      if (TRY(reader_->get<bool>())) return fail("its reader takes an unpacked file for an archive");
+    }
     shape_ = TRY(reader_->get<Shape>());
     if (TRY(reader_->get<bool>())) {
       const auto at = TRY(reader_->get<std::array<double, 2>>());
       place_ = Place{TRY(reader_->get_text()), at[0], at[1]};
     }
-    return fetch_said();
+    TRY(fetch_said());
+    if (unpacked_ != nullptr) unpacked_->remove_name();
+    return {};
   }
 
   Shape shape() const override { return shape_; }
@@ -90,9 +105,22 @@ class ReaderRaster final : public Raster {
     return {};
   }
 
-  std::vector<std::string> said() override { return said_; }
+  std::vector<std::string> said() override {
+    std::vector<std::string> lines = said_;
+    if (unpacked_ != nullptr) lines.insert(lines.end(), unpacked_->said().begin(), unpacked_->said().end());
+    return lines;
+  }
+  /// Empty: it is in no archive, or is read there.
+  std::string unpacked_path() const { return unpacked_ == nullptr ? std::string() : unpacked_->path(); }
 
  private:
+  Result<void> start(const std::string& path, const RasterChoice& choice, const ReaderLimits& bounds) {
+    reader_ = TRY(ReaderProcess::start(
+        "GDAL", bounds, [&](ReaderChannel& channel) { return answer(path, choice, channel); },
+        file_and_its_namesakes(path)));
+    return {};
+  }
+
   Result<void> ask(int what) {
     TRY(reader_->put(what));
     return reader_->flush();
@@ -108,6 +136,7 @@ class ReaderRaster final : public Raster {
     return {};
   }
 
+  std::unique_ptr<UnpackedFile> unpacked_;  ///< the reader has it open
   std::unique_ptr<ReaderProcess> reader_;
   Shape shape_;
   std::optional<Place> place_;
@@ -119,12 +148,12 @@ class ReaderRaster final : public Raster {
 Result<std::unique_ptr<Raster>> open_raster_apart(const std::string& path, const RasterChoice& choice,
                                                   const ReaderLimits& bounds) {
   if (const auto checked = check_is_file(path); !checked) return fail(path + ": " + checked.error().message);
-  auto reader = TRY(ReaderProcess::start(
-      "GDAL", bounds, [&](ReaderChannel& channel) { return answer(path, choice, channel); },
-      file_and_its_namesakes(path)));
-  auto raster = std::make_unique<ReaderRaster>(std::move(reader));
-  if (const auto opened = raster->open(); !opened) {
-    const std::string& words = opened.error().message;
+  auto raster = std::make_unique<ReaderRaster>();
+  if (const auto opened = raster->open(path, choice, bounds); !opened) {
+    std::string words = opened.error().message;
+    const std::string unpacked = raster->unpacked_path();
+    for (size_t at = 0; !unpacked.empty() && (at = words.find(unpacked)) != std::string::npos;)
+      words.replace(at, unpacked.size(), path);
     return fail(words.starts_with(path) ? words : path + ": " + words);
   }
   return raster;

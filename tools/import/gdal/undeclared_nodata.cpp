@@ -61,6 +61,10 @@ bool is_of_nines(double stored) {
   return false;
 }
 
+bool is_too_high(const HeightValues& values, double stored) {
+  return std::abs(values.height_m(stored)) > limits::raster_height_max_m;
+}
+
 /// Whether people mark cells without data by such a number: no height of the Earth, the ends of 16 bits, or
 /// nines.
 bool looks_like_fill(const HeightValues& values, double stored, std::optional<double> next) {
@@ -69,11 +73,8 @@ bool looks_like_fill(const HeightValues& values, double stored, std::optional<do
     const double wrapped = std::fmod(nodata, 65536.0);
     return stored == wrapped || stored == wrapped + 65536.0 || stored == wrapped - 65536.0;
   };
-  const auto is_too_high = [&](double value) {
-    return std::abs(values.height_m(value)) > limits::raster_height_max_m;
-  };
   return is_of_nines(stored) || std::abs(stored) >= end_of_16_bits ||
-         (is_too_high(stored) && next && !is_too_high(*next)) ||
+         (is_too_high(values, stored) && next && !is_too_high(values, *next)) ||
          std::ranges::any_of(values.misdeclared(), is_misdeclared);
 }
 
@@ -100,23 +101,39 @@ Result<void> judge(const HeightValues& values, const Extreme& extreme, const Ext
   return {};
 }
 
+/// Whether most cells, but for those with the extreme values, hold what is too high: then all heights are in
+/// another unit, or none, and the import says so.
+bool are_all_too_high(const HeightValues& values, const Extreme& lowest, const Extreme& highest,
+                      uint64_t too_high, uint64_t all) {
+  for (const Extreme* const extreme : {&lowest, &highest}) {
+    if (extreme == &highest && highest.stored() == lowest.stored()) break;
+    all -= extreme->count();
+    too_high -= is_too_high(values, extreme->stored()) ? extreme->count() : 0;
+  }
+  return all > 0 && too_high > all / 2;
+}
+
 }  // namespace
 
 Result<void> check_undeclared_nodata(HeightValues& values, std::vector<std::string>& said,
                                      const std::function<void(double)>& progress) {
   const int columns = values.band().GetXSize(), rows = values.band().GetYSize();
   Extreme lowest(1.0), highest(-1.0);
+  uint64_t too_high = 0, all = 0;
   std::vector<double> row(static_cast<size_t>(columns));
   for (int z = 0; z < rows; ++z) {
     TRY(values.read_stored(0, z, columns, 1, row));
     for (const double stored : row)
       if (!std::isnan(stored)) {
+        ++all;
+        too_high += is_too_high(values, stored) ? 1 : 0;
         lowest.add(stored);
         highest.add(stored);
       }
     progress(static_cast<double>(z + 1) / rows);
   }
   if (lowest.count() == 0) return {};  // the import says so
+  if (are_all_too_high(values, lowest, highest, too_high, all)) return {};
   TRY(judge(values, lowest, highest, said));
   return judge(values, highest, lowest, said);
 }

@@ -43,6 +43,11 @@ class Sorting {
     bodies_.closed.name = mesh_.name;
     bodies_.welded = weld(mesh_, rounding * largest_coordinate(mesh_));
     parts_ = parts_of(mesh_, slit_voxels * rule.voxel_m, bodies_.turned);
+    for (const MeshPart& part : parts_) {
+      if (!part.is_cavity) continue;
+      hollows_[part.within].volume_m3 += part.volume_m3;
+      hollows_[part.within].area_m2 += part.area_m2;
+    }
     double all_m2 = 0.0, sheets_m2 = 0.0;
     for (const MeshPart& part : parts_) {
       sheets_.push_back(is_sheet(mesh_, part, rule.voxel_m));
@@ -119,12 +124,19 @@ class Sorting {
     ++kind.parts;
     kind.volume_m3 += volume_m3;
     kind.area_m2 += part.area_m2;
-    const double thickness_m = part.area_m2 > 0.0 ? 2.0 * std::abs(volume_m3) / part.area_m2 : 0.0;
-    if (thickness_m >= rule_.voxel_m || part.is_cavity) return;
-    if (bodies_.thin.parts == 0 || thickness_m < bodies_.thinnest_m) bodies_.thinnest_m = thickness_m;
-    ++bodies_.thin.parts;
-    bodies_.thin.volume_m3 += volume_m3;
-    bodies_.thin.area_m2 += part.area_m2;
+    if (part.is_cavity) return;
+    const auto number = static_cast<size_t>(&part - parts_.data());
+    const auto [hollow_m3, hollow_m2] = hollows_.contains(number) ? hollows_.at(number) : Hollow{};
+    const double rock_m3 = std::abs(volume_m3) - std::abs(hollow_m3);
+    const double area_m2 = part.area_m2 + hollow_m2;
+    const double thickness_m = area_m2 > 0.0 ? 2.0 * std::abs(rock_m3) / area_m2 : 0.0;
+    if (thickness_m >= 2.0 * rule_.voxel_m) return;
+    const bool is_first = bodies_.thin.parts + bodies_.slim.parts == 0;
+    if (is_first || thickness_m < bodies_.thinnest_m) bodies_.thinnest_m = thickness_m;
+    PartCount& few = thickness_m < rule_.voxel_m ? bodies_.thin : bodies_.slim;
+    ++few.parts;
+    few.volume_m3 += rock_m3;
+    few.area_m2 += area_m2;
   }
 
   Result<void> settle_sheet(const MeshPart& part) {
@@ -165,12 +177,19 @@ class Sorting {
     return {};
   }
 
+  /// The cavities of a part together: what is left of it around them are walls.
+  struct Hollow {
+    double volume_m3 = 0.0;
+    double area_m2 = 0.0;
+  };
+
   TriangleMesh mesh_;
   BodiesRule rule_;
   MeshBodies bodies_;
   std::vector<MeshPart> parts_;
   std::vector<bool> sheets_;
   std::map<size_t, std::vector<uint32_t>> cavities_;  ///< triangles, by the part with holes around them
+  std::map<size_t, Hollow> hollows_;                  ///< by the part around them
   double holed_m2_ = 0.0;
   double caps_m2_ = 0.0;
 };

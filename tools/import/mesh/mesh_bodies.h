@@ -44,6 +44,7 @@ struct MeshBodies {
   double bottom_m = 0.0;  ///< to here
   PartCount dropped;      ///< sheets that were left out
   PartCount thin;         ///< parts that are thinner than a voxel, of all these
+  PartCount slim;         ///< parts that are thinner than two voxels, but not than one
   double thinnest_m = 0.0;
 
   double volume_m3() const { return whole.volume_m3 + holed.volume_m3 + filled.volume_m3; }

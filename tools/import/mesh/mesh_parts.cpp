@@ -58,10 +58,7 @@ class Patches {
     const std::vector<EdgeUse> border = border_edges(uses_);
     const BorderMatch match = match_borders(mesh, border, tolerance_m);
     ParityUnion all(mesh.triangles.size());
-    for_each_edge(uses_, [&](std::span<const EdgeUse> edge) {
-      if (edge.size() == 2) all.link(edge[0].triangle, edge[1].triangle, edge[0].forward == edge[1].forward);
-    });
-    for (const BorderPair& pair : match.pairs) all.link(pair.one, pair.other, !pair.agree);
+    link(all, match.pairs);
     for (size_t i = 0; i < border.size(); ++i)
       if (match.joined[i]) joined_.push_back({border[i].a, border[i].b});
     turn_minorities(all);
@@ -106,6 +103,19 @@ class Patches {
       f(root_of(*first), *first, balance_of({first, end}));
       first = end;
     }
+  }
+
+  /// Neighbours that agree come first: where links contradict each other, as around a few bad triangles or on
+  /// a surface with one side, the file's own order stays, and no wide patch is turned for the sake of a seam.
+  void link(ParityUnion& all, const std::vector<BorderPair>& pairs) const {
+    for (const bool against : {false, true})
+      for_each_edge(uses_, [&](std::span<const EdgeUse> edge) {
+        if (edge.size() == 2 && (edge[0].forward == edge[1].forward) == against)
+          all.link(edge[0].triangle, edge[1].triangle, against);
+      });
+    for (const bool against : {false, true})
+      for (const BorderPair& pair : pairs)
+        if (pair.agree != against) all.link(pair.one, pair.other, against);
   }
 
   void turn_minorities(ParityUnion& all) {

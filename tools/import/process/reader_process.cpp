@@ -106,7 +106,8 @@ Result<void> confine(const ReaderLimits& bounds, const Readable& readable, pid_t
   return enter_sandbox(readable);
 }
 
-[[noreturn]] void run_child(int socket, Result<void> done, const ReaderProcess::Work& work) {
+[[noreturn]] void run_child(int socket, Result<void> done, const std::string& library,
+                            const ReaderProcess::Work& work) {
   ChildChannel channel(socket);
   bool heard = false;
   try {
@@ -116,7 +117,9 @@ Result<void> confine(const ReaderLimits& bounds, const Readable& readable, pid_t
   } catch (const std::bad_alloc&) {
     heard = channel.end(FrameKind::no_memory, {});
   } catch (const std::exception& failure) {
-    heard = channel.end(FrameKind::refusal, failure.what());
+    heard =
+        channel.end(FrameKind::refusal, library + " failed on it: the file is damaged, or of a form that " +
+                                            library + " does not read well (" + failure.what() + ")");
   } catch (...) {
     heard = channel.end(FrameKind::refusal, "its reader threw an exception without words");
   }
@@ -135,7 +138,7 @@ Result<std::unique_ptr<ReaderProcess>> ReaderProcess::start(const std::string& l
   const pid_t process = ::fork();
   if (process == 0) {
     close_all_but(ends[1]);
-    run_child(ends[1], confine(bounds, readable, parent), work);
+    run_child(ends[1], confine(bounds, readable, parent), library, work);
   }
   ::close(ends[1]);
   if (process > 0)

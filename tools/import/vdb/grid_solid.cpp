@@ -234,4 +234,19 @@ Result<std::unique_ptr<Solid>> solid_of_grid(openvdb::FloatGrid::Ptr grid, openv
   return solid;
 }
 
+double rock_volume_m3(const FloatGrid& grid, const GridSide& side, const Placement& place) {
+  const double voxel_m3 = grid.transform().voxelVolume();
+  const bool is_level_set = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
+  const double voxel_m = std::cbrt(voxel_m3);
+  double voxels = 0.0;
+  for (auto value = grid.cbeginValueAll(); value; ++value) {
+    const double outside = static_cast<double>(side.sign * (*value - side.iso));
+    if (value.isVoxelValue())
+      voxels += is_level_set ? std::clamp(0.5 - outside / voxel_m, 0.0, 1.0) : (outside < 0.0 ? 1.0 : 0.0);
+    else if (outside < 0.0)
+      voxels += static_cast<double>(value.getVoxelCount());
+  }
+  return voxels * voxel_m3 * place.scale * place.scale * place.scale;
+}
+
 }  // namespace scree

@@ -20,4 +20,8 @@ Result<std::unique_ptr<Solid>> solid_of_grid(openvdb::FloatGrid::Ptr grid, openv
                                              const GridSide& side, const Placement& place,
                                              float voxel_size_m);
 
+/// The volume of the grid's own voxels that are rock, cubic metres in the world. Voxels at the surface of a
+/// level set count in part.
+double rock_volume_m3(const openvdb::FloatGrid& grid, const GridSide& side, const Placement& place);
+
 }  // namespace scree

@@ -76,6 +76,7 @@ Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
       solid.is_level_set ? GridSide{0.0F, 1.0F} : GridSide{static_cast<float>(how.density), -1.0F};
   if (side.sign * (grid->background() - side.iso) < 0.0F)
     return fail("the grid's background is inside the rock: it must be outside");
+  solid.own_volume_m3 = rock_volume_m3(*grid, side, how.place);
   solid.solid = TRY(solid_of_grid(grid, materials, side, how.place, how.voxel_size_m));
   apply_metadata(head, how, solid);
   return solid;

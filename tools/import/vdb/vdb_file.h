@@ -22,6 +22,7 @@ struct VdbSolid {
   std::string grid;
   std::string all_grids{};  ///< of the file, with their types, if there are several
   bool is_level_set = false;
+  double own_volume_m3 = 0.0;  ///< of the grid's voxels that are rock
   /// What `scree export` wrote of the ground, if the file is from there, its voxels are the world's and it is
   /// not moved: then its codes are exact.
   std::optional<BricksImport::Exact> exact{};
