@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "shared/base/regular_file.h"
+
 namespace scree {
 
 namespace {
@@ -67,6 +69,11 @@ Result<void> can_be_written(const std::string& path) {
     return fail(path + " cannot be written: " + std::strerror(errno != 0 ? errno : EIO));
   if (!was_there) std::filesystem::remove(path, ignored);
   return {};
+}
+
+std::string check_replaceable(const std::string& path) {
+  const Result<void> replaceable = check_no_device(path);
+  return replaceable ? std::string() : replaceable.error().message;
 }
 
 std::string check_writable(const std::string& path) {

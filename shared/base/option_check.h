@@ -55,5 +55,7 @@ Result<void> can_be_written(const std::string& path);
 
 /// The same, for an option.
 std::string check_writable(const std::string& path);
+/// For an option of a program that renames its finished file to the path: a device or a pipe stays.
+std::string check_replaceable(const std::string& path);
 
 }  // namespace scree

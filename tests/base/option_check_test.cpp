@@ -36,6 +36,9 @@ TEST(OptionCheck, a_file_that_cannot_be_written_is_named_and_nothing_is_left_beh
   EXPECT_TRUE(holds(check_writable(lost), lost + " cannot be written: No such file or directory"));
   EXPECT_EQ(check_writable(fresh), "");
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(holds(check_replaceable(folder / "pipe"), "it is a pipe"));
+  EXPECT_TRUE(holds(check_replaceable("/dev/full"), "it is a device"));
+  EXPECT_EQ(check_replaceable(fresh), "");
   EXPECT_TRUE(holds(check_writable(folder / "pipe"), "it is a pipe")) << "an open would wait for its reader";
 }
 

@@ -184,7 +184,9 @@ void declare(CLI::App& app, Options& options) {
           whole_within(1, 86400))
       ->needs(app.get_option("--server"))
       ->capture_default_str();
-  app.add_option("-o,--out", options.out, "the file to write: .vdb, .ply, .obj, .glb or .tif")->required();
+  app.add_option("-o,--out", options.out, "the file to write: .vdb, .ply, .obj, .glb or .tif")
+      ->required()
+      ->check(check_replaceable, "FILE");
   app.add_option("--box", options.box_m,
                  "x,y,z,x,y,z of the lowest and the highest corner, metres, rounded to chunks; default: all "
                  "edited terrain, and the whole of a ground that has an end")

@@ -11,6 +11,7 @@
 #include "ground/whole_file.h"
 #include "shared/base/distinct_files.h"
 #include "shared/base/limits.h"
+#include "shared/base/option_check.h"
 #include "shared/base/program_output.h"
 #include "shared/base/text.h"
 #include "tools/import/file_forms.h"
@@ -122,7 +123,9 @@ void declare(CLI::App& app, Options& options) {
                  "an elevation model (GeoTIFF, ESRI ASCII, 16-bit PNG, or another format of GDAL); or "
                  "solids: OpenVDB (.vdb) and meshes (.obj, .ply, .stl, .gltf, .glb, .off, .dae, .3ds, .fbx)")
       ->required();
-  app.add_option("-o,--out", options.out, "the ground file to write")->required();
+  app.add_option("-o,--out", options.out, "the ground file to write")
+      ->required()
+      ->check(check_replaceable, "FILE");
   app.add_option("--soil-below", options.how.soil_below_m,
                  "a metre of soil covers ground below this y, metres; default: all of an elevation model");
   app.add_option("--ice-above", options.how.ice_above_m,
