@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "auth/replace_file.h"
 #include "server/doors/limits.h"
 #include "shared/base/regular_file.h"
 
@@ -146,7 +147,8 @@ Result<void> Bans::write() {
   }
   for (const auto& [key, ban] : bans_)
     if (!written.contains(key)) text += line_of(key, ban) + "\n";
-  if (!replace_file(path_, text)) return failed;
+  constexpr unsigned everybody_reads = 0644;
+  if (!replace_file(path_, text, everybody_reads)) return failed;
   in_file_ = bans_;
   return {};
 }

@@ -113,7 +113,7 @@ inline constexpr double client_bytes_per_second_max = 128.0 * 1024.0;
 inline constexpr double client_bytes_burst_max = 512.0 * 1024.0;
 /// Addresses, names and tokens that are banned; above: an administrator is told so.
 inline constexpr size_t bans_max = 2048;
-/// Of their file, with comments, bytes.
+/// The file of bans, with comments, bytes.
 inline constexpr size_t bans_bytes_max = size_t{4} << 20;
 
 /// Bits of a network that is banned, at least: a slip of the hand is not to ban half the world. Fewer are

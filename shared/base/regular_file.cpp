@@ -1,11 +1,6 @@
 #include "shared/base/regular_file.h"
 
-#include <cerrno>
-#include <cstring>
-#include <fcntl.h>
 #include <filesystem>
-#include <sys/stat.h>
-#include <unistd.h>
 
 namespace scree {
 
@@ -50,30 +45,6 @@ Result<void> check_no_device(const std::string& path) {
   if (!std::filesystem::exists(path, error) || error) return {};
   if (const auto checked = check_is_file(path); !checked) return fail(path + ": " + checked.error().message);
   return {};
-}
-
-Result<void> replace_file(const std::string& path, std::string_view text) {
-  TRY(check_no_device(path));
-  struct stat before {};
-  const bool was_there = ::lstat(path.c_str(), &before) == 0 && S_ISREG(before.st_mode);
-  const std::string fresh = path + ".new";
-  // Whatever lies there is from a program that was ended meanwhile, or a link to a file of somebody's.
-  static_cast<void>(::unlink(fresh.c_str()));
-  const int file = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  if (file < 0) return fail(path + " cannot be written: " + std::strerror(errno));
-  bool done = !was_there || ::fchmod(file, before.st_mode & 07777U) == 0;
-  while (done && !text.empty()) {
-    const ssize_t count = ::write(file, text.data(), text.size());
-    done = count > 0;
-    if (done) text.remove_prefix(static_cast<size_t>(count));
-  }
-  done = done && ::fsync(file) == 0;
-  int error = errno;
-  ::close(file);
-  if (done && ::rename(fresh.c_str(), path.c_str()) != 0) done = false, error = errno;
-  if (done) return {};
-  static_cast<void>(::unlink(fresh.c_str()));
-  return fail(path + " cannot be written: " + std::strerror(error));
 }
 
 }  // namespace scree
