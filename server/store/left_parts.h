@@ -16,8 +16,8 @@ class LeftParts {
   explicit LeftParts(std::string family) : family_(std::move(family)) {}
 
   void add(const std::string& part);
-  /// Adds all parts of the family beside which a log lies now: who reads one next merges it, and leaves no
-  /// trace.
+  /// Adds all parts of the family beside which a log lies now. The next reader of a part merges its log, and
+  /// leaves no trace.
   void find();
   /// A new part has this name.
   void forget(const std::string& part);

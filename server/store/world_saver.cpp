@@ -248,8 +248,8 @@ Result<void> WorldSaver::finish(WorldMoment moment, const ChunkNow& now) {
       s.status.saved_tick, moment.tick, *s.status.health.because));
 }
 
-/// Once the thread has ended: whether a file that cannot be written has all but the clock. Of a failing disk
-/// nobody knows what it has.
+/// Once the thread has ended: whether a file that cannot be written has all but the clock. Nobody knows the
+/// content of a failing disk.
 bool WorldSaver::State::has_nothing_to_lose() const {
   if (status.health.ok() || !status.lacking.empty() || changed_tick > status.saved_tick) return false;
   if (file->has_moved()) return false;
