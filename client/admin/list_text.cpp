@@ -28,6 +28,20 @@ std::string text_of(const Json& json, int indent) {
   return json.dump(indent, ' ', false, Json::error_handler_t::replace);
 }
 
+/// In the unit of a person, rounded up: "42 s", "59 min", "1 h 5 min", "12 d 4 h".
+std::string length_in_words(uint64_t seconds) {
+  constexpr uint64_t minute_s = 60, hour_s = 60 * minute_s, day_s = 24 * hour_s;
+  const auto two = [](uint64_t count, uint64_t per, const char* large, const char* small) {
+    const std::string rest = count % per == 0 ? "" : " " + std::to_string(count % per) + small;
+    return std::to_string(count / per) + large + rest;
+  };
+  if (seconds < minute_s) return std::to_string(seconds) + " s";
+  const uint64_t minutes = (seconds + minute_s - 1) / minute_s, hours = (seconds + hour_s - 1) / hour_s;
+  if (minutes < hour_s / minute_s) return std::to_string(minutes) + " min";
+  return minutes * minute_s < day_s ? two(minutes, hour_s / minute_s, " h", " min")
+                                    : two(hours, day_s / hour_s, " d", " h");
+}
+
 template <typename Row>
 std::string json_list(const std::vector<Row>& rows) {
   Json list = Json::array();
@@ -63,7 +77,7 @@ std::string bans_lines(const std::vector<BanRow>& bans) {
   std::string lines;
   for (const BanRow& row : bans)
     lines += row.address +
-             (row.left_s == 0 ? ", until it is lifted" : ", for " + std::to_string(row.left_s) + " s") +
+             (row.left_s == 0 ? ", until it is lifted" : ", for " + length_in_words(row.left_s)) +
              (row.reason.empty() ? "" : ": " + row.reason) + "\n";
   return lines;
 }

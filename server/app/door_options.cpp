@@ -90,11 +90,20 @@ void DoorOptions::declare_bytes_out(CLI::App& app) {
 }
 
 void DoorOptions::complete(NetConfig& net) {
+  check_bans(net.access.bans_path);
   complete_token(net);
   // Who has a key for tokens wants them.
   if (anonymous_.empty() && !net.access.token_key_path.empty()) anonymous_ = nobody;
   if (!anonymous_.empty()) net.access.anonymous = kind_named<Role>(anonymous_);  // none: no role
   complete_limits(net);
+}
+
+/// Otherwise the first ban would fail, long after the start. A new file takes the place of the old one, so
+/// the folder has to be writable.
+void DoorOptions::check_bans(const std::string& path) {
+  if (path.empty()) return;
+  if (const auto good = can_be_written(path + ".new"); !good)
+    throw CLI::ValidationError("--bans", "bans cannot be kept: " + good.error().message);
 }
 
 /// The token is looked at where mistakes in options are.
@@ -107,7 +116,10 @@ void DoorOptions::complete_token(NetConfig& net) {
   }
   if (!token_path_.empty()) {
     Result<std::string> read = read_token(token_path_);
-    if (!read) throw CLI::ValidationError("--admin-token-file", read.error().message);
+    const bool is_missing = !std::filesystem::exists(token_path_, ignored) && !ignored;
+    if (!read)
+      throw CLI::ValidationError("--admin-token-file",
+                                 read.error().message + (is_missing ? " (--make-admin-token makes it)" : ""));
     net.admin_token = std::move(*read);
   }
   if (net.admin_token.empty()) return;

@@ -32,6 +32,7 @@ class DoorOptions {
   void declare_admin(CLI::App& app, NetConfig& net);
   void declare_limits(CLI::App& app, NetConfig& net);
   void declare_bytes_out(CLI::App& app);
+  static void check_bans(const std::string& path);
   void complete_token(NetConfig& net);
   void complete_limits(NetConfig& net) const;
 

@@ -3,10 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <fmt/format.h>
-#include <limits>
-#include <numeric>
 #include <string_view>
-#include <utility>
+
+#include "shared/base/near_name.h"
 
 namespace scree {
 
@@ -31,28 +30,7 @@ constexpr std::array<std::string_view, 58> others{
     "SCREE_DIST", "SCREE_FUZZ_ROUNDS", "SCREE_FUZZ_SEED", "SCREE_IMAGE_MIRROR", "SCREE_KILLS",
     "SCREE_MUTATIONS", "SCREE_PICTURES", "SCREE_PROGRAMS"};
 
-/// Levenshtein's distance: how many letters are to be put in, left out or changed.
-size_t distance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t{0});
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = std::exchange(row[0], i + 1);
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, changed});
-    }
-  }
-  return row[b.size()];
-}
-
-std::string nearest(std::string_view name, std::span<const std::string> own) {
-  const auto near =
-      std::ranges::min_element(own, {}, [&](const std::string& known) { return distance(name, known); });
-  constexpr size_t mistyped_max = 4;
-  return near != own.end() && distance(name, *near) <= mistyped_max ? "; did you mean " + *near + "?"
-                                                                    : std::string();
-}
+constexpr size_t mistyped_max = 4;
 
 }  // namespace
 
@@ -67,7 +45,8 @@ std::string fault_in_environment(std::span<const std::string> own, const char* c
     if (!name.starts_with(variable_prefix) || name.starts_with(ci_prefix) ||
         std::ranges::find(own, name) != own.end() || std::ranges::find(others, name) != others.end())
       continue;
-    return fmt::format("the environment has {}, and there is no such option{}", name, nearest(name, own));
+    return fmt::format("the environment has {}, and there is no such option{}", name,
+                       did_you_mean(name, own, mistyped_max));
   }
   return {};
 }

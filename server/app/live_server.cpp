@@ -278,6 +278,18 @@ Result<void> LiveServer::reload() {
   return state_->net->reload();
 }
 
+void LiveServer::State::finish_files() {
+  const double until_s = steady_now_s() + limits::last_tries_s;  // for all together
+  const auto note = [this](const Result<void>& finished) {
+    if (!finished) end(finished.error().message);
+  };
+  if (saved_world && broken) saved_world->abandon();
+  if (saved_world && !broken) note(saved_world->finish(*feed->world()));
+  if (recorder) note(recorder->finish(std::max(0.0, until_s - steady_now_s())));
+  if (events) note(events->finish());
+  if (trace) note(trace->write(config.trace_path));
+}
+
 Result<void> LiveServer::stop() {
   {
     const std::scoped_lock lock(state_->mutex);
@@ -287,22 +299,7 @@ Result<void> LiveServer::stop() {
   if (state_->thread.joinable()) state_->thread.join();
   state_->end("");
   state_->net->stop();
-  const double until_s = steady_now_s() + limits::last_tries_s;  // for all together
-  if (state_->saved_world && !state_->saved) {
-    state_->saved = true;
-    if (state_->broken)
-      state_->saved_world->abandon();
-    else if (const auto finished = state_->saved_world->finish(*state_->feed->world()); !finished)
-      state_->end(finished.error().message);
-  }
-  if (state_->recorder)
-    if (const auto finished = state_->recorder->finish(std::max(0.0, until_s - steady_now_s())); !finished)
-      state_->end(finished.error().message);
-  if (state_->events)
-    if (const auto finished = state_->events->finish(); !finished) state_->end(finished.error().message);
-  if (state_->trace)
-    if (const auto written = state_->trace->write(state_->config.trace_path); !written)
-      state_->end(written.error().message);
+  if (!std::exchange(state_->finished, true)) state_->finish_files();
   const ServerReport all = report();
   if (all.error) return fail(*all.error);
   return {};

@@ -4,6 +4,7 @@
 
 #include "server/app/limits.h"
 #include "server/app/live_server_state.h"
+#include "server/store/store_fault.h"
 #include "shared/base/wall_clock.h"
 
 namespace scree {
@@ -12,14 +13,15 @@ namespace {
 
 /// What is wrong with a file, for everybody who asks: without its name, and without the system's words.
 std::string writing_fault(std::string_view what, const StoreHealth& health) {
-  return fmt::format("{} has not been written since {}, and is tried again", what,
-                     iso_time(health.since_unix_ms));
+  const auto fault = fault_in(*health.because);
+  return fmt::format("{} has not been written since {}, and is tried again{}{}", what,
+                     iso_time(health.since_unix_ms), fault ? ": " : "", fault ? row_of(*fault).words : "");
 }
 
 /// How the world is not saved as promised; empty: it is.
 std::string saving_fault(const SaverStatus& status, double waited_s) {
   if (!status.health.ok())
-    return fmt::format("{}: the last tick on the disk is {}", writing_fault("the world", status.health),
+    return fmt::format("{}; the last tick on the disk is {}", writing_fault("the world", status.health),
                        status.saved_tick);
   if (waited_s > limits::save_delay_seconds_max)
     return fmt::format("the disk has not taken the world for {:.0f} s: the last tick on it is {}", waited_s,

@@ -66,6 +66,8 @@ struct LiveServer::State {
   void govern(double length, TickSchedule::Delay delay);
   bool sleep_until(Clock::time_point when);
   void end(const std::string& error);
+  /// Writes the rest of all files, and closes them; once.
+  void finish_files();
 
   LiveConfig config;
   CommandQueue commands;
@@ -90,12 +92,12 @@ struct LiveServer::State {
   LogLimit log_limit;                           ///< used by the simulation thread only, as the next two
   std::optional<std::string> record_complaint;  ///< the last that was logged
   bool ring_told = false;                       ///< that it is over its limit
-  bool saved = false;                           ///< for good; used by the owner's thread only
+  bool finished = false;                        ///< its files; used by the owner's thread only
 
   const std::shared_ptr<ChunkFetcher> for_clients = std::make_shared<ChunkFetcher>();
   uint64_t read_before = 0;  ///< chunks, until the last second began; used by the simulation thread only
   uint32_t read_last_second = 0;
-  bool broken = false;  ///< the world does not stand between two ticks; used as saved is
+  bool broken = false;  ///< the world does not stand between two ticks; used as finished is
 
   std::atomic<bool> is_open = false;  ///< all that status() looks at is there
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <thread>
 
@@ -40,6 +41,18 @@ void tell_differences(const std::string& path, const WorldConfig& asked, const W
   }
 }
 
+/// The way out for an operator whose file is no whole world. Empty: the error says enough.
+std::string way_out(const std::string& path, const Error& error) {
+  const auto is_said = [&](std::string_view words) { return error.message.find(words) != std::string::npos; };
+  if (may_pass(error)) return {};
+  if (is_said("it has only "))
+    return ". Put a backup in its place; or move it away, and the server makes a new world";
+  if (!is_said("damaged") && !is_said("malformed")) return {};
+  return fmt::format(
+      ". Start with a backup, or make a new world of all that is whole: scree world repair {} NEW.world",
+      path);
+}
+
 /// Another program may hold the file for a moment, as one that looks at databases does.
 Result<std::unique_ptr<World>> read_in_time(const std::function<Result<std::unique_ptr<World>>()>& read) {
   const double until_s = steady_now_s() + limits::last_tries_s;
@@ -72,12 +85,14 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
     file = TRY(WorldFile::open(path));
     return restored(*file, threads, ground, bricks_max, told, *saved_world, chunks);
   };
-  auto world = TRY(read_in_time(read));
-  tell_differences(path, config, world->config(), told);
-  spdlog::info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path, world->tick(),
-               chunks, world->field().chunks_in().size());
+  auto world = read_in_time(read);
+  if (!world) return fail(world.error().message + way_out(path, world.error()));
+  const World& restored_world = **world;
+  tell_differences(path, config, restored_world.config(), told);
+  spdlog::info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path,
+               restored_world.tick(), chunks, restored_world.field().chunks_in().size());
   saved_world->file_ = std::move(file);
-  saved_world->world_ = std::move(world);
+  saved_world->world_ = std::move(*world);
   return saved_world;
 }
 
@@ -174,8 +189,22 @@ Result<void> SavedWorld::finish(World& world) {
     return {};
   }
   const Result<void> finished = saver_->finish(world.moment(), chunk_now(world.field()));
-  complain(saver_->status());
+  const SaverStatus status = saver_->status();
+  if (finished && !status.health.ok())
+    spdlog::info("{}: nothing has changed since tick {}, which the file holds, so nothing is lost: {}", path_,
+                 status.saved_tick, *status.health.because);
+  else
+    complain(status);
+  tell_log_left();
   return finished;
+}
+
+/// A copy that is made now needs both files.
+void SavedWorld::tell_log_left() const {
+  std::error_code none;
+  const auto bytes = std::filesystem::file_size(path_ + "-wal", none);
+  if (!none && bytes > 0)
+    spdlog::warn("{0}-wal is left beside {0}, and has its newest rows: copy both", path_);
 }
 
 }  // namespace scree

@@ -54,6 +54,7 @@ class SavedWorld {
                                                  size_t bricks_max, const SettingValues& told,
                                                  SavedWorld& saved_world, size_t& chunks);
   void complain(const SaverStatus& status);
+  void tell_log_left() const;
 
   std::string path_;
   WorldLock lock_;

@@ -23,6 +23,7 @@
 #include "shared/base/distinct_files.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
+#include "shared/base/near_name.h"
 #include "shared/base/option_check.h"
 #include "shared/base/preset.h"
 #include "shared/base/workers.h"
@@ -339,6 +340,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
                "scree-server");
   Raw raw;
   app.set_version_flag("--version", SCREE_VERSION);
+  name_unknown_words<CLI::ExtrasError>(app);
   CLI::Option* const config =
       app.set_config("--config", "", "a TOML file with these options, under the same names");
   config->check(CLI::Validator([](std::string& path) { return fault_of_file(path); }, ""));

@@ -1,9 +1,7 @@
 #include "server/store/database.h"
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -11,6 +9,7 @@
 #include <xxhash.h>
 
 #include "server/store/limits.h"
+#include "server/store/store_fault.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -24,20 +23,32 @@ int64_t checksum_of(std::span<const uint8_t> data) {
   return static_cast<int64_t>(XXH3_64bits(data.data(), data.size()));
 }
 
-constexpr std::string_view refusal_words = ", the system refused: ";
-constexpr std::string_view full_words = "database or disk is full";  // SQLite's own, as all that follow
-constexpr std::string_view held_words = "database is locked";
-constexpr std::array<std::string_view, 3> passing_words{
-    "disk I/O error", "attempt to write a readonly database", "unable to open database file"};
-
 /// What the system said to the call that failed last, if it is one of the reasons that somebody can act on:
-/// SQLite's own words do not say. 0: another.
+/// SQLite's own code does not say. 0: another.
 int refused_by_system(sqlite3* database) {
   const int now = errno;  // SQLite keeps it for some calls alone
-  if ((sqlite3_errcode(database) & 0xFF) != SQLITE_IOERR) return 0;
-  for (const int refused : {sqlite3_system_errno(database), now})
-    if (refused == ENOSPC || refused == EFBIG || refused == EDQUOT || refused == EROFS) return refused;
+  for (const int refused : {sqlite3_system_errno(database), now}) {
+    const auto fault = fault_of_system(refused);
+    if (fault && row_of(*fault).is_refusal) return refused;
+  }
   return 0;
+}
+
+std::optional<StoreFault> fault_of_code(int code) {
+  switch (code & 0xFF) {  // without what extends it
+    case SQLITE_FULL:
+      return StoreFault::full;
+    case SQLITE_BUSY:
+      return StoreFault::held;
+    case SQLITE_READONLY:
+      return code == SQLITE_READONLY_DBMOVED ? StoreFault::moved : StoreFault::read_only;
+    case SQLITE_CANTOPEN:
+      return StoreFault::closed;
+    case SQLITE_IOERR:
+      return StoreFault::fails;
+    default:
+      return std::nullopt;
+  }
 }
 
 /// What SQLite advises for files of strangers (sqlite.org/security.html): what the file brings of SQL does
@@ -63,11 +74,17 @@ void StatementCloser::operator()(sqlite3_stmt* statement) const {
   sqlite3_finalize(statement);
 }
 
+/// The reason in words for people; what is none of the system's or of other programs' is SQLite's.
 tl::unexpected<Error> Database::failure(const std::string& what) const {
-  const int refused = refused_by_system(database_.get());
-  return fail(
-      fmt::format("{}: {}: {}{}", path_, what, sqlite3_errmsg(database_.get()),
-                  (refused != 0 ? std::string(refusal_words) + std::strerror(refused) : std::string())));
+  const int code = sqlite3_errcode(database_.get());
+  const std::string own = sqlite3_errmsg(database_.get());
+  auto fault = fault_of_code(code);
+  int refused = 0;
+  if (fault == StoreFault::fails) refused = refused_by_system(database_.get());
+  if (fault == StoreFault::closed) refused = sqlite3_system_errno(database_.get());
+  if (fault == StoreFault::read_only && has_moved()) fault = StoreFault::moved;
+  if (const auto known = fault_of_system(refused)) fault = known;
+  return fail(fmt::format("{}: {}: {}", path_, what, fault ? words_of(fault, refused) : own));
 }
 
 Result<Database> Database::create(const std::string& path) {
@@ -100,9 +117,9 @@ Result<Database> Database::open(const std::string& path) {
   return database;
 }
 
-Result<void> Database::execute(const std::string& sql) {
+Result<void> Database::execute(const std::string& sql, std::string_view fails) {
   if (sqlite3_exec(database_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK)
-    return failure(fmt::format("cannot execute '{}'", sql.substr(0, 40)));
+    return failure(std::string(fails));
   return {};
 }
 
@@ -237,16 +254,16 @@ Result<void> Database::copy_to(const std::string& path) {
 }
 
 bool Database::is_refusal(const Error& error) {
-  return error.message.find(refusal_words) != std::string::npos || error.message.ends_with(full_words);
+  const auto fault = fault_in(error.message);
+  return fault && row_of(*fault).is_refusal;
 }
 
 bool Database::may_pass(const Error& error) {
-  const auto is_said = [&](std::string_view words) { return error.message.find(words) != std::string::npos; };
-  return is_refusal(error) || is_held(error) || std::ranges::any_of(passing_words, is_said);
+  return fault_in(error.message).has_value();
 }
 
 bool Database::is_held(const Error& error) {
-  return error.message.find(held_words) != std::string::npos;
+  return fault_in(error.message) == StoreFault::held;
 }
 
 bool Database::has_moved() const {
@@ -255,8 +272,8 @@ bool Database::has_moved() const {
   return asked == SQLITE_OK && moved != 0;
 }
 
-bool Database::is_busy() const {
-  return sqlite3_errcode(database_.get()) == SQLITE_BUSY;
+void Database::wait_at_most(std::chrono::milliseconds time) {
+  sqlite3_busy_timeout(database_.get(), static_cast<int>(time.count()));
 }
 
 Result<std::optional<std::vector<uint8_t>>> Database::get(const Statement& select, uint64_t tick) {

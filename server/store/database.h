@@ -2,12 +2,14 @@
 // to server/store. One thread at a time.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "shared/base/result.h"
@@ -32,7 +34,8 @@ class Database {
   /// Opens an existing file, without reading its content. Its triggers and views do not act.
   static Result<Database> open(const std::string& path);
 
-  Result<void> execute(const std::string& sql);
+  /// `fails`: what to say of the file when it fails, before the reason.
+  Result<void> execute(const std::string& sql, std::string_view fails = "cannot be written");
   /// The first column of the first row; nothing when there is no row or it is null.
   Result<std::optional<int64_t>> number(const std::string& sql);
   /// The first column of the first row as text; no row is an error.
@@ -62,12 +65,12 @@ class Database {
   Result<void> each_text(const std::string& select, const TextVisitor& visit);
   /// Copies the whole database, as of one moment, into a new file.
   Result<void> copy_to(const std::string& path);
-  /// Whether the last call failed because another program has the file open.
-  bool is_busy() const;
+  /// How long calls wait for another program that holds the file.
+  void wait_at_most(std::chrono::milliseconds time);
   /// Whether an error of a database says that the system refused, as on a full disk: nothing of the file.
   static bool is_refusal(const Error& error);
-  /// The same, and all else that may pass by itself: another program that holds the file, a failing disk, a
-  /// file or a disk that may not be written just now.
+  /// The same, and all else that may pass by itself (store_fault.h): another program that holds the file, a
+  /// failing disk, a file that may not be written just now, or that was moved.
   static bool may_pass(const Error& error);
   /// Whether an error says that another program holds the file.
   static bool is_held(const Error& error);

@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "server/store/limits.h"
+#include "server/store/store_fault.h"
 #include "shared/base/timing.h"
 #include "shared/base/wall_clock.h"
 
@@ -26,7 +27,8 @@ namespace {
 constexpr off_t line_bytes_max = 65536;
 
 std::string said_by_system(const std::string& path) {
-  return fmt::format("{} cannot be written: {}", path, std::strerror(errno));
+  const int error = errno;
+  return fmt::format("{} cannot be written: {}", path, words_of(fault_of_system(error), error));
 }
 
 /// A pipe that nobody reads is refused, not waited for. Reading is for the end of what is there; of a pipe

@@ -90,6 +90,9 @@ Result<void> Recorder::finish(double last_tries_s) {
   state_->changed.notify_all();
   if (state_->thread.joinable()) state_->thread.join();
   if (state_->health.ok()) return {};
+  if (!state_->begun)
+    return fail(fmt::format("nothing of this session is recorded (--record {}): {} ticks are in no part: {}",
+                            state_->family, state_->health.lost, *state_->health.because));
   return fail(fmt::format("the recording {} has no ticks after {}, and {} are in no part of it: {}",
                           state_->path, state_->safe, state_->health.lost, *state_->health.because));
 }

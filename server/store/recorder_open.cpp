@@ -51,8 +51,9 @@ Made fitting_part(const std::string& path, const RecordingHeader& header, const 
     if (part == parts.rbegin()) why = resumed.error().message;
   }
   const std::string part = TRY(next_recording_part(path));
-  if (part != path) spdlog::warn("the session is recorded to {}: {}", part, why);
-  return new_part(part, header, from, limit);
+  auto made = new_part(part, header, from, limit);
+  if (made && part != path) spdlog::warn("the session is recorded to {}: {}", part, why);
+  return made;
 }
 
 }  // namespace
@@ -67,12 +68,15 @@ Result<std::unique_ptr<Recorder>> Recorder::open(const std::string& path, const 
       !folder.empty() && !fs::is_directory(folder, ignored))
     return fail(path + " cannot be made: there is no folder " + folder.string() + " (--record)");
   const bool is_first = recording_parts(path).empty();  // a path that never served may be mistaken
+  LeftParts left(path);
+  left.find();
   auto made = fitting_part(path, header, from, limit);
   const auto is_passing = [&](const Error& error) {
     return is_first ? Database::is_refusal(error) : Database::may_pass(error);
   };
   if (!made && !is_passing(made.error())) return tl::unexpected(made.error());
   auto state = std::make_unique<State>(path, header, limit);
+  state->left = std::move(left);
   if (made)
     state->begin_at(std::move(*made), from == nullptr ? 0 : from->keyframe.tick);
   else

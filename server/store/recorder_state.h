@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "server/store/left_parts.h"
 #include "server/store/recorder.h"
 #include "server/store/recording_writer.h"
 #include "server/store/retry_pause.h"
@@ -24,7 +25,7 @@ struct Recorder::State {
   };
 
   State(std::string named, RecordingHeader h, RingLimit l)
-      : family(std::move(named)), header(std::move(h)), limit(l), path(family) {}
+      : family(std::move(named)), header(std::move(h)), limit(l), left(family), path(family) {}
 
   void run();
   void collect();
@@ -42,6 +43,7 @@ struct Recorder::State {
   void begin_with(const RecordingStart& start);
   void drop_waiting();
   void try_last();
+  void write_last();
   void begin_at(std::unique_ptr<RecordingWriter> made, Tick tick);
   void fails_from_the_start(const Error& why);
 
@@ -55,6 +57,7 @@ struct Recorder::State {
   Tick written = 0;
   double committed_s = 0.0;
   RetryPause pause;
+  LeftParts left;
   bool dropped_older = false;  ///< parts before this one, which the ring does not need any more
   std::thread thread;
 
@@ -71,7 +74,8 @@ struct Recorder::State {
   bool stopping = false;
   double last_until_s = 0.0;  ///< once it stops: when trying again ends, by steady_now_s()
   StoreHealth health;
-  std::string path;  ///< of the last part
+  std::string path;    ///< of the last part
+  bool begun = false;  ///< any part, since the start
   uint64_t ticks_written = 0;
   Tick wanted = 0;     ///< to be committed at once
   Tick safe = 0;       ///< committed

@@ -2,11 +2,13 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include "server/store/database.h"
 #include "server/store/limits.h"
 #include "server/store/recorder_state.h"
 #include "server/store/schema.h"
+#include "server/store/store_fault.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
 #include "shared/base/wall_clock.h"
@@ -150,8 +152,8 @@ void Recorder::State::note(const Result<void>& result) {
 void Recorder::State::note_hanging() {
   if (!health.ok()) return;
   health.since_unix_ms = unix_now_ms();
-  health.because =
-      fmt::format("the disk has not taken the recording for {:g} s", limits::recorder_patience_s);
+  health.because = fmt::format("{}: it has not taken the recording for {:g} s",
+                               row_of(StoreFault::hangs).words, limits::recorder_patience_s);
   changed.notify_all();
 }
 
@@ -165,6 +167,7 @@ void Recorder::State::leave_off() {
     part_waits = false;
   }
   drop_waiting();
+  left.add(writer->path());
   writer.reset();
 }
 
@@ -214,20 +217,34 @@ void Recorder::State::begin_with(const RecordingStart& start) {
   }
   begin_at(std::exchange(next, nullptr), start.keyframe.tick);
   note({});
+  left.close();  // the disk works
 }
 
 void Recorder::State::begin_at(std::unique_ptr<RecordingWriter> made, Tick tick) {
   writer = std::move(made);
   written = tick;
   dropped_older = false;
+  left.forget(writer->path());
   const std::scoped_lock lock(mutex);
   safe = tick;
   path = writer->path();
+  begun = true;
 }
 
-/// The end of the recording: a part that waits for its world begins, and a file that is held, or that fails
-/// in any other way, may be written soon.
+/// The end of the recording: a copy that is made afterwards has all of it.
 void Recorder::State::try_last() {
+  write_last();
+  if (next != nullptr) {
+    const std::string named = next->path();
+    next.reset();
+    remove_recording(named);
+  }
+  for (const std::string& line : left.close_all(last_until_s)) spdlog::warn("{}", line);
+}
+
+/// A part that waits for its world begins, and a file that is held, or that fails in any other way, may be
+/// written soon.
+void Recorder::State::write_last() {
   if (next != nullptr && !waiting.empty()) begin_part();
   while (writer != nullptr) {
     Result<void> done = write_waiting();
@@ -243,10 +260,6 @@ void Recorder::State::try_last() {
     if (steady_now_s() + pause_s > last_until_s) return leave_off();
     std::this_thread::sleep_for(std::chrono::duration<double>(pause_s));
   }
-  if (next == nullptr) return;
-  const std::string named = next->path();
-  next.reset();
-  remove_recording(named);
 }
 
 }  // namespace scree

@@ -65,7 +65,7 @@ Result<void> RecordingReader::State::hold() {
   if (holds || is_ended) return {};
   const auto journal = TRY(database.text("PRAGMA journal_mode"));
   if (journal != "wal") return {};
-  auto begun = database.execute("BEGIN");
+  auto begun = database.execute("BEGIN", "cannot be read");
   holds = begun.has_value();
   return begun;
 }
@@ -98,7 +98,7 @@ Result<void> RecordingReader::State::read_extent(WithoutTicks without_ticks) {
 Result<void> RecordingReader::State::supply_missing_tables() {
   const auto supply = [this](const char* table) -> Result<void> {
     const auto has = TRY(database.has_table(table));
-    return has ? Result<void>() : database.execute(schema::create_empty(table));
+    return has ? Result<void>() : database.execute(schema::create_empty(table), "cannot be read");
   };
   for (const char* table : schema::row_tables) TRY(supply(table));
   return supply(schema::chunk_table);
@@ -154,7 +154,7 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const 
   auto database = TRY(Database::open(path));
   auto state = std::make_unique<State>(std::move(database));
   TRY(check_format(state->database, schema::recording));
-  TRY(state->database.execute("PRAGMA temp_store = MEMORY"));  // for supply_missing_tables()
+  TRY(state->database.execute("PRAGMA temp_store = MEMORY", "cannot be read"));  // for supply_missing_tables()
   TRY(state->hold());
   TRY(check_pages(state->database));
   TRY(state->supply_missing_tables());

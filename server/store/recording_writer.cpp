@@ -15,6 +15,7 @@
 #include "server/store/machine_writer.h"
 #include "server/store/resumed_recording.h"
 #include "server/store/schema.h"
+#include "server/store/store_fault.h"
 #include "server/world/settings.h"
 #include "shared/base/check.h"
 #include "shared/base/thread_check.h"
@@ -158,7 +159,8 @@ Result<void> RecordingWriter::State::count_bytes() {
 /// After a commit, when the log has been merged if it is long.
 Result<void> RecordingWriter::State::measure() {
   if (database.has_moved())
-    return fail(database.path() + " was moved or removed while it was recorded (--record)");
+    return fail(fmt::format("{}: {} while it was recorded (--record)", database.path(),
+                            row_of(StoreFault::moved).words));
   const auto bytes_of = [](const std::string& path) {
     std::error_code none;
     const uint64_t found = std::filesystem::file_size(path, none);
@@ -363,7 +365,7 @@ Result<void> RecordingWriter::finish() {
   TRY(commit());
   CHECK(!state_->in_transaction);
   auto merged = state_->database.execute("PRAGMA journal_mode = DELETE");
-  return merged || !state_->database.is_busy() ? merged : Result<void>();
+  return merged || !Database::is_held(merged.error()) ? merged : Result<void>();
 }
 
 }  // namespace scree

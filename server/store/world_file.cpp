@@ -10,6 +10,7 @@
 
 #include "server/store/ground_mass.h"
 #include "server/store/limits.h"
+#include "server/store/store_fault.h"
 #include "server/store/world_reading.h"
 #include "server/store/world_schema.h"
 #include "shared/base/check.h"
@@ -184,7 +185,7 @@ Result<std::unique_ptr<WorldFile>> WorldFile::open(const std::string& path) {
   auto database = TRY(Database::open(path));
   auto state = std::make_unique<State>(std::move(database));
   auto usable = check_format(state->database, world_schema::world);
-  if (usable) usable = state->database.execute(world_schema::bound_page_cache());
+  if (usable) usable = state->database.execute(world_schema::bound_page_cache(), "cannot be read");
   TRY(usable);
   return std::unique_ptr<WorldFile>(new WorldFile(std::move(state)));
 }
@@ -196,16 +197,16 @@ Result<WorldRows> WorldFile::read(LostRows* lost) {
     return WorldReading(file, lost).run(true);
   }
   TRY(check_pages(file));
-  TRY(file.execute("BEGIN"));
+  TRY(file.execute("BEGIN", "cannot be read"));
   auto rows = WorldReading(file, nullptr).run(true);
-  TRY(file.execute("COMMIT"));
+  TRY(file.execute("COMMIT", "cannot be read"));
   return rows;
 }
 
 /// Without SQLite's log a reader would keep the first save out.
 Result<void> WorldFile::hold_moment() {
   const auto mode = state_->database.text("PRAGMA journal_mode");
-  return mode && *mode == "wal" ? state_->database.execute("BEGIN") : Result<void>();
+  return mode && *mode == "wal" ? state_->database.execute("BEGIN", "cannot be read") : Result<void>();
 }
 
 Result<WorldRows> WorldFile::read_moment(LostRows* lost) {
@@ -273,10 +274,16 @@ Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldC
     static_cast<void>(file.execute("ROLLBACK"));  // there may be none, or none any more
     return saved;
   }
-  if (file.has_moved()) return fail(path() + " was moved or removed while the server kept its world there");
+  if (file.has_moved())
+    return fail(
+        fmt::format("{}: {} while the server kept its world there", path(), row_of(StoreFault::moved).words));
   state_->pieces.clear();
   for (const PieceRecord& piece : moment.pieces) state_->pieces.insert(piece.id);
   return {};
+}
+
+bool WorldFile::has_moved() const {
+  return state_->database.has_moved();
 }
 
 /// Its log and what SQLite shares in memory belong to the file that is gone.
@@ -326,6 +333,12 @@ void WorldFile::follow(std::unique_ptr<WorldFile>& file) {
   const auto is = (*found)->state_->standing(), was = file->state_->standing();
   if (!is || (was && (is->world != was->world || is->tick < was->tick))) return;
   file = std::move(*found);
+}
+
+Result<void> WorldFile::merge_log() {
+  const auto is_held = TRY(state_->database.number("PRAGMA wal_checkpoint(TRUNCATE)"));
+  if (is_held.value_or(0) == 0) return {};
+  return fail(fmt::format("{}: its log cannot be merged: {}", path(), row_of(StoreFault::held).words));
 }
 
 uint64_t WorldFile::bytes_written() const {

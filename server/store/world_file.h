@@ -79,12 +79,17 @@ class WorldFile {
   /// Replaces the chunks and pieces that changed, and the moment, in one transaction, on the disk when this
   /// returns. After an error the file is as it was; where it was moved or removed, that is an error, too.
   Result<void> save(const WorldMoment& moment, const std::vector<WorldChunk>& changed);
+  /// Whether the file is not there any more under its name.
+  bool has_moved() const;
   /// The same file opened anew, for another try after an error. Where it was moved or removed, it is put back
   /// under its name as it was saved last; an error if another file has the name meanwhile.
   Result<std::unique_ptr<WorldFile>> opened_anew();
   /// For who reads a file that another object saves: opens the one that was put back. Leaves `file` alone
   /// where there is none, or one of another world or of an earlier tick.
   static void follow(std::unique_ptr<WorldFile>& file);
+  /// Merges SQLite's log into the file, which then has all rows by itself. An error, as on a full disk or while
+  /// somebody reads as of one moment, leaves both as they are.
+  Result<void> merge_log();
   uint64_t bytes_written() const;  ///< in rows, since it was opened
 
   /// Copies the file, as of one moment, into a new one, which is whole before this returns.

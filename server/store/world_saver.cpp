@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "server/store/limits.h"
+#include "server/store/store_fault.h"
 #include "server/store/unsaved_terrain.h"
 #include "server/world/shared_brick.h"
 #include "shared/base/check.h"
@@ -74,11 +75,13 @@ struct WorldSaver::State {
   void note(Tick tick, double ms, const Result<void>& saved);
   void try_last(const WorldMoment& moment, const ChunkNow& now, double until_s);
   std::map<ChunkCoord, std::vector<BrickState>> whole_chunks(const ChunkNow& now) const;
+  bool has_nothing_to_lose() const;
 
   SaverConfig config;
   Tick period = 0;
 
   // Members of the caller's thread.
+  Tick changed_tick = 0;  ///< the last in which anything but the clock changed
   ChangedBricks gathered;
   std::unordered_set<ChunkCoord, CoordHash> gathered_chunks;  ///< of those bricks
   Tick next_due = 0;                                          ///< 0: none by the clock
@@ -158,7 +161,7 @@ WorldSaver::WorldSaver(std::unique_ptr<WorldFile> file, Tick tick, const Terrain
   State& s = *state_;
   s.period = period_of(s.config);
   s.next_due = s.period == 0 ? 0 : tick + s.period;
-  s.status.saved_tick = tick;
+  s.status.saved_tick = s.changed_tick = tick;
   s.thread = std::thread([&s] { s.run(); });
 }
 
@@ -177,6 +180,7 @@ void WorldSaver::end() {
 
 bool WorldSaver::note(const TickDelta& delta, bool pressed) {
   State& s = *state_;
+  if (something_happened(delta)) s.changed_tick = delta.tick;
   for (const BrickState& state : delta.bricks) {
     s.gathered[state.coord] = state;
     s.gathered_chunks.insert(chunk_of(state.coord));
@@ -233,12 +237,25 @@ Result<void> WorldSaver::finish(WorldMoment moment, const ChunkNow& now) {
   }
   s.changed.notify_all();
   if (s.thread.joinable()) s.thread.join();
-  s.try_last(moment, now, until_s);
+  if (!s.has_nothing_to_lose()) s.try_last(moment, now, until_s);
+  const bool has_all = s.status.health.ok() || s.has_nothing_to_lose();
+  // Where that fails, the log that is left has the rows.
+  if (s.status.health.ok()) static_cast<void>(s.file->merge_log());
   s.file.reset();
-  if (s.status.health.ok()) return {};
+  if (has_all) return {};
   return fail(fmt::format(
       "the world's last ticks are not saved: its file holds tick {}, and the world stood at {}: {}",
       s.status.saved_tick, moment.tick, *s.status.health.because));
+}
+
+/// Once the thread has ended: whether a file that cannot be written has all but the clock. Nobody knows the
+/// content of a failing disk.
+bool WorldSaver::State::has_nothing_to_lose() const {
+  if (status.health.ok() || !status.lacking.empty() || changed_tick > status.saved_tick) return false;
+  if (file->has_moved()) return false;
+  const auto fault = fault_in(*status.health.because);
+  return fault &&
+         (*fault == StoreFault::held || *fault == StoreFault::read_only || row_of(*fault).is_refusal);
 }
 
 /// Once the thread has ended: chunks that are lacking, and what fails, until the time for that is over.

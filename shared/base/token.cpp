@@ -1,7 +1,9 @@
 #include "shared/base/token.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 
 #include "shared/base/limits.h"
@@ -19,8 +21,10 @@ Result<void> check_secret(std::string_view secret, size_t bytes_max) {
 
 Result<std::string> read_secret(const std::string& path, size_t bytes_max) {
   TRY(check_no_device(path));
+  errno = 0;
   std::ifstream file(path);
-  if (!file) return fail("the token's file " + path + " cannot be read");
+  if (!file)
+    return fail("the token's file " + path + " cannot be read: " + std::strerror(errno != 0 ? errno : EIO));
   // A file that is something else altogether is not read to its end.
   std::string secret(bytes_max + 1, '\0');
   file.read(secret.data(), static_cast<std::streamsize>(secret.size()));

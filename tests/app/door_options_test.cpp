@@ -9,6 +9,7 @@
 #include "auth/new_secret.h"
 #include "server/app/server_options.h"
 #include "shared/base/token.h"
+#include "tests/support/holds.h"
 #include "tests/support/test_folder.h"
 
 namespace scree {
@@ -97,6 +98,28 @@ TEST(DoorOptions, new_secrets_differ_and_begin_with_a_letter) {
     secrets.insert(secret);
   }
   EXPECT_EQ(secrets.size(), 50U);
+}
+
+TEST(DoorOptions, files_that_cannot_be_used_are_refused_with_the_reason) {
+  const TestFolder folder;
+  const auto words_for = [](const std::vector<std::string>& words) {
+    ::testing::internal::CaptureStderr();
+    EXPECT_TRUE(is_refused(words));
+    return ::testing::internal::GetCapturedStderr();
+  };
+  const std::string missing = words_for({"--admin-token-file", folder / "none"});
+  EXPECT_TRUE(holds(missing, "none cannot be read: No such file or directory")) << missing;
+  EXPECT_TRUE(holds(missing, "--make-admin-token makes it")) << missing;
+  std::filesystem::create_symlink(folder / "loop", folder / "loop");
+  const std::string loop = words_for({"--admin-token-file", folder / "loop"});
+  EXPECT_TRUE(holds(loop, "loop cannot be read: Too many levels of symbolic links")) << loop;
+  EXPECT_FALSE(holds(loop, "--make-admin-token")) << loop;
+  const std::string bans = words_for({"--bans", folder / "none/bans.txt"});
+  EXPECT_TRUE(holds(bans, "--bans: bans cannot be kept")) << bans;
+  EXPECT_TRUE(holds(bans, "No such file or directory")) << bans;
+  const std::string kept = folder / "bans.txt";
+  EXPECT_EQ(net_of({"--bans", kept}).access.bans_path, kept);
+  EXPECT_FALSE(std::filesystem::exists(kept + ".new")) << "nothing is left behind";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "server/app/live_server.h"
 #include "server/app/save_delay.h"
 #include "tests/store/passing_fault.h"
+#include "tests/support/captured_log.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/holds.h"
 #include "tests/support/patience.h"
@@ -98,8 +99,28 @@ TEST_F(LiveHealthTest, a_log_of_events_that_cannot_be_written_is_a_fault_and_the
   EXPECT_EQ(status("/readyz"), 200);
 }
 
+TEST_F(LiveHealthTest, events_that_are_lost_at_the_end_are_said_once) {
+  start([&](LiveConfig& config) { config.events_path = "/dev/full"; });
+  RawClient client(server->port());
+  ASSERT_TRUE(client.send(HelloMessage{protocol_version, "test", {0.0F, 2.0F, 0.0F}, 64.0F}));
+  ASSERT_TRUE(client.receive_as<WelcomeMessage>());
+  EXPECT_TRUE(comes_to("/healthz", 503));
+  EXPECT_TRUE(holds(body("/healthz"), "the disk is full")) << body("/healthz");
+  CapturedLog log;
+  const auto stopped = server->stop();
+  EXPECT_FALSE(stopped.has_value());
+  server.reset();
+  EXPECT_EQ(log.count("are lost (--events)"), 1U) << log.text();
+}
+
 /// What happens to the world's file, and passes.
-class LiveHealthFaultTest : public LiveHealthTest, public ::testing::WithParamInterface<Fault> {};
+class LiveHealthFaultTest : public LiveHealthTest, public ::testing::WithParamInterface<Fault> {
+ protected:
+  static const char* cause_of(Fault fault) {
+    if (fault == Fault::held) return "another program holds the file";
+    return fault == Fault::full ? "the disk is full" : "the disk fails";
+  }
+};
 
 TEST_P(LiveHealthFaultTest, a_world_that_is_not_saved_is_said_until_it_is_saved_again) {
   FaultyDisk disk;
@@ -122,6 +143,7 @@ TEST_P(LiveHealthFaultTest, a_world_that_is_not_saved_is_said_until_it_is_saved_
   EXPECT_EQ(status("/healthz"), 503);
   EXPECT_TRUE(holds(body("/healthz"), "\"name\":\"saving\"")) << body("/healthz");
   EXPECT_FALSE(holds(body("/healthz"), world)) << "everybody may ask";
+  EXPECT_TRUE(holds(body("/healthz"), cause_of(GetParam()))) << body("/healthz");
   EXPECT_EQ(status("/livez"), 200) << "a restart mends nothing";
   EXPECT_EQ(status("/readyz"), 200);
   fault.pass();

@@ -13,6 +13,7 @@
 #include "server/store/recording_reader.h"
 #include "server/store/world_file.h"
 #include "server/world/settings.h"
+#include "tests/support/captured_log.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/holds.h"
 #include "tests/support/test_folder.h"
@@ -97,7 +98,7 @@ TEST_F(PassingTroubleTest, a_held_world_is_saved_when_it_is_let_go_and_the_statu
   ASSERT_TRUE(steps_until([&] { return !server->report().saving.health.ok(); }));
   const auto told = report()["world"];
   EXPECT_EQ(told["state"], "retrying");
-  EXPECT_TRUE(holds(told["error"].get<std::string>(), "database is locked")) << told;
+  EXPECT_TRUE(holds(told["error"].get<std::string>(), "another program holds the file")) << told;
   EXPECT_EQ(told["since"].get<std::string>().back(), 'Z');
   EXPECT_FALSE(server->report().error.has_value()) << "a trouble that may pass is no end";
   ASSERT_TRUE(holder->execute("COMMIT").has_value());
@@ -122,6 +123,19 @@ TEST_F(PassingTroubleTest, a_world_that_stays_held_ends_the_server_with_words_an
   ASSERT_TRUE(holder->execute("COMMIT").has_value());
   server.reset();
   start();
+}
+
+TEST_F(PassingTroubleTest, a_world_that_nobody_touched_is_not_lost_while_its_file_is_held) {
+  start();
+  ASSERT_TRUE(server->step_once());
+  auto holder = Database::open(world_path);
+  ASSERT_TRUE(holder && holder->execute("BEGIN EXCLUSIVE").has_value());
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(server->step_once());
+  CapturedLog log;
+  const auto stopped = server->stop();
+  EXPECT_TRUE(stopped.has_value()) << stopped.error().message;
+  EXPECT_TRUE(holds(log.text(), "nothing has changed since tick")) << log.text();
+  EXPECT_FALSE(holds(log.text(), "not saved")) << log.text();
 }
 
 TEST_F(PassingTroubleTest,

@@ -11,6 +11,7 @@
 #include "client/admin/admin.h"
 #include "client/connection/endpoint_options.h"
 #include "proto/limits.h"
+#include "shared/base/near_name.h"
 #include "shared/base/option_check.h"
 
 namespace {
@@ -259,7 +260,8 @@ int main(int argc, char** argv) {
   CLI::App app("Shows the state of a running server, changes its settings, and manages its sessions.",
                "scree-admin");
   app.set_version_flag("--version", SCREE_VERSION);
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);  // a mistyped one would pass as none
+  scree::name_unknown_words<CLI::ExtrasError>(app);
   scree::EndpointOptions endpoint(app, options.server, "SCREE_ADMIN_TOKEN");
   scree::bounded(app.add_option("--timeout", options.timeout_s, "seconds to wait for the server's answers"),
                  {0.1, 3600.0})
@@ -269,6 +271,7 @@ int main(int argc, char** argv) {
   const auto commands = add_commands(app, options);
   try {
     app.parse(argc, argv);
+    if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : exit_usage;
   }
