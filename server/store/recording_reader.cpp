@@ -154,7 +154,8 @@ Result<std::unique_ptr<RecordingReader>> RecordingReader::open_as_it_lies(const 
   auto database = TRY(Database::open(path));
   auto state = std::make_unique<State>(std::move(database));
   TRY(check_format(state->database, schema::recording));
-  TRY(state->database.execute("PRAGMA temp_store = MEMORY", "cannot be read"));  // for supply_missing_tables()
+  TRY(state->database.execute("PRAGMA temp_store = MEMORY",
+                              "cannot be read"));  // for supply_missing_tables()
   TRY(state->hold());
   TRY(check_pages(state->database));
   TRY(state->supply_missing_tables());

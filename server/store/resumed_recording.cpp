@@ -35,9 +35,8 @@ Result<RecordingHeader> header_to_resume(const std::string& path, const Recordin
   const auto another = fail(path + " is the recording of another world");
   if (!alike(recorded->header().world, header.world)) return another;
   if (recorded->last_tick() < tick || recorded->first_tick() > tick + 1)
-    return fail(
-        fmt::format("{} holds the ticks {} to {}, and the world stands at {}", path, recorded->first_tick(),
-                    recorded->last_tick(), tick));
+    return fail(fmt::format("{} holds the ticks {} to {}, and the world stands at {}", path,
+                            recorded->first_tick(), recorded->last_tick(), tick));
   const auto hash = TRY(hash_after(*recorded, tick));
   // Before its first tick a world is what its configuration says.
   const bool same = hash ? *hash == start.state_hash : tick == 0;

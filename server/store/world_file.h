@@ -87,8 +87,8 @@ class WorldFile {
   /// For who reads a file that another object saves: opens the one that was put back. Leaves `file` alone
   /// where there is none, or one of another world or of an earlier tick.
   static void follow(std::unique_ptr<WorldFile>& file);
-  /// Merges SQLite's log into the file, which then has all rows by itself. An error, as on a full disk or while
-  /// somebody reads as of one moment, leaves both as they are.
+  /// Merges SQLite's log into the file, which then has all rows by itself. An error, as on a full disk or
+  /// while somebody reads as of one moment, leaves both as they are.
   Result<void> merge_log();
   uint64_t bytes_written() const;  ///< in rows, since it was opened
 

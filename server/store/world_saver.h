@@ -87,9 +87,9 @@ class WorldSaver {
   bool note(const TickDelta& delta, bool pressed = false);
   /// `now` is asked for chunks that are lacking.
   void save(WorldMoment moment, const ChunkNow& now = {});
-  /// Saves the last tick, waits until it is written, merges the file's log, and ends. What fails is tried again
-  /// for a while; then the last error is returned, and says which tick the file holds. It is no error where
-  /// nothing but the clock has changed since that tick: then status() alone has it.
+  /// Saves the last tick, waits until it is written, merges the file's log, and ends. What fails is tried
+  /// again for a while; then the last error is returned, and says which tick the file holds. It is no error
+  /// where nothing but the clock has changed since that tick: then status() alone has it.
   Result<void> finish(WorldMoment moment, const ChunkNow& now = {});
   /// Ends without the last tick: writes what was handed over, and joins the thread.
   void end();

@@ -1,6 +1,6 @@
-// Text of a report: Markdown within a line, such as `code`, **strong** and [links](target). libcmark-gfm reads
-// it. HTML in it is text, and a link leads to a page (http, https) or a file beside the report, else nowhere.
-// Characters that may not be shown (shared/base/text.h) become spaces.
+// Text of a report: Markdown within a line, such as `code`, **strong** and [links](target). libcmark-gfm
+// reads it. HTML in it is text, and a link leads to a page (http, https) or a file beside the report, else
+// nowhere. Characters that may not be shown (shared/base/text.h) become spaces.
 #pragma once
 
 #include <string>

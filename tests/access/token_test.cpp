@@ -214,8 +214,8 @@ TEST_F(Grants, are_not_given_where_files_or_options_make_no_sense) {
     return access ? "" : access.error().message;
   };
   EXPECT_EQ(error([](AccessConfig&) {}), "");
-  EXPECT_TRUE(
-      holds(error([&](AccessConfig& c) { c.token_key_path = folder / "none"; }), "none: there is no such file"));
+  EXPECT_TRUE(holds(error([&](AccessConfig& c) { c.token_key_path = folder / "none"; }),
+                    "none: there is no such file"));
   EXPECT_TRUE(
       holds(error([&](AccessConfig& c) { c.token_key_path = folder / "key"; }), "no public Ed25519 key"));
   EXPECT_TRUE(holds(error([](AccessConfig& c) { c.token_key_path = ""; }), "--token-revoked, --token-key"));

@@ -18,8 +18,8 @@ struct TriangleMesh {
   std::string name;
   std::vector<glm::dvec3> points;
   std::vector<Triangle> triangles;  ///< counterclockwise from outside
-  /// A number for each triangle: 0 where the file names none of ours, else one more than Material. Empty: none
-  /// anywhere.
+  /// A number for each triangle: 0 where the file names none of ours, else one more than Material. Empty:
+  /// none anywhere.
   std::vector<uint8_t> materials{};
 
   void add(const Triangle& triangle, uint8_t material) {
