@@ -2,8 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <optional>
+#include <unistd.h>
 
 #include "auth/access_token.h"
 #include "auth/new_secret.h"
@@ -102,8 +105,10 @@ void DoorOptions::complete(NetConfig& net) {
 /// the folder has to be writable.
 void DoorOptions::check_bans(const std::string& path) {
   if (path.empty()) return;
-  if (const auto good = can_be_written(path + ".new"); !good)
-    throw CLI::ValidationError("--bans", "bans cannot be kept: " + good.error().message);
+  const std::string folder = std::filesystem::absolute(path).parent_path();
+  if (::access(folder.c_str(), W_OK | X_OK) != 0)
+    throw CLI::ValidationError(
+        "--bans", "bans cannot be kept: " + folder + " cannot be written: " + std::strerror(errno));
 }
 
 /// The token is looked at where mistakes in options are.
@@ -126,8 +131,8 @@ void DoorOptions::complete_token(NetConfig& net) {
   if (is_access_token(net.admin_token))
     throw CLI::ValidationError(
         "--admin-token",
-        "this is an access token, which --token-key verifies; an admin token is a secret "
-        "of its own (--make-admin-token)");
+        "this is an access token, which --token-key verifies; an admin token is a secret of its own "
+        "(--make-admin-token)");
   if (Result<void> good = check_token(net.admin_token); !good)
     throw CLI::ValidationError("--admin-token", good.error().message);
 }

@@ -15,7 +15,7 @@ namespace {
 std::string writing_fault(std::string_view what, const StoreHealth& health) {
   const auto fault = fault_in(*health.because);
   return fmt::format("{} has not been written since {}, and is tried again{}{}", what,
-                     iso_time(health.since_unix_ms), fault ? ": " : "", fault ? row_of(*fault).words : "");
+                     iso_time(health.since_unix_ms), fault ? ": " : "", fault ? name_of(*fault) : "");
 }
 
 /// How the world is not saved as promised; empty: it is.

@@ -37,8 +37,7 @@ Result<void> close_part(const std::string& part) {
 std::string line_of_left(const std::string& part, const Result<void>& closed) {
   if (!is_there(part))
     return fmt::format(
-        "{0}-wal is left: it is the log of {0}, which was moved or removed. Put it beside that file, under "
-        "the "
+        "{0}-wal is left: it is the log of {0}, which was moved or removed. Put it beside that file, by the "
         "same name, before you play it",
         part);
   return fmt::format("{0}-wal is left, and has the last ticks of {0}: copy both{1}", part,

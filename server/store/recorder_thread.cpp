@@ -152,8 +152,8 @@ void Recorder::State::note(const Result<void>& result) {
 void Recorder::State::note_hanging() {
   if (!health.ok()) return;
   health.since_unix_ms = unix_now_ms();
-  health.because = fmt::format("{}: it has not taken the recording for {:g} s",
-                               row_of(StoreFault::hangs).words, limits::recorder_patience_s);
+  health.because = fmt::format("{}: it has not taken the recording for {:g} s", name_of(StoreFault::hangs),
+                               limits::recorder_patience_s);
   changed.notify_all();
 }
 

@@ -159,8 +159,8 @@ Result<void> RecordingWriter::State::count_bytes() {
 /// After a commit, when the log has been merged if it is long.
 Result<void> RecordingWriter::State::measure() {
   if (database.has_moved())
-    return fail(fmt::format("{}: {} while it was recorded (--record)", database.path(),
-                            row_of(StoreFault::moved).words));
+    return fail(
+        fmt::format("{}: {} while it was recorded (--record)", database.path(), name_of(StoreFault::moved)));
   const auto bytes_of = [](const std::string& path) {
     std::error_code none;
     const uint64_t found = std::filesystem::file_size(path, none);

@@ -1,23 +1,21 @@
 #include "server/store/store_fault.h"
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fmt/format.h>
 
 namespace scree {
 
-namespace {
-
-constexpr std::array all_faults{StoreFault::full,  StoreFault::too_large, StoreFault::read_only_disk,
-                                StoreFault::held,  StoreFault::read_only, StoreFault::moved,
-                                StoreFault::hangs, StoreFault::closed,    StoreFault::fails};
-
-}  // namespace
+static_assert([] {
+  for (const StoreFault a : all_kinds<StoreFault>)
+    for (const StoreFault b : all_kinds<StoreFault>)
+      if (a != b && row_of(a).name.find(row_of(b).name) != std::string_view::npos) return false;
+  return true;
+}());
 
 std::optional<StoreFault> fault_in(std::string_view message) {
-  for (const StoreFault fault : all_faults)
-    if (message.find(row_of(fault).words) != std::string_view::npos) return fault;
+  for (const StoreFault fault : all_kinds<StoreFault>)
+    if (message.find(name_of(fault)) != std::string_view::npos) return fault;
   return std::nullopt;
 }
 
@@ -42,7 +40,7 @@ std::optional<StoreFault> fault_of_system(int error_number) {
 
 std::string words_of(std::optional<StoreFault> fault, int error_number) {
   if (!fault) return std::strerror(error_number);
-  const std::string words(row_of(*fault).words);
+  const std::string words(name_of(*fault));
   return error_number == 0 ? words : fmt::format("{} ({})", words, std::strerror(error_number));
 }
 

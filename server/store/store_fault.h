@@ -7,46 +7,48 @@
 #include <string>
 #include <string_view>
 
+#include "shared/base/kind_table.h"
+
 namespace scree {
 
 /// What may pass by itself, or by somebody who makes room. All other errors are of the file's content.
 enum class StoreFault : uint8_t {
-  full,
-  too_large,
-  read_only_disk,
-  read_only,
-  held,
-  moved,
-  closed,
-  hangs,
-  fails
+  full = 0,
+  too_large = 1,
+  read_only_disk = 2,
+  held = 3,
+  read_only = 4,
+  moved = 5,
+  hangs = 6,
+  closed = 7,
+  fails = 8
 };
 
 struct StoreFaultRow {
-  std::string_view words;
+  std::string_view name;    ///< in an error's message, for people; no other fault's name is part of it
   bool is_refusal = false;  ///< the system refused: the error says nothing of the file
 };
 
 constexpr StoreFaultRow row_of(StoreFault fault) {
   switch (fault) {
     case StoreFault::full:
-      return {.words = "the disk is full", .is_refusal = true};
+      return {.name = "the disk is full", .is_refusal = true};
     case StoreFault::too_large:
-      return {.words = "the file has reached a limit of its size", .is_refusal = true};
+      return {.name = "the file has reached a limit of its size", .is_refusal = true};
     case StoreFault::read_only_disk:
-      return {.words = "the disk is read-only", .is_refusal = true};
+      return {.name = "the disk is read-only", .is_refusal = true};
     case StoreFault::read_only:
-      return {.words = "its permissions forbid it"};
+      return {.name = "its permissions forbid it"};
     case StoreFault::held:
-      return {.words = "another program holds the file"};
+      return {.name = "another program holds the file"};
     case StoreFault::moved:
-      return {.words = "the file was moved or removed"};
+      return {.name = "the file was moved or removed"};
     case StoreFault::closed:
-      return {.words = "the system does not open it"};
+      return {.name = "the system does not open it"};
     case StoreFault::hangs:
-      return {.words = "the disk does not answer"};
+      return {.name = "the disk does not answer"};
     case StoreFault::fails:
-      return {.words = "the disk fails"};
+      return {.name = "the disk fails"};
   }
   return {};
 }

@@ -276,7 +276,7 @@ Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldC
   }
   if (file.has_moved())
     return fail(
-        fmt::format("{}: {} while the server kept its world there", path(), row_of(StoreFault::moved).words));
+        fmt::format("{}: {} while the server kept its world there", path(), name_of(StoreFault::moved)));
   state_->pieces.clear();
   for (const PieceRecord& piece : moment.pieces) state_->pieces.insert(piece.id);
   return {};
@@ -338,7 +338,7 @@ void WorldFile::follow(std::unique_ptr<WorldFile>& file) {
 Result<void> WorldFile::merge_log() {
   const auto is_held = TRY(state_->database.number("PRAGMA wal_checkpoint(TRUNCATE)"));
   if (is_held.value_or(0) == 0) return {};
-  return fail(fmt::format("{}: its log cannot be merged: {}", path(), row_of(StoreFault::held).words));
+  return fail(fmt::format("{}: its log cannot be merged: {}", path(), name_of(StoreFault::held)));
 }
 
 uint64_t WorldFile::bytes_written() const {
