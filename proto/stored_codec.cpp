@@ -7,7 +7,7 @@
 #include "proto/compressed.h"
 #include "proto/limits.h"
 #include "shared/base/check.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 

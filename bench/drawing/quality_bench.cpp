@@ -52,7 +52,7 @@ void show_blast(Stage& stage, const Drawing& drawing) {
     const float x_m = 14.0F + 0.5F * static_cast<float>(i % 8), z_m = 8.0F + 0.5F * static_cast<float>(i / 8);
     const glm::vec3 place_m(x_m, ground_height_m({TerrainKind::canyon, 1, 0.25F}, x_m, z_m) + 0.4F, z_m);
     events.push_back(
-        {PieceEventKind::crack, place_m, 0.7F, 1000.0F, Material::rock, static_cast<PieceId>(i)});
+        {PieceEventKind::crack, place_m, 0.7F, 1000.0F, material::rock, static_cast<PieceId>(i)});
     contacts.push_back({place_m, 0.43F});
   }
   dust.add(events, 0.0);

@@ -17,7 +17,7 @@
 #include "client/render/gl/shadow_map.h"
 #include "client/render/scene/limits.h"
 #include "shared/base/check.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 namespace {

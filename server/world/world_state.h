@@ -25,7 +25,7 @@
 #include "server/world/stages.h"
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 

@@ -85,6 +85,9 @@ inline constexpr float interest_radius_max_m = 256.0F;
 /// of air or rock, some 10 KiB for one with a surface. Above: those that were not used lately are dropped,
 /// and made anew on demand.
 inline constexpr size_t generated_bytes_max = size_t{64} << 20U;
+/// The materials of unedited bricks that a field keeps once it was asked for them, bytes; beyond, it forgets
+/// them and computes them again.
+inline constexpr size_t ground_materials_bytes_max = size_t{16} << 20U;
 
 /// Smallest mass of a piece, units of 1/254 voxel: two voxels. Smaller cells join their largest neighbour.
 inline constexpr int64_t piece_mass_min = 2 * 254;

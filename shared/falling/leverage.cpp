@@ -10,7 +10,7 @@
 #include "shared/base/check.h"
 #include "shared/falling/section.h"
 #include "shared/field/mass.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 
@@ -64,7 +64,7 @@ glm::dvec3 centre(const SupportPart& part) {
 
 /// Weight of so many of a part's voxels.
 double kg(const SupportPart& part, int voxels, double voxel_m3) {
-  const auto density = static_cast<double>(traits_of(part.material).density_kg_m3);
+  const auto density = static_cast<double>(part.density_kg_m3);
   return density * voxel_m3 * static_cast<double>(part.fill) * voxels;
 }
 
@@ -93,9 +93,11 @@ class Sweep {
     VoxelBox bounds;  ///< of the mass
   };
 
-  Sweep(const SupportParts& parts, Field& field, const std::set<BrickCoord>& changed, int axis, bool up)
+  Sweep(const SupportParts& parts, Field& field, const Palette& palette, const std::set<BrickCoord>& changed,
+        int axis, bool up)
       : parts_(parts),
         field_(field),
+        palette_(palette),
         changed_(changed),
         axis_(axis),
         up_(up),
@@ -193,12 +195,32 @@ class Sweep {
     }
   }
 
+  /// What the weakest material of all these parts bears.
   double bearing_pa(const std::vector<SupportLink>& links) const {
     double least = 1e30;
     for (const SupportLink& link : links)
       for (const uint32_t part : {link.lower, link.upper})
-        least =
-            std::min(least, static_cast<double>(traits_of(parts_.parts()[part].material).bearing.bending_pa));
+        least = std::min(least, static_cast<double>(parts_.parts()[part].bending_pa));
+    return least;
+  }
+
+  /// What the weakest material at a section bears.
+  double bearing_pa(const std::vector<SupportLink>& links, int at) const {
+    double least = 1e30;
+    const auto weaken = [&](Material material) {
+      least = std::min(least, static_cast<double>(palette_.row_or_first(material).bearing.bending_pa));
+    };
+    for (const SupportLink& link : links) {
+      if (parts_.is_mixed(link)) {
+        parts_.for_each_pair(link, at, [&](Material low, Material high) {
+          weaken(low);
+          weaken(high);
+        });
+      } else {
+        weaken(parts_.parts()[link.lower].material);
+        weaken(parts_.parts()[link.upper].material);
+      }
+    }
     return least;
   }
 
@@ -235,7 +257,6 @@ class Sweep {
 
   Candidate worst_section(const Lump& lump, const std::vector<SupportLink>& links) {
     const auto [first, last] = parts_.common_places(links);
-    const double bearing = bearing_pa(links);
     const int face = (along(parts_.parts()[links.front().lower].brick, axis_) + 1) * brick_size;
     Candidate worst;
     for (int at = first; at <= last; ++at) {
@@ -243,7 +264,7 @@ class Sweep {
       if (section.area() <= 0.0) continue;
       const Mass mass = beyond_place(lump, links, at);
       if (mass.kg <= 0.0) continue;
-      const double there = excess(section, face + at - 0.5, mass, bearing);
+      const double there = excess(section, face + at - 0.5, mass, bearing_pa(links, at));
       if (there > worst.excess) worst = {there, at};
     }
     return worst;
@@ -334,6 +355,7 @@ class Sweep {
 
   const SupportParts& parts_;
   Field& field_;
+  const Palette& palette_;
   const std::set<BrickCoord>& changed_;
   int axis_;
   bool up_;
@@ -345,7 +367,7 @@ class Sweep {
 
 }  // namespace
 
-std::vector<Overload> find_levers(const SupportParts& parts, Field& field,
+std::vector<Overload> find_levers(const SupportParts& parts, Field& field, const Palette& palette,
                                   const std::set<BrickCoord>& changed) {
   const auto dx = static_cast<double>(field.source().voxel_size_m);
   std::vector<Lump> lumps;
@@ -354,7 +376,7 @@ std::vector<Overload> find_levers(const SupportParts& parts, Field& field,
     lumps.push_back(lump_of(part, dx * dx * dx, changed.contains(part.brick)));
   std::vector<Sweep::Break> found;
   for (int axis = 0; axis < 3; ++axis)
-    for (const bool up : {true, false}) Sweep(parts, field, changed, axis, up).run(lumps, found);
+    for (const bool up : {true, false}) Sweep(parts, field, palette, changed, axis, up).run(lumps, found);
   std::ranges::stable_sort(found, std::ranges::greater{}, &Sweep::Break::excess);
   std::vector<Overload> overloads;
   std::vector<VoxelBox> taken;

@@ -19,7 +19,7 @@ namespace scree {
 
 /// Masses that break off by leverage: the worst section of each, the worst first, none inside another. Only
 /// those with a changed brick among them or at their section. `field` is that of the parts.
-std::vector<Overload> find_levers(const SupportParts& parts, Field& field,
+std::vector<Overload> find_levers(const SupportParts& parts, Field& field, const Palette& palette,
                                   const std::set<BrickCoord>& changed);
 
 }  // namespace scree

@@ -1,11 +1,11 @@
 #include "shared/falling/support_parts.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "shared/base/check.h"
 #include "shared/field/mass.h"
-#include "shared/field/paint.h"
 
 namespace scree {
 
@@ -91,17 +91,6 @@ void measure(SupportPart& part) {
   }
 }
 
-/// The middle of the part's bounds, where its material is read.
-glm::vec3 middle_m(const SupportPart& part, float voxel_size_m) {
-  const VoxelCoord at = first_voxel(part.brick);
-  const VoxelBox box =
-      part.is_whole() ? VoxelBox{{0, 0, 0}, {brick_size, brick_size, brick_size}} : bounds_of(part.bits);
-  const auto mean = [&](int origin, int lo, int hi) {
-    return (static_cast<float>(origin) + 0.5F * static_cast<float>(lo + hi - 1)) * voxel_size_m;
-  };
-  return {mean(at.x, box.lo.x, box.hi.x), mean(at.y, box.lo.y, box.hi.y), mean(at.z, box.lo.z, box.hi.z)};
-}
-
 /// The number of cells in a box of that size.
 template <typename C>
 size_t cells(C size) {
@@ -123,9 +112,9 @@ BrickCoord most(BrickCoord a, BrickCoord b) {
 
 }  // namespace
 
-SupportParts::SupportParts(Field& field, std::span<const BrickCoord> changed, int reach_bricks,
-                           size_t parts_max)
-    : field_(field), ground_(field), parts_max_(parts_max) {
+SupportParts::SupportParts(Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                           int reach_bricks, size_t parts_max)
+    : field_(field), palette_(palette), ground_(field), parts_max_(parts_max) {
   CHECK(reach_bricks >= 0 && parts_max < unread);
   if (changed.empty()) return;
   BrickCoord lo = changed.front(), hi = changed.front();
@@ -180,10 +169,35 @@ void SupportParts::add(BrickCoord brick, const BrickBits& bits, float fill, uint
   part.fill = fill;
   part.next = first;
   measure(part);
-  part.material = material_at(field_, middle_m(part, field_.source().voxel_size_m));
+  read_materials(part);
   part.held = is_held(part);
   first = static_cast<uint32_t>(parts_.size());
   parts_.push_back(part);
+}
+
+void SupportParts::read_materials(SupportPart& part) const {
+  if (const auto one = one_material_of(field_, part.brick)) {
+    part.material = *one;
+    part.density_kg_m3 = palette_.row_or_first(*one).density_kg_m3;
+    part.bending_pa = palette_.row_or_first(*one).bearing.bending_pa;
+    return;
+  }
+  auto each = std::make_shared<const BrickRock>(materials_of(field_, part.brick));
+  std::array<int, 256> counts{};
+  for (size_t x = 0; x < part.bits.words.size(); ++x)
+    for (uint64_t left = part.bits.words[x]; left != 0; left &= left - 1)
+      ++counts[row_number((*each)[x * 64 + static_cast<size_t>(std::countr_zero(left))])];
+  double density = 0.0;
+  part.bending_pa = std::numeric_limits<float>::max();
+  for (size_t number = 0; number < counts.size(); ++number) {
+    if (counts[number] == 0) continue;
+    part.material = static_cast<Material>(number);
+    const MaterialRow& row = palette_.row_or_first(part.material);
+    density += static_cast<double>(row.density_kg_m3) * counts[number] / part.voxels;
+    part.bending_pa = std::min(part.bending_pa, row.bearing.bending_pa);
+    if (counts[number] != part.voxels) part.each = each;
+  }
+  part.density_kg_m3 = static_cast<float>(density);
 }
 
 bool SupportParts::is_held(const SupportPart& part) {

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "shared/falling/ground.h"
 #include "shared/field/brick_bits.h"
-#include "shared/field/field.h"
+#include "shared/field/material_window.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -25,12 +28,19 @@ struct SupportPart {
   std::array<std::array<uint8_t, brick_size>, 3> layers{};  ///< voxels in each layer along each axis
   std::array<int, 3> middle{};  ///< layer along each axis up to which half of the voxels lie
   int voxels = 0;
-  float fill = 1.0F;  ///< volume of its voxels by the codes, surface voxels included, over their number
-  Material material = Material::rock;
-  bool held = false;     ///< touches ground, or continues outside the surroundings
-  uint32_t next = none;  ///< next part of the same brick
+  float fill = 1.0F;    ///< volume of its voxels by the codes, surface voxels included, over their number
+  Material material{};  ///< where `each` is null
+  std::shared_ptr<const BrickRock> each{};  ///< the brick's, where this part is of several materials
+  float density_kg_m3 = 0.0F;               ///< mean over its voxels
+  float bending_pa = 0.0F;                  ///< what the weakest of its materials bears
+  bool held = false;                        ///< touches ground, or continues outside the surroundings
+  uint32_t next = none;                     ///< next part of the same brick
 
   bool is_whole() const { return voxels == whole_voxels; }
+  /// `at`: relative to the brick's first voxel.
+  Material material_at(VoxelCoord at) const {
+    return each == nullptr ? material : (*each)[static_cast<size_t>(Brick::index(at.x, at.y, at.z))];
+  }
 };
 
 /// Two parts that touch, `upper` beyond the + face of `lower` along the axis (0: x, 1: y, 2: z).
@@ -50,8 +60,9 @@ struct SectionVoxels {
 class SupportParts {
  public:
   /// Every part that connects to the changed bricks, or to their neighbours, through the surroundings: the
-  /// bricks' bounds grown by `reach_bricks`. `field` must outlive this.
-  SupportParts(Field& field, std::span<const BrickCoord> changed, int reach_bricks, size_t parts_max);
+  /// bricks' bounds grown by `reach_bricks`. `field` and `palette` must outlive this.
+  SupportParts(Field& field, const Palette& palette, std::span<const BrickCoord> changed, int reach_bricks,
+               size_t parts_max);
 
   const std::vector<SupportPart>& parts() const { return parts_; }
   const std::vector<SupportLink>& links() const { return links_; }
@@ -67,6 +78,13 @@ class SupportParts {
   std::pair<int, int> common_places(std::span<const SupportLink> links) const;
   /// The voxels of a section on its lower side, each with a next neighbour on the upper side.
   SectionVoxels section_voxels(const SupportLink& link, int at) const;
+  /// Calls f(material, material) for each pair of voxels that a section consists of: its lower side's, and
+  /// its upper side's. Cheap only where is_mixed().
+  template <typename F>
+  void for_each_pair(const SupportLink& link, int at, F&& f) const;
+  bool is_mixed(const SupportLink& link) const {
+    return parts_[link.lower].each != nullptr || parts_[link.upper].each != nullptr;
+  }
   /// Smallest box of the voxels on both sides of the links' sections there, in the field's coordinates.
   /// At least one of them has voxels there.
   VoxelBox section_box(std::span<const SupportLink> links, int at) const;
@@ -80,10 +98,12 @@ class SupportParts {
   /// Ground::holds(), which is asked once for each chunk.
   bool is_ground(BrickCoord brick);
   void add(BrickCoord brick, const BrickBits& bits, float fill, uint32_t& first);
+  void read_materials(SupportPart& part) const;
   void connect(uint32_t part, size_t face);
   SupportLink link_of(uint32_t lower, uint32_t upper, int axis) const;
 
   Field& field_;
+  const Palette& palette_;
   Ground ground_;
   size_t parts_max_;
   BrickCoord lo_, size_;  ///< surroundings
@@ -95,5 +115,22 @@ class SupportParts {
   std::vector<SupportLink> links_;
   bool overflow_ = false;
 };
+
+template <typename F>
+void SupportParts::for_each_pair(const SupportLink& link, int at, F&& f) const {
+  const SupportPart& low = parts_[at > 0 ? link.upper : link.lower];
+  const SupportPart& high = parts_[at < 0 ? link.lower : link.upper];
+  const SectionVoxels section = section_voxels(link, at);
+  VoxelCoord step{};
+  (link.axis == 0 ? step.x : link.axis == 1 ? step.y : step.z) = 1;
+  const VoxelCoord of_low = section.origin - first_voxel(low.brick);
+  const VoxelCoord of_high = section.origin + step - first_voxel(high.brick);
+  for (size_t x = 0; x < section.bits.words.size(); ++x)
+    for (uint64_t left = section.bits.words[x]; left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left);
+      const VoxelCoord voxel{static_cast<int>(x), bit / brick_size, bit % brick_size};
+      f(low.material_at(of_low + voxel), high.material_at(of_high + voxel));
+    }
+}
 
 }  // namespace scree

@@ -1,7 +1,6 @@
 #include "shared/falling/support_search.h"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <set>
 #include <tuple>
@@ -21,33 +20,30 @@ constexpr int neck_side_bricks = 4;
 /// Steps of the flow for each part.
 constexpr size_t steps_per_part = 400;
 
-/// Each number in grams, so that they add up exactly.
+/// What one face of a voxel carries, in grams, so that they add up exactly.
 struct Strength {
-  int64_t voxel = 0;                               ///< weight
-  int64_t pressed = 0, hanging = 0, sideways = 0;  ///< carried by one face of a voxel
+  int64_t pressed = 0, hanging = 0, sideways = 0;
 };
 
-Strength strength_of(Material material, float voxel_size_m) {
+Strength strength_of(const MaterialRow& traits, float voxel_size_m) {
   constexpr float grams = 1000.0F;
   const float area_m2 = voxel_size_m * voxel_size_m;
-  const MaterialRow& traits = traits_of(material);
   const Bearing& bearing = traits.bearing;
   const auto carried = [&](float pa) {
     return static_cast<int64_t>(pa * area_m2 / standard_gravity * grams);
   };
-  const float voxel_kg = traits.density_kg_m3 * area_m2 * voxel_size_m;
-  return {static_cast<int64_t>(voxel_kg * grams), carried(bearing.pressed_pa), carried(bearing.hanging_pa),
-          carried(bearing.sideways_pa)};
+  return {carried(bearing.pressed_pa), carried(bearing.hanging_pa), carried(bearing.sideways_pa)};
 }
 
 class Search {
  public:
-  Search(Field& field, std::span<const BrickCoord> changed, int reach_bricks)
+  Search(Field& field, const Palette& palette, std::span<const BrickCoord> changed, int reach_bricks)
       : field_(field),
-        parts_(field, changed, reach_bricks, support_parts_max),
+        palette_(palette),
+        parts_(field, palette, changed, reach_bricks, support_parts_max),
         changed_(changed.begin(), changed.end()) {
-    for (const Material material : all_kinds<Material>)
-      strengths_[static_cast<size_t>(material)] = strength_of(material, field.source().voxel_size_m);
+    for (const MaterialRow& row : palette.rows)
+      strengths_.push_back(strength_of(row, field.source().voxel_size_m));
   }
 
   SupportFound run() {
@@ -59,31 +55,53 @@ class Search {
     for (auto& [mass, overload] : gather())
       if (overload.voxels >= overload_voxels_min && !overload.necks.empty())
         found.overloads.push_back(std::move(overload));
-    if (found.overloads.empty()) found.overloads = find_levers(parts_, field_, changed_);
+    if (found.overloads.empty()) found.overloads = find_levers(parts_, field_, palette_, changed_);
     return found;
   }
 
  private:
-  const Strength& strength(uint32_t part) const {
-    return strengths_[static_cast<size_t>(parts_.parts()[part].material)];
+  const Strength& strength(Material material) const {
+    return strengths_[palette_.has(material) ? row_number(material) : 0];
+  }
+  static Strength weaker(const Strength& a, const Strength& b) {
+    return {std::min(a.pressed, b.pressed), std::min(a.hanging, b.hanging), std::min(a.sideways, b.sideways)};
+  }
+
+  /// What a link carries: its thinnest section; where materials mix, the weakest of its sections, pair by
+  /// pair of voxels.
+  Strength carried(const SupportLink& link) const {
+    if (!parts_.is_mixed(link)) {
+      const int64_t section = link.section;
+      const Strength each = weaker(strength(parts_.parts()[link.lower].material),
+                                   strength(parts_.parts()[link.upper].material));
+      return {section * each.pressed, section * each.hanging, section * each.sideways};
+    }
+    Strength least{INT64_MAX, INT64_MAX, INT64_MAX};
+    for (int at = parts_.first_place(link); at <= parts_.last_place(link); ++at) {
+      Strength sum;
+      parts_.for_each_pair(link, at, [&](Material low, Material high) {
+        const Strength pair = weaker(strength(low), strength(high));
+        sum = {sum.pressed + pair.pressed, sum.hanging + pair.hanging, sum.sideways + pair.sideways};
+      });
+      least = weaker(least, sum);
+    }
+    return least;
   }
 
   bool flow() {
+    constexpr float grams = 1000.0F;
+    const float dx = field_.source().voxel_size_m;
     for (const SupportPart& part : parts_.parts()) {
-      const uint32_t node =
-          flow_.add_node(strengths_[static_cast<size_t>(part.material)].voxel * part.voxels);
+      const auto voxel = static_cast<int64_t>(part.density_kg_m3 * (dx * dx) * dx * grams);
+      const uint32_t node = flow_.add_node(voxel * part.voxels);
       if (part.held) flow_.ground(node);
     }
     for (const SupportLink& link : parts_.links()) {
-      const Strength& a = strength(link.lower);
-      const Strength& b = strength(link.upper);
-      const int64_t section = link.section;
-      const int64_t sideways = section * std::min(a.sideways, b.sideways);
+      const Strength most = carried(link);
       if (link.axis == 1)
-        flow_.link(link.lower, link.upper, section * std::min(a.hanging, b.hanging),
-                   section * std::min(a.pressed, b.pressed));
+        flow_.link(link.lower, link.upper, most.hanging, most.pressed);
       else
-        flow_.link(link.lower, link.upper, sideways, sideways);
+        flow_.link(link.lower, link.upper, most.sideways, most.sideways);
     }
     return flow_.run(steps_per_part * std::max<size_t>(parts_.parts().size(), 1));
   }
@@ -158,17 +176,19 @@ class Search {
   }
 
   Field& field_;
+  const Palette& palette_;
   SupportParts parts_;
   std::set<BrickCoord> changed_;
-  std::array<Strength, kind_count<Material>> strengths_;  ///< by material
+  std::vector<Strength> strengths_;  ///< by row of the palette
   LoadFlow flow_;
   std::vector<uint32_t> mass_;  ///< by part
 };
 
 }  // namespace
 
-SupportFound find_overloads(Field& field, std::span<const BrickCoord> changed, int reach_bricks) {
-  return Search(field, changed, reach_bricks).run();
+SupportFound find_overloads(Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                            int reach_bricks) {
+  return Search(field, palette, changed, reach_bricks).run();
 }
 
 }  // namespace scree

@@ -19,6 +19,7 @@
 
 #include "shared/falling/overload.h"
 #include "shared/field/field.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -29,7 +30,8 @@ struct SupportFound {
 };
 
 /// Searches the bounds of the changed bricks, grown by `reach_bricks` in every direction.
-SupportFound find_overloads(Field& field, std::span<const BrickCoord> changed, int reach_bricks);
+SupportFound find_overloads(Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                            int reach_bricks);
 
 /// Parts of one search: more than any solid ground has; 10 ms. Above, the search gives up.
 inline constexpr size_t support_parts_max = 16384;

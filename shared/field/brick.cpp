@@ -56,4 +56,11 @@ uint64_t painted_brick_hash(BrickCoord coord, const Brick& brick, uint8_t materi
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
+uint64_t mixed_brick_hash(BrickCoord coord, const Brick& brick, const uint8_t* voxels) {
+  std::array<unsigned char, hashed_bytes + brick_voxels> bytes;
+  lay_out(coord, brick, bytes.data());
+  std::memcpy(bytes.data() + hashed_bytes, voxels, brick_voxels);
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
 }  // namespace scree

@@ -54,7 +54,9 @@ const Brick* uniform_equivalent(const Brick& brick);
 
 /// XXH3 of the coordinate and the codes.
 uint64_t brick_hash(BrickCoord coord, const Brick& brick);
-/// XXH3 of the coordinate, the codes and the number of the material that the brick is painted with.
+/// XXH3 of the coordinate, the codes and the number of the material that all of the brick is of.
 uint64_t painted_brick_hash(BrickCoord coord, const Brick& brick, uint8_t material);
+/// XXH3 of the coordinate, the codes and brick_voxels bytes that say what each voxel is of.
+uint64_t mixed_brick_hash(BrickCoord coord, const Brick& brick, const uint8_t* voxels);
 
 }  // namespace scree

@@ -1,19 +1,17 @@
 // An edited brick as a value: what a field holds of it, and a wire or a file carries.
 #pragma once
 
-#include <optional>
-
 #include "shared/field/brick.h"
+#include "shared/field/brick_materials.h"
 #include "shared/field/coord.h"
-#include "shared/field/material.h"
 
 namespace scree {
 
-/// A brick's codes and paint.
+/// A brick's codes, and what its voxels say of their materials.
 struct BrickPatch {
   BrickCoord coord;
   Brick brick;
-  std::optional<Material> paint = std::nullopt;
+  BrickMaterials materials{};
 };
 
 }  // namespace scree

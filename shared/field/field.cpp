@@ -9,10 +9,6 @@
 
 namespace scree {
 
-uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material> paint) {
-  return paint ? painted_brick_hash(coord, brick, static_cast<uint8_t>(*paint)) : brick_hash(coord, brick);
-}
-
 Field::Field(const TerrainSource& source) : source_(source), generated_(limits::generated_bytes_max) {
   CHECK(source.voxel_size_m > 0.0F);
 }
@@ -93,45 +89,50 @@ void Field::set_brick(BrickCoord coord, const Brick& brick) {
     if (chunk.bricks == 0) residence_.enter(chunk_of(coord), 0);  // its first edit follows
   }
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
-  const std::optional<Material> paint = painted(coord);
+  const BrickMaterials said = materials(coord);
   const bool edited = (chunk.bricks & bit) != 0 || find_below(coord) != nullptr;
   CHECK_DEBUG(edited == (find_edited(coord) != nullptr));
-  uint64_t change = brick_hash(coord, brick, paint);
-  if (edited) change -= brick_hash(coord, *find_edited(coord), paint);
+  uint64_t change = brick_hash(coord, brick, said);
+  if (edited) change -= brick_hash(coord, *find_edited(coord), said);
   store_edited(coord, brick);
   edited_bricks_ += edited ? 0 : 1;
   if (!edited && pages()) residence_.add_brick();
   chunk.bricks |= bit;
-  if (paint) chunk.paint[index_in_chunk(coord)] = *paint;  // a layer's own from now on
+  if (!said.is_ground()) chunk.materials[index_in_chunk(coord)] = said;  // a layer's own from now on
   if (last_ && last_->coord == chunk_of(coord)) last_->edited = chunk.bricks;
   chunk.hash += change;
   hash_ += change;
 }
 
-std::optional<Material> Field::painted(BrickCoord coord) const {
+BrickMaterials Field::materials(BrickCoord coord) const {
   const auto chunk = edited_.find(chunk_of(coord));
   const bool own = chunk != edited_.end() && ((chunk->second.bricks >> index_in_chunk(coord)) & 1U) != 0;
-  if (!own) return below_ == nullptr ? std::nullopt : below_->painted(coord);
+  if (!own) return below_ == nullptr ? BrickMaterials() : below_->materials(coord);
   if (chunk->second.out) use(chunk->first, chunk->second);
-  const auto paint = chunk->second.paint.find(index_in_chunk(coord));
-  if (paint == chunk->second.paint.end()) return std::nullopt;
-  return paint->second;
+  const auto said = chunk->second.materials.find(index_in_chunk(coord));
+  return said == chunk->second.materials.end() ? BrickMaterials() : said->second;
 }
 
-void Field::paint_brick(BrickCoord coord, std::optional<Material> paint) {
-  const std::optional<Material> before = painted(coord);
-  if (before == paint) return;
+void Field::set_materials(BrickCoord coord, const BrickMaterials& now) {
+  const BrickMaterials before = materials(coord);
+  if (before == now) return;
   const bool own = below_ == nullptr && is_edited(coord);
   if (!own) set_brick(coord, Brick(brick(coord)));
   EditedChunk& chunk = edited_[chunk_of(coord)];
   const Brick& codes = *find_edited(coord);
-  const uint64_t change = brick_hash(coord, codes, paint) - brick_hash(coord, codes, before);
-  if (paint)
-    chunk.paint[index_in_chunk(coord)] = *paint;
+  const uint64_t change = brick_hash(coord, codes, now) - brick_hash(coord, codes, before);
+  if (now.is_ground())
+    chunk.materials.erase(index_in_chunk(coord));
   else
-    chunk.paint.erase(index_in_chunk(coord));
+    chunk.materials[index_in_chunk(coord)] = now;
   chunk.hash += change;
   hash_ += change;
+}
+
+const BrickMaterials& Field::ground_materials(BrickCoord coord) const {
+  if (below_ != nullptr) return below_->ground_materials(coord);
+  if (!may_be_layered(source_, coord)) return bulk_;
+  return ground_materials_.of(source_, coord, generated_chunk(chunk_of(coord)));
 }
 
 void Field::forget_chunk(ChunkCoord chunk) {
@@ -141,7 +142,7 @@ void Field::forget_chunk(ChunkCoord chunk) {
   last_.reset();
   uint64_t hash_left = found->second.hash;
   for (const BrickCoord coord : edited_bricks(chunk)) {
-    hash_left -= brick_hash(coord, *find_edited(coord), painted(coord));
+    hash_left -= brick_hash(coord, *find_edited(coord), materials(coord));
     erase_edited(coord);
   }
   const auto forgotten = static_cast<size_t>(std::popcount(found->second.bricks));
@@ -217,7 +218,7 @@ void Field::page_out(ChunkCoord chunk) {
   for (const BrickCoord brick : bricks) edited.mass += brick_mass(*find_edited(brick));
   for (const BrickCoord brick : bricks) erase_edited(brick);
   chunk_left(chunk);
-  edited.paint.clear();
+  edited.materials.clear();
   edited.out = true;
   residence_.leave(chunk, bricks.size());
   last_.reset();
@@ -259,7 +260,7 @@ bool Field::page_in(ChunkCoord chunk, std::span<const BrickPatch> bricks) {
 void Field::enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPatch> bricks) {
   for (const BrickPatch& patch : bricks) {
     store_edited(patch.coord, patch.brick);
-    if (patch.paint) edited.paint[index_in_chunk(patch.coord)] = *patch.paint;
+    if (!patch.materials.is_ground()) edited.materials[index_in_chunk(patch.coord)] = patch.materials;
   }
   edited.out = false;
   edited.used = residence_.turn();
@@ -272,7 +273,7 @@ void Field::use(ChunkCoord chunk, const EditedChunk& edited) const {
   if (edited.out) residence_.bring_in(chunk);
 }
 
-/// Codes and paint stay the same for every reader.
+/// Codes and materials stay the same for every reader.
 void Field::bring_in(ChunkCoord chunk, const ReadChunk& read) {
   residence_.count_wait();
   const Result<std::vector<BrickPatch>> bricks = read(chunk);

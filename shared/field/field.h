@@ -4,11 +4,12 @@
 // layer over another one: what was edited in the layer is the layer's, all else reads as the one below does,
 // as that stands at the time. A field that is no layer, and has none over it, may leave chunks out of memory
 // (paging.h).
-// A const function changes no code and no paint. It may still generate ground, keep it, and bring chunks in,
-// so a field is not thread-safe, not even for reading. Its parts: GeneratedCache (unedited chunks that are
-// kept) and ChunkResidence (which edited chunks are in memory). The field itself has the edits: their bits,
-// paint and hashes. Invariants: hash() is the sum of brick_hash over the edited bricks with their paint,
-// chunk_hash() the same sum over one chunk; painted bricks are edited ones.
+// A const function changes no code and no material. It may still generate ground, keep it, and bring chunks
+// in, so a field is not thread-safe, not even for reading. Its parts: GeneratedCache (unedited chunks that
+// are kept), GroundMaterialCache (their materials) and ChunkResidence (which edited chunks are in memory).
+// The field itself has the edits: their bits, materials and hashes. Invariants: hash() is the sum of
+// brick_hash over the edited bricks with their materials, chunk_hash() the same sum over one chunk; bricks
+// whose materials were changed are edited ones.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -19,17 +20,15 @@
 #include <unordered_map>
 #include <vector>
 
+#include "shared/field/brick_materials.h"
 #include "shared/field/chunk_residence.h"
 #include "shared/field/generated_cache.h"
-#include "shared/field/material.h"
+#include "shared/field/ground_materials.h"
 #include "shared/field/paging.h"
 #include "shared/field/terrain.h"
 #include "shared/field/window.h"
 
 namespace scree {
-
-/// XXH3 of the coordinate, the codes and, when the brick is painted, the material's number.
-uint64_t brick_hash(BrickCoord coord, const Brick& brick, std::optional<Material> paint);
 
 class Field {
  public:
@@ -59,10 +58,13 @@ class Field {
   bool has_edits(ChunkCoord chunk) const { return edited_bits(chunk) != 0; }
   /// Marks the brick as edited, even when the codes are those generated.
   void set_brick(BrickCoord coord, const Brick& brick);
-  /// The material that the brick is painted with, if any.
-  std::optional<Material> painted(BrickCoord coord) const;
-  /// Paints the brick, or removes its paint; marks it as edited. Its codes stay.
-  void paint_brick(BrickCoord coord, std::optional<Material> paint);
+  /// What the brick's voxels say of their materials; ground_own of all where nobody changed any.
+  BrickMaterials materials(BrickCoord coord) const;
+  /// Changes what they say, and marks the brick as edited. Its codes stay.
+  void set_materials(BrickCoord coord, const BrickMaterials& materials);
+  /// The ground's own materials there (ground_materials.h): no voxel says ground_own. Same lifetime as
+  /// brick().
+  const BrickMaterials& ground_materials(BrickCoord coord) const;
   /// Forgets the edits of a chunk: it reads as generated again. Not of a layer.
   void forget_chunk(ChunkCoord chunk);
 
@@ -94,7 +96,7 @@ class Field {
   /// waits for `read`. It throws ChunkUnreadable when that fails, or gives other bricks than were dropped.
   void page_by(ReadChunk read);
   bool pages() const { return residence_.pages(); }
-  /// Drops the codes and paint of an edited chunk that is in.
+  /// Drops the codes and materials of an edited chunk that is in.
   void page_out(ChunkCoord chunk);
   /// Puts back what was read of a chunk that is out. False, and nothing changes, when it is something else.
   [[nodiscard]] bool page_in(ChunkCoord chunk, std::span<const BrickPatch> bricks);
@@ -131,8 +133,8 @@ class Field {
  private:
   struct EditedChunk {
     uint64_t hash = 0;
-    uint64_t bricks = 0;            ///< bit i: brick i of the chunk is edited
-    std::map<int, Material> paint;  ///< by index in the chunk
+    uint64_t bricks = 0;                      ///< bit i: brick i of the chunk is edited
+    std::map<int, BrickMaterials> materials;  ///< by index in the chunk; none is all of the ground
     bool out = false;
     MassUnits mass = 0;         ///< of a chunk that is out
     mutable uint64_t used = 0;  ///< turn in which somebody asked for it last
@@ -156,9 +158,11 @@ class Field {
   void enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPatch> bricks);
 
   TerrainSource source_;
-  const Field* below_ = nullptr;       ///< of a layer
-  mutable GeneratedCache generated_;   ///< of a layer empty: the field below keeps them
-  mutable uint64_t drops_heeded_ = 0;  ///< of generated_
+  const Field* below_ = nullptr;                  ///< of a layer
+  mutable GeneratedCache generated_;              ///< of a layer empty: the field below keeps them
+  mutable GroundMaterialCache ground_materials_;  ///< likewise
+  BrickMaterials bulk_{said(source_.rows.bulk)};  ///< of ground that no layer reaches
+  mutable uint64_t drops_heeded_ = 0;             ///< of generated_
   std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
   mutable std::optional<LastChunk> last_;  ///< none in a layer: the field below changes without its knowledge
   size_t edited_bricks_ = 0;

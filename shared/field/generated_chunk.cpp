@@ -38,6 +38,19 @@ GeneratedChunk chunk_from(F&& brick_at) {
 
 }  // namespace
 
+std::shared_ptr<const ChunkMaterials> stored_materials_of(const ChunkMaterials& materials) {
+  if (std::ranges::all_of(materials, &BrickMaterials::is_ground)) return nullptr;
+  return std::make_shared<const ChunkMaterials>(materials);
+}
+
+size_t GeneratedChunk::bytes() const {
+  size_t sum = sizeof(GeneratedChunk) + stored * sizeof(Brick);
+  if (stored_materials == nullptr) return sum;
+  sum += sizeof(ChunkMaterials);
+  for (const BrickMaterials& materials : *stored_materials) sum += materials.bytes();
+  return sum;
+}
+
 GeneratedChunk uniform_chunk(const Brick& brick) {
   GeneratedChunk chunk;
   chunk.bricks.fill(&brick);
@@ -62,15 +75,17 @@ GeneratedChunk chunk_of_bricks(const std::array<Brick, chunk_brick_count>& brick
 
 GeneratedChunk copy_of(const GeneratedChunk& from) {
   GeneratedChunk chunk = chunk_from([&](size_t i) -> const Brick& { return *from.bricks[i]; });
-  chunk.materials = from.materials;
+  chunk.stored_materials = from.stored_materials;
   chunk.exact = from.exact;
   return chunk;
 }
 
 bool same_bricks(const GeneratedChunk& a, const GeneratedChunk& b) {
-  return a.materials == b.materials &&
-         std::ranges::equal(a.bricks, b.bricks,
-                            [](const Brick* x, const Brick* y) { return x == y || *x == *y; });
+  const bool same = a.stored_materials == nullptr || b.stored_materials == nullptr
+                        ? a.stored_materials == b.stored_materials
+                        : *a.stored_materials == *b.stored_materials;
+  return same && std::ranges::equal(a.bricks, b.bricks,
+                                    [](const Brick* x, const Brick* y) { return x == y || *x == *y; });
 }
 
 }  // namespace scree

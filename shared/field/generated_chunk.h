@@ -2,27 +2,38 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 
+#include "shared/field/brick_materials.h"
 #include "shared/field/window.h"
 
 namespace scree {
 
 inline constexpr size_t chunk_brick_count = size_t{chunk_bricks} * chunk_bricks * chunk_bricks;
 
+/// What the bricks of a chunk say of their materials, in their order.
+using ChunkMaterials = std::array<BrickMaterials, chunk_brick_count>;
+
+/// Those materials as a chunk holds them: null where no brick says anything.
+std::shared_ptr<const ChunkMaterials> stored_materials_of(const ChunkMaterials& materials);
+
 /// A chunk of the ground. bricks[i] is never null; uniform bricks point to the shared ones.
 struct GeneratedChunk {
   std::array<const Brick*, chunk_brick_count> bricks;
   std::unique_ptr<Brick[]> storage;
   uint32_t stored = 0;  ///< bricks in storage
-  /// For each brick 1 + the material that the ground stores for it; 0: that of its layers (material.h).
-  std::array<uint8_t, chunk_brick_count> materials{};
+  /// What the ground stores of its bricks' materials; null: their layers decide (ground_materials.h).
+  std::shared_ptr<const ChunkMaterials> stored_materials;
   /// Whether all that decides it was there. If not, it looks alike, but its codes are not the ground's.
   bool exact = true;
 
+  BrickMaterials materials(int index) const {
+    return stored_materials == nullptr ? BrickMaterials() : (*stored_materials)[static_cast<size_t>(index)];
+  }
   /// What it takes in memory.
-  size_t bytes() const { return sizeof(GeneratedChunk) + stored * sizeof(Brick); }
+  size_t bytes() const;
 };
 
 /// `brick` is one of the shared uniform ones.

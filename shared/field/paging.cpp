@@ -12,7 +12,7 @@ Result<PagedChunk> paged_of(ChunkCoord chunk, std::span<const BrickPatch> bricks
     const uint64_t bit = uint64_t{1} << index_in_chunk(patch.coord);
     if ((left.bricks & bit) != 0) return fail("a brick comes twice");
     left.bricks |= bit;
-    left.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    left.hash += brick_hash(patch.coord, patch.brick, patch.materials);
     left.mass += brick_mass(patch.brick);
   }
   return left;

@@ -38,19 +38,15 @@ VoxelBox paint_box(const Shape& shape_voxels) {
   return box;
 }
 
-std::vector<BrickCoord> paint(Field& field, const Shape& shape_voxels, Material material) {
+std::vector<BrickCoord> paint_bricks(Field& field, const Shape& shape_voxels, Material material) {
   std::vector<BrickCoord> changed;
   for (const BrickCoord brick : bricks_of(shape_voxels)) {
-    if (field.painted(brick) == material) continue;
-    field.paint_brick(brick, material);
+    const BrickMaterials painted(said(material));
+    if (field.materials(brick) == painted) continue;
+    field.set_materials(brick, painted);
     changed.push_back(brick);
   }
   return changed;
-}
-
-Material material_at(const Field& field, glm::vec3 p_m) {
-  const auto paint = field.painted(brick_of(voxel_at(p_m / field.source().voxel_size_m)));
-  return paint ? *paint : material_at(field.source(), p_m);
 }
 
 }  // namespace scree

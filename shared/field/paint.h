@@ -1,6 +1,5 @@
-// Bricks painted with a material, which takes precedence over the generator's layers. Paint stays in its
-// bricks: pieces carved out of a painted brick are of that material, and material poured or merged into a
-// painted brick takes the paint's.
+// Painting whole bricks, as operations of the first recordings did. Paint stays in its bricks: what was
+// poured into a painted brick took the paint's material.
 #pragma once
 
 #include <vector>
@@ -17,10 +16,7 @@ std::vector<BrickCoord> bricks_of(const Shape& shape_voxels);
 /// The smallest box of voxels that holds those bricks.
 VoxelBox paint_box(const Shape& shape_voxels);
 
-/// Paints the shape's bricks. Returns the bricks whose paint changed, in order.
-std::vector<BrickCoord> paint(Field& field, const Shape& shape_voxels, Material material);
-
-/// The terrain's material at a place (metres): the paint of its brick, else the generated layer.
-Material material_at(const Field& field, glm::vec3 p_m);
+/// Paints the shape's bricks, whole. Returns the bricks whose materials changed, in order.
+std::vector<BrickCoord> paint_bricks(Field& field, const Shape& shape_voxels, Material material);
 
 }  // namespace scree

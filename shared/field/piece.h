@@ -8,7 +8,7 @@
 
 #include "shared/base/ids.h"
 #include "shared/field/mass.h"
-#include "shared/field/material.h"
+#include "shared/field/material_window.h"
 #include "shared/field/window.h"
 
 namespace scree {
@@ -16,12 +16,28 @@ namespace scree {
 /// A piece's shape, in the voxel frame of the terrain that it was cut from. Outside the window is air.
 struct Volume {
   Window window;
-  MassUnits mass = 0;                  ///< mass that the terrain lost to the piece; never changes
-  glm::vec3 centre_voxels{0.0F};       ///< centre of mass, in the window's frame, voxels
-  Material material = Material::rock;  ///< of the place where it was cut; its fragments keep it
+  MassUnits mass = 0;  ///< mass that the terrain lost to the piece; never changes
+  glm::vec3 centre_voxels{
+      0.0F};                   ///< centre of volume, in the window's frame, voxels: the origin of its poses
+  MaterialWindow materials{};  ///< of its voxels; over the window's box where they are not all one
+  MaterialMasses masses{};     ///< of `mass`, by material; empty where that is all of one
 };
 
-/// Where a piece is: its centre of mass, and the rotation from its volume's axes to the world's.
+/// The mass of a volume by material.
+inline MaterialMasses masses_of(const Volume& volume) {
+  if (!volume.masses.empty()) return volume.masses;
+  return {{volume.materials.all, volume.mass}};
+}
+
+/// The material that most of a volume is of.
+inline Material main_material(const Volume& volume) {
+  const MaterialMass* most = nullptr;
+  for (const MaterialMass& one : volume.masses)
+    if (most == nullptr || one.mass > most->mass) most = &one;
+  return most == nullptr ? volume.materials.all : most->material;
+}
+
+/// Where a piece is: its volume's centre, and the rotation from its volume's axes to the world's.
 struct Pose {
   glm::vec3 position_m{0.0F};
   glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};

@@ -13,6 +13,7 @@
 #include "shared/base/kind_table.h"
 #include "shared/field/generated_chunk.h"
 #include "shared/field/stored_chunks.h"
+#include "shared/material/material.h"
 
 namespace scree {
 
@@ -45,6 +46,7 @@ struct TerrainSource {
   float voxel_size_m = 0.25F;
   /// If there is one, the ground is made from it, and kind and seed mean nothing.
   std::shared_ptr<const GroundModel> heights{};
+  GroundRows rows{};  ///< what it is made of
 
   bool operator==(const TerrainSource&) const = default;
 };

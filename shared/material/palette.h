@@ -149,6 +149,10 @@ struct Palette {
   bool has(Material material) const { return row_number(material) < rows.size(); }
   /// The row of a material that the palette has.
   const MaterialRow& row(Material material) const;
+  /// The same, or the first row where the palette has none: for what came of another palette.
+  const MaterialRow& row_or_first(Material material) const {
+    return row(has(material) ? material : Material{});
+  }
   std::string_view name(Material material) const { return row(material).name; }
   std::optional<Material> named(std::string_view name) const;
   std::vector<std::string_view> names() const;

@@ -1,8 +1,12 @@
-// Where the mass of a world is. The simulation checks the sum after every tick, recordings keep it for each
-// tick.
+// Where the mass of a world is, in all and by material. The simulation checks the sums after every tick,
+// recordings keep the first for each tick.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "shared/field/mass.h"
+#include "shared/material/material.h"
 
 namespace scree {
 
@@ -17,6 +21,57 @@ struct Ledger {
 
   MassUnits error() const { return terrain + pieces + dust - poured; }
   bool operator==(const Ledger&) const = default;
+};
+
+/// What an operation did to the mass of one material. The rest, by which these do not balance, is dust.
+struct MaterialFlow {
+  Material material{};
+  MassUnits terrain = 0;
+  MassUnits pieces = 0;
+  MassUnits poured = 0;
+  MassUnits converted = 0;  ///< into this material, by paint
+
+  bool operator==(const MaterialFlow&) const = default;
+};
+
+/// The ledger of each material. Invariants: of each row, terrain + pieces + dust = poured + converted; dust
+/// and pieces are not negative; all that is converted sums up to 0.
+///
+/// A voxel counts for one material, also where rests of two lie in it. What a merge gave too much to one, and
+/// too little to another, the dust of these takes and gives; where there is not enough, it is `converted`.
+class MaterialLedger {
+ public:
+  struct Row {
+    MassUnits terrain = 0;
+    MassUnits pieces = 0;
+    MassUnits dust = 0;
+    MassUnits poured = 0;
+    MassUnits converted = 0;
+
+    MassUnits error() const { return terrain + pieces + dust - poured - converted; }
+    bool operator==(const Row&) const = default;
+  };
+
+  MaterialLedger() = default;
+  /// Of these rows, by material; they need not balance.
+  explicit MaterialLedger(std::vector<Row> rows) : rows_(std::move(rows)) {}
+  /// A ledger that keeps no materials, entered as that of one.
+  MaterialLedger(const Ledger& all, Material material);
+
+  /// Enters one operation's flows, whose sum leaves no dust less than nothing.
+  void enter(std::span<const MaterialFlow> flows);
+
+  /// By material; those beyond have nothing.
+  const std::vector<Row>& rows() const { return rows_; }
+  /// Whether the invariants hold, and the sums are those of the whole.
+  bool agrees(const Ledger& all) const;
+  bool operator==(const MaterialLedger&) const = default;
+
+ private:
+  Row& row(Material material);
+  MassUnits convert(std::span<const MaterialFlow> flows, MassUnits missing);
+
+  std::vector<Row> rows_;
 };
 
 }  // namespace scree

@@ -1,9 +1,8 @@
 #include "shared/operation/operation.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
-#include <string>
+#include <iterator>
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -11,24 +10,45 @@
 #include "shared/falling/island.h"
 #include "shared/field/edit.h"
 #include "shared/field/paint.h"
+#include "shared/fracture/material_shares.h"
 #include "shared/fracture/seeds.h"
 #include "shared/fracture/shatter.h"
 #include "shared/operation/prepared_stamp.h"
+#include "shared/recombine/stamp_materials.h"
 
 namespace scree {
 
 namespace {
 
-bool in_world(glm::vec3 p) {
-  return std::abs(p.x) <= limits::world_half_width_m && std::abs(p.z) <= limits::world_half_width_m &&
-         std::abs(p.y) <= limits::world_half_height_m;
+MaterialFlow& flow_of(Applied& applied, Material material) {
+  for (MaterialFlow& flow : applied.flows)
+    if (flow.material == material) return flow;
+  applied.flows.push_back({.material = material});
+  return applied.flows.back();
+}
+
+void enter_terrain(Applied& applied, const MaterialMasses& gains) {
+  for (const MaterialMass& gain : gains) flow_of(applied, gain.material).terrain += gain.mass;
+}
+
+void enter_piece(Applied& applied, const Volume& volume, int sign) {
+  for (const MaterialMass& one : masses_of(volume)) flow_of(applied, one.material).pieces += sign * one.mass;
+}
+
+/// The terrain's gain by material.
+MaterialMasses gain_of(const Window& before, const MaterialWindow& were, const Window& after,
+                       const MaterialWindow& are) {
+  if (were.is_uniform() && are.is_uniform() && were.all == are.all)
+    return {{were.all, mass_of(after) - mass_of(before)}};
+  MaterialMasses gains = masses_of(after, are);
+  for (const MaterialMass& one : masses_of(before, were)) add(gains, one.material, -one.mass);
+  return gains;
 }
 
 /// The cut's pieces go into the table, from that id on.
-template <typename MaterialOf>
-void enter(Cut cut, PieceId id, MaterialOf&& material_of, PieceTable& pieces, Applied& applied) {
+void enter(Cut cut, PieceId id, PieceTable& pieces, Applied& applied) {
   for (CutPiece& piece : cut.pieces) {
-    piece.volume.material = material_of(piece.volume);
+    enter_piece(applied, piece.volume, 1);
     pieces[id] = std::make_shared<const Volume>(std::move(piece.volume));
     applied.created.push_back({id, std::move(piece.seeds)});
     ++id;
@@ -60,23 +80,49 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   const Window volume = extract(before, solid);
   Applied applied;
   applied.seeds_voxels = seeds_of(carve_op, volume, dx);
-  const auto material_of = [&](const Volume& piece) { return material_at(field, piece.centre_voxels * dx); };
-  enter(cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels), carve_op.first_piece,
-        material_of, pieces, applied);
+  const MaterialWindow materials = gather_materials(field, before.box);
+  MaterialMasses lost = gain_of(before, materials, after, materials);
+  enter_terrain(applied, lost);
+  applied.terrain_gain = sum_of(lost);
+  std::erase_if(lost, [](const MaterialMass& one) { return one.mass == 0; });
+  for (MaterialMass& one : lost) one.mass = -one.mass;
+  Cut cut = cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels);
+  share_materials(cut, materials, lost);
+  enter(std::move(cut), carve_op.first_piece, pieces, applied);
   applied.changed = scatter(field, after);
-  applied.terrain_gain = mass_of(after) - mass_of(before);
   CHECK_EQ(mass_created(applied, pieces) + applied.dust, -applied.terrain_gain);
   return applied;
 }
 
+/// Puts codes and the marked voxels' materials into the field, and notes the bricks that changed.
+void write(Field& field, const Window& codes, const std::vector<uint8_t>& marks,
+           const MaterialWindow& materials, Applied& applied) {
+  applied.changed = scatter(field, codes);
+  if (marks.empty()) return;
+  std::vector<BrickCoord> both;
+  std::ranges::set_union(applied.changed, set_materials(field, codes.box, marks, materials),
+                         std::back_inserter(both));
+  applied.changed = std::move(both);
+}
+
 Applied apply_fill(const FillOperation& fill_op, Field& field) {
   const Shape shape = in_voxels(fill_op.shape, field.source().voxel_size_m);
-  Window window = gather(field, band_box(shape));
+  const Window before = gather(field, band_box(shape));
+  Window after = before;
+  fill(after, codes_of(shape, after.box));
+  const MaterialWindow were = gather_materials(field, before.box);
+  MaterialWindow are = were;
+  std::vector<uint8_t> marks;
+  if (fill_op.material) marks = fill_materials(are, before, after, *fill_op.material);
   Applied applied;
-  applied.terrain_gain = -mass_of(window);
-  fill(window, codes_of(shape, window.box));
-  applied.terrain_gain += mass_of(window);
-  applied.changed = scatter(field, window);
+  const MaterialMasses gains = gain_of(before, were, after, are);
+  applied.terrain_gain = sum_of(gains);
+  enter_terrain(applied, gains);
+  if (fill_op.material)
+    flow_of(applied, *fill_op.material).poured += applied.terrain_gain;
+  else
+    for (const MaterialMass& gain : gains) flow_of(applied, gain.material).poured += gain.mass;
+  write(field, after, marks, are, applied);
   return applied;
 }
 
@@ -115,24 +161,49 @@ bool gives(const StampOperation& op, Field& field, const Volumes& volumes, const
   return stamped(op, field, volumes, gain).codes == prepared.after.codes && gain == prepared.gain;
 }
 
+std::vector<MergedPiece> merged_pieces(const StampOperation& op, const Volumes& volumes) {
+  std::vector<MergedPiece> merged{{*volumes.front(), op.pose}};
+  for (size_t i = 0; i < op.others.size(); ++i) merged.push_back({*volumes[i + 1], op.others[i].pose});
+  return merged;
+}
+
 Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
                     const PreparedStamp* prepared) {
   Volumes volumes{remove_piece(pieces, op.piece)};
   for (const StampedPiece& other : op.others) volumes.push_back(remove_piece(pieces, other.piece));
   Applied applied;
+  for (const auto& volume : volumes) enter_piece(applied, *volume, -1);
+  Window computed;
+  const Window* after = &computed;
   if (prepared != nullptr && prepared->holds(op, field, volumes)) {
     CHECK_DEBUG(gives(op, field, volumes, *prepared));
     applied.terrain_gain = prepared->gain;
-    applied.changed = scatter(field, prepared->after);
+    after = &prepared->after;
+  } else {
+    computed = stamped(op, field, volumes, applied.terrain_gain);
+  }
+  MaterialWindow materials = gather_materials(field, after->box);
+  const std::vector<MergedPiece> merged = merged_pieces(op, volumes);
+  if (materials.is_uniform() && (!op.brings_materials || are_all_of(merged, materials.all))) {
+    flow_of(applied, materials.all).terrain += applied.terrain_gain;
+    applied.changed = scatter(field, *after);
     return applied;
   }
-  applied.changed = scatter(field, stamped(op, field, volumes, applied.terrain_gain));
+  const Window before = gather(field, after->box);
+  const MaterialWindow were = materials;
+  std::vector<uint8_t> marks;
+  if (op.brings_materials)
+    marks = merge_materials(materials, before, *after, merged, field.source().voxel_size_m);
+  enter_terrain(applied, gain_of(before, were, *after, materials));
+  write(field, *after, marks, materials, applied);
   return applied;
 }
 
 Applied apply_discard(const DiscardOperation& op, PieceTable& pieces) {
+  const std::shared_ptr<const Volume> volume = remove_piece(pieces, op.piece);
   Applied applied;
-  applied.dust = remove_piece(pieces, op.piece)->mass;
+  applied.dust = volume->mass;
+  enter_piece(applied, *volume, -1);
   return applied;
 }
 
@@ -141,31 +212,78 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
   Applied applied;
   applied.seeds_voxels =
       scatter_seeds(volume->window, op.pattern, op.seeds, op.random_seed, op.impact_voxels);
-  const auto parents = [&](const Volume&) { return volume->material; };
-  enter(shatter(op.cutter, *volume, applied.seeds_voxels), op.first_piece, parents, pieces, applied);
+  Cut cut = shatter(op.cutter, *volume, applied.seeds_voxels);
+  share_materials(cut, volume->materials, masses_of(*volume));
+  enter_piece(applied, *volume, -1);
+  enter(std::move(cut), op.first_piece, pieces, applied);
   CHECK_EQ(mass_created(applied, pieces) + applied.dust, volume->mass);
   return applied;
 }
 
+/// The materials of an island, and its mass by material: what the terrain lost.
+void give_materials(Volume& volume, const Window& before, const Window& after,
+                    const MaterialWindow& materials, Applied& applied) {
+  volume.materials = part_of(materials, volume.window.box);
+  spread(volume.materials, volume.window);
+  const MaterialMasses gains = gain_of(before, materials, after, materials);
+  enter_terrain(applied, gains);
+  for (const MaterialMass& gain : gains)
+    if (gain.mass != 0) add(volume.masses, gain.material, -gain.mass);
+  const bool of_one = volume.masses.size() == 1 && volume.materials.is_uniform();
+  if (of_one && volume.masses.front().material == volume.materials.all) volume.masses.clear();
+}
+
 Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces) {
   Window window = gather(field, lift_box(op.box));
+  const MaterialWindow materials = gather_materials(field, window.box);
+  const Window before = materials.is_uniform() ? Window() : window;
   Volume volume = lift(window, op.box, op.start);
-  volume.material = material_at(field, volume.centre_voxels * field.source().voxel_size_m);
+  volume.materials.all = materials.all;
   Applied applied;
   applied.terrain_gain = -volume.mass;
+  if (materials.is_uniform())
+    enter_terrain(applied, {{materials.all, applied.terrain_gain}});
+  else
+    give_materials(volume, before, window, materials, applied);
   applied.changed = scatter(field, window);
   if (volume.mass < limits::piece_mass_min) {
     applied.dust = volume.mass;
     return applied;
   }
   pieces[op.piece] = std::make_shared<const Volume>(std::move(volume));
+  enter_piece(applied, *pieces[op.piece], 1);
   applied.created.push_back({op.piece, {}});
   return applied;
 }
 
+/// A byte for each voxel of the box: 1 where it has rock, and its centre lies in the shape.
+std::vector<uint8_t> rock_within(const Shape& shape_voxels, const Window& codes) {
+  std::vector<uint8_t> marks(codes.codes.size());
+  size_t at = 0;
+  for (int x = codes.box.lo.x; x < codes.box.hi.x; ++x)
+    for (int y = codes.box.lo.y; y < codes.box.hi.y; ++y)
+      for (int z = codes.box.lo.z; z < codes.box.hi.z; ++z, ++at)
+        if (occupancy(codes.codes[at]) > 0 && distance(shape_voxels, glm::vec3(x, y, z)) <= 0.0F)
+          marks[at] = 1;
+  return marks;
+}
+
 Applied apply_paint(const PaintOperation& op, Field& field) {
+  const Shape shape = in_voxels(op.shape, field.source().voxel_size_m);
+  const Window codes = gather(field, op.whole_bricks ? paint_box(shape) : band_box(shape));
+  const MaterialWindow were = gather_materials(field, codes.box);
   Applied applied;
-  applied.changed = paint(field, in_voxels(op.shape, field.source().voxel_size_m), op.material);
+  if (op.whole_bricks)
+    applied.changed = paint_bricks(field, shape, op.material);
+  else
+    applied.changed =
+        set_materials(field, codes.box, rock_within(shape, codes), {codes.box, op.material, {}});
+  if (applied.changed.empty()) return applied;
+  for (const MaterialMass& gain : gain_of(codes, were, codes, gather_materials(field, codes.box))) {
+    MaterialFlow& flow = flow_of(applied, gain.material);
+    flow.terrain += gain.mass;
+    flow.converted += gain.mass;
+  }
   return applied;
 }
 
@@ -181,138 +299,7 @@ VoxelBox box_of(const StampOperation& op, const PieceTable& pieces, float voxel_
   return box;
 }
 
-Result<void> known(PieceId id, const PieceTable& pieces) {
-  if (pieces.contains(id)) return {};
-  return fail("there is no piece " + std::to_string(id));
-}
-
-/// New ids must be free: an operation off a wire could otherwise replace living pieces.
-Result<void> validate_new_ids(PieceIds made, const PieceTable& pieces) {
-  const auto taken = pieces.lower_bound(made.first);
-  if (made.count == 0 || taken == pieces.end() || taken->first - made.first >= made.count) return {};
-  return fail("piece " + std::to_string(taken->first) + " is alive already");
-}
-
-Result<void> validate_seeds(Cutter cutter, uint32_t seeds, PieceId first_piece) {
-  TRY(validate_kind(cutter, "cutter"));
-  if (seeds == 0) return fail("a carve needs at least one seed");
-  if (seeds > limits::seeds_max)
-    return fail(std::to_string(seeds) + " seeds are over the limit of " + std::to_string(limits::seeds_max) +
-                " (limits.seeds_max)");
-  if (first_piece > UINT32_MAX - seeds) return fail("the piece ids are used up");
-  return {};
-}
-
-bool is_finite(glm::vec3 v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-Result<void> validate_authored(const CarveOperation& op) {
-  const size_t wanted = is_drawn(op.pattern) ? 0 : op.seeds;
-  if (wanted > limits::authored_seeds_max)
-    return fail(std::to_string(wanted) + " " + std::string(name_of(op.pattern)) +
-                " seeds are over the limit of " + std::to_string(limits::authored_seeds_max) +
-                " (limits.authored_seeds_max)");
-  if (op.authored_m.size() != wanted)
-    return fail(std::to_string(op.authored_m.size()) + " authored seeds for a carve of " +
-                std::to_string(wanted) + " (a pattern that needs points has as many as seeds, others none)");
-  for (const glm::vec3& point_m : op.authored_m) {
-    if (!is_finite(point_m)) return fail("an authored seed's position is not a finite number");
-    if (!in_world(point_m)) return fail("an authored seed is outside the world (limits.world_half_width_m)");
-  }
-  return {};
-}
-
-Result<void> validate_group(const StampOperation& op, const PieceTable& pieces) {
-  if (!lays(op.method))
-    return fail("the method " + std::string(name_of(op.method)) + " merges one piece at a time");
-  std::vector<StampedPiece> group{{op.piece, op.pose}};
-  for (const StampedPiece& other : op.others) {
-    TRY(known(other.piece, pieces));
-    if (std::ranges::find(group, other.piece, &StampedPiece::piece) != group.end())
-      return fail("piece " + std::to_string(other.piece) + " is stamped twice");
-    if (!in_world(dequantise(other.pose).position_m))
-      return fail("the stamp is outside the world (limits.world_half_width_m)");
-    group.push_back(other);
-  }
-  if (!can_merge_together(group, pieces))
-    return fail("the pieces are too many, too large or too far apart for one stamp (limits.stamp_group_max)");
-  return {};
-}
-
-/// A piece off a wire may be larger than any that a world makes.
-Result<void> validate_window(const StampOperation& op, const Volume& volume, float voxel_size_m) {
-  const size_t voxels = Window::count(stamp_box(op.method, volume, op.pose, voxel_size_m));
-  if (voxels <= limits::stamp_voxels_max) return {};
-  return fail("the stamp of piece " + std::to_string(op.piece) + " has a window of " +
-              std::to_string(voxels) + " voxels, over the limit of " +
-              std::to_string(limits::stamp_voxels_max) + " (limits.stamp_voxels_max)");
-}
-
-struct Validator {
-  const PieceTable& pieces;
-  float voxel_size_m;
-
-  Result<void> operator()(const CarveOperation& op) const {
-    TRY(validate_edit(op.shape));
-    if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
-    if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
-    TRY(validate_carve_pattern(op.pattern));
-    TRY(validate_authored(op));
-    return validate_seeds(op.cutter, op.seeds, op.first_piece);
-  }
-  Result<void> operator()(const FillOperation& op) const { return validate_edit(op.shape); }
-  Result<void> operator()(const PaintOperation& op) const {
-    TRY(validate_kind(op.material, "material"));
-    return validate_edit(op.shape);
-  }
-  Result<void> operator()(const StampOperation& op) const {
-    TRY(known(op.piece, pieces));
-    TRY(validate_kind(op.method, "stamp's method"));
-    if (std::abs(op.shift) > stamp_shift_max)
-      return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
-    if (!in_world(dequantise(op.pose).position_m))
-      return fail("the stamp is outside the world (limits.world_half_width_m)");
-    if (!op.others.empty()) return validate_group(op, pieces);
-    return validate_window(op, *pieces.at(op.piece), voxel_size_m);
-  }
-  Result<void> operator()(const DiscardOperation& op) const { return known(op.piece, pieces); }
-  Result<void> operator()(const ShatterOperation& op) const {
-    TRY(known(op.piece, pieces));
-    if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
-    TRY(validate_shatter_pattern(op.pattern));
-    return validate_seeds(op.cutter, op.seeds, op.first_piece);
-  }
-  Result<void> operator()(const IslandOperation& op) const {
-    constexpr auto far = static_cast<int>(limits::world_half_width_m / limits::voxel_size_min_m);
-    const VoxelBox world{{-far, -far, -far}, {far, far, far}};
-    if (!world.holds(op.box.lo) || !world.holds(op.box.hi))
-      return fail("the island is outside the world (limits.world_half_width_m)");
-    const VoxelCoord size = op.box.size();
-    if (std::max({size.x, size.y, size.z}) > limits::island_side_max_bricks * brick_size)
-      return fail("the island is longer than " + std::to_string(limits::island_side_max_bricks) +
-                  " bricks (limits.island_side_max_bricks)");
-    if (!op.box.holds(op.start)) return fail("the island's start is outside its box");
-    if (op.piece == UINT32_MAX) return fail("the piece ids are used up");
-    return {};
-  }
-};
-
 }  // namespace
-
-Result<void> validate_edit(const Shape& shape) {
-  TRY(validate(shape));
-  const float reach = reach_of(shape);
-  if (reach > limits::edit_reach_max_m + limits::edit_reach_rounding_m)
-    return fail("half the shape's longest extent is " + std::to_string(reach) + " m, and may be at most " +
-                std::to_string(limits::edit_reach_max_m) + " m (limits.edit_reach_max_m)");
-  if (reach < limits::edit_reach_min_m - limits::edit_reach_rounding_m)
-    return fail("half the shape's longest extent is " + std::to_string(reach) + " m, and must be at least " +
-                std::to_string(limits::edit_reach_min_m) + " m (limits.edit_reach_min_m)");
-  if (!in_world(centre_of(shape)))
-    return fail("the place is outside the world (limits.world_half_width_m, limits.world_half_height_m)");
-  return {};
-}
 
 bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& pieces) {
   CHECK(!group.empty());
@@ -328,17 +315,19 @@ bool can_merge_together(std::span<const StampedPiece> group, const PieceTable& p
 
 VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
   const auto around = [&](const Shape& shape) { return band_box(in_voxels(shape, voxel_size_m)); };
-  return std::visit(
-      Overloaded{
-          [&](const CarveOperation& op) { return around(op.shape); },
-          [&](const FillOperation& op) { return around(op.shape); },
-          [&](const StampOperation& op) { return box_of(op, pieces, voxel_size_m); },
-          [](const DiscardOperation&) { return VoxelBox{}; },
-          [](const ShatterOperation&) { return VoxelBox{}; },
-          [](const IslandOperation& op) { return lift_box(op.box); },
-          [&](const PaintOperation& op) { return paint_box(in_voxels(op.shape, voxel_size_m)); },
-      },
-      operation);
+  return std::visit(Overloaded{
+                        [&](const CarveOperation& op) { return around(op.shape); },
+                        [&](const FillOperation& op) { return around(op.shape); },
+                        [&](const StampOperation& op) { return box_of(op, pieces, voxel_size_m); },
+                        [](const DiscardOperation&) { return VoxelBox{}; },
+                        [](const ShatterOperation&) { return VoxelBox{}; },
+                        [](const IslandOperation& op) { return lift_box(op.box); },
+                        [&](const PaintOperation& op) {
+                          return op.whole_bricks ? paint_box(in_voxels(op.shape, voxel_size_m))
+                                                 : around(op.shape);
+                        },
+                    },
+                    operation);
 }
 
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces, const PreparedStamp* prepared) {
@@ -352,11 +341,6 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
                         [&](const PaintOperation& op) { return apply_paint(op, field); },
                     },
                     operation);
-}
-
-Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m) {
-  TRY(std::visit(Validator{pieces, voxel_size_m}, operation));
-  return validate_new_ids(ids_made_by(operation), pieces);
 }
 
 Window carved_volume(Field& field, const Shape& shape) {

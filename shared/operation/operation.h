@@ -16,6 +16,7 @@
 #include "shared/field/shape.h"
 #include "shared/fracture/cutter.h"
 #include "shared/fracture/seed_pattern.h"
+#include "shared/operation/ledger.h"
 #include "shared/recombine/stamp_method.h"
 
 namespace scree {
@@ -39,6 +40,8 @@ struct CarveOperation {
 struct FillOperation {
   static constexpr std::string_view plural = "fills";
   Shape shape;
+  /// Nothing: of what the voxels are already, as a brick's paint and the ground say.
+  std::optional<Material> material{};
 
   bool operator==(const FillOperation&) const = default;
 };
@@ -61,6 +64,9 @@ struct StampOperation {
   int32_t shift = 0;  ///< decides how the mass is met, as the method defines it
   StampMethod method = StampMethod::stamp;
   std::vector<StampedPiece> others{};
+  /// The voxels become what the pieces are of (stamp_materials.h). False in recordings from before pieces had
+  /// materials of their own: the voxels stay what they were.
+  bool brings_materials = true;
 
   bool operator==(const StampOperation&) const = default;
 };
@@ -100,11 +106,12 @@ struct IslandOperation {
   bool operator==(const IslandOperation&) const = default;
 };
 
-/// The bricks of a shape (paint.h) become this material; no code changes.
+/// The voxels with rock whose centres lie in a shape become this material; no code changes.
 struct PaintOperation {
   static constexpr std::string_view plural = "paints";
   Shape shape;
-  Material material = Material::rock;
+  Material material = material::rock;
+  bool whole_bricks = false;  ///< as recordings have it from before voxels had materials (paint.h)
 
   bool operator==(const PaintOperation&) const = default;
 };
@@ -141,11 +148,12 @@ struct CreatedPiece {
 };
 
 struct Applied {
-  std::vector<BrickCoord> changed;    ///< bricks whose codes or paint changed, in order
+  std::vector<BrickCoord> changed;    ///< bricks whose codes or materials changed, in order
   std::vector<CreatedPiece> created;  ///< in order of id; their volumes are in the table
   std::vector<glm::vec3> seeds_voxels;
   MassUnits terrain_gain = 0;  ///< negative for a carve
   MassUnits dust = 0;  ///< mass that went into no piece (carve, shatter, island), or a discarded piece's
+  std::vector<MaterialFlow> flows;  ///< the same by material; what they leave is dust
 };
 
 /// The voxels that apply() reads: a field that holds their bricks can apply the operation.

@@ -3,14 +3,15 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "shared/base/overloaded.h"
 #include "shared/base/setting_value.h"
-#include "shared/field/material.h"
 #include "shared/field/shape.h"
 #include "shared/fracture/seed_pattern.h"
+#include "shared/material/material.h"
 
 namespace scree {
 
@@ -28,14 +29,15 @@ struct CarveRequest {
 
 struct FillRequest {
   Shape shape;
+  std::optional<Material> material{};  ///< nothing: as FillOperation says
 
   bool operator==(const FillRequest&) const = default;
 };
 
-/// The bricks of the shape (shared/field/paint.h) become this material.
+/// The rock in the shape becomes this material, voxel by voxel.
 struct PaintRequest {
   Shape shape;
-  Material material = Material::rock;
+  Material material = material::rock;
 
   bool operator==(const PaintRequest&) const = default;
 };

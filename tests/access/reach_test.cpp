@@ -43,7 +43,7 @@ TEST_F(ReachTest, carvers_and_builders_edit_near_their_eye_and_administrators_an
   EXPECT_TRUE(holds(words, "64 m (reach)")) << words;
   const auto builder = join(token(Role::builder), Role::builder);
   EXPECT_EQ(asked(*builder, FillMessage{{far}, 2}), "reach");
-  EXPECT_EQ(asked(*builder, PaintMessage{{far, Material::ice}, 3}), "reach");
+  EXPECT_EQ(asked(*builder, PaintMessage{{far, material::ice}, 3}), "reach");
   EXPECT_EQ(asked(*builder, FillMessage{{sphere({0.0F, 0.0F, 60.0F}, 1.0F)}, 4}), "");
   const auto administrator = join(the_admin_token, Role::admin);
   EXPECT_EQ(asked(*administrator, CarveMessage{{.shape = far}, 5}), "");

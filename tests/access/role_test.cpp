@@ -25,7 +25,7 @@ TEST_F(RoleTest, each_may_do_what_those_before_it_may_and_no_more) {
     commands.drain();
     const Shape shape = sphere({}, 1.0F);
     const ClientMessage requests[] = {CarveMessage{{.shape = shape}, 1}, FillMessage{{shape}, 2},
-                                      PaintMessage{{shape, Material::ice}, 3},
+                                      PaintMessage{{shape, material::ice}, 3},
                                       AdminMessage{4, "", SettingsRequest{{{"dents", "false"}}}}};
     const Role needed[] = {Role::carver, Role::builder, Role::builder, Role::admin};
     size_t allowed = 0;

@@ -15,7 +15,7 @@ BrickPatch patch_at(BrickCoord coord, Code fill) {
 
 TEST(ChunkText, bricks_without_a_surface_take_a_line_each) {
   BrickPatch rock = patch_at({-3, 1, 8}, code_solid);
-  rock.paint = Material::ice;
+  rock.paint = material::ice;
   const std::vector<BrickPatch> bricks = {patch_at({-3, 2, 8}, code_air), rock};
   const std::string text = chunk_text({-1, 0, 2}, bricks);
   EXPECT_TRUE(

@@ -192,14 +192,14 @@ TEST_F(HostHooksTest, edits_that_the_host_refuses_reserve_no_memory) {
   for (int at = 0; at < 600; ++at) {
     const glm::vec3 centre_m{static_cast<float>(40 * (at % 40) - 800), 0.0F,
                              static_cast<float>(40 * (at / 40))};
-    ASSERT_TRUE(server->push({0, 2, PaintRequest{box(centre_m, glm::vec3(4.6F)), Material::ice}}));
+    ASSERT_TRUE(server->push({0, 2, PaintRequest{box(centre_m, glm::vec3(4.6F)), material::ice}}));
     if (at % 10 == 9) {
       ASSERT_TRUE(server->step_once());
     }
   }
   ASSERT_EQ(replies.size(), 600U);
   for (const Reply& reply : replies) ASSERT_EQ(reply.refusal, "no");
-  ASSERT_TRUE(server->push({0, 1, PaintRequest{box(glm::vec3(0.0F), glm::vec3(4.6F)), Material::ice}}));
+  ASSERT_TRUE(server->push({0, 1, PaintRequest{box(glm::vec3(0.0F), glm::vec3(4.6F)), material::ice}}));
   ASSERT_TRUE(server->step_once());
   ASSERT_EQ(replies.size(), 601U);
   EXPECT_EQ(replies.back().refusal, "") << "there is room for it";

@@ -63,14 +63,14 @@ TEST_F(SpawnSession, here_is_the_eye_of_the_person_who_is_there) {
   const auto welcome = person.receive_as<WelcomeMessage>();
   ASSERT_TRUE(welcome.has_value());
   ASSERT_TRUE(person.send(CursorMessage{{5.0F, 3.0F, 5.0F}, {5.0F, 3.0F, 0.0F}}));
-  ASSERT_TRUE(person.send(PaintMessage{{sphere({0.0F, 0.0F, 0.0F}, 1.0F), Material::soil}, 1}));
+  ASSERT_TRUE(person.send(PaintMessage{{sphere({0.0F, 0.0F, 0.0F}, 1.0F), material::soil}, 1}));
   ASSERT_TRUE(person.receive_as<ReplyMessage>().has_value()) << "the server has read as far as that";
   EXPECT_EQ(refusal("here"), "");
   const Spawn there{{5.0F, 3.0F, 5.0F}, 0.0F, 0.0F};
   EXPECT_EQ(welcomed(), there);
   EXPECT_TRUE(holds(refusal("here 999"), "session 999 has no eye"));
   ASSERT_TRUE(person.send(CursorMessage{{7.0F, 3.0F, 5.0F}, {0.0F, 3.0F, 5.0F}}));
-  ASSERT_TRUE(person.send(PaintMessage{{sphere({0.0F, 0.0F, 0.0F}, 1.0F), Material::rock}, 2}));
+  ASSERT_TRUE(person.send(PaintMessage{{sphere({0.0F, 0.0F, 0.0F}, 1.0F), material::rock}, 2}));
   ASSERT_TRUE(person.receive_as<ReplyMessage>().has_value());
   EXPECT_EQ(refusal("here " + std::to_string(welcome->session)), "");
   EXPECT_EQ(welcomed(), (Spawn{{7.0F, 3.0F, 5.0F}, 90.0F, 0.0F}));
@@ -79,7 +79,7 @@ TEST_F(SpawnSession, here_is_the_eye_of_the_person_who_is_there) {
 TEST_F(SpawnSession, who_has_no_place_follows_the_world_around_it) {
   RawClient builder(server->port());
   ASSERT_TRUE(builder.send(HelloMessage{protocol_version, "test", {}, 8.0F}));
-  ASSERT_TRUE(builder.send(PaintMessage{{sphere({3.0F, 0.0F, -4.0F}, 1.0F), Material::soil}, 1}));
+  ASSERT_TRUE(builder.send(PaintMessage{{sphere({3.0F, 0.0F, -4.0F}, 1.0F), material::soil}, 1}));
   ASSERT_TRUE(builder.receive_as<ReplyMessage>().has_value());
   HelloMessage hello{protocol_version, "test", {900.0F, 0.0F, 0.0F}, 8.0F};
   hello.at_spawn = true;

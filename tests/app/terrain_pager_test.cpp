@@ -231,7 +231,7 @@ TEST_F(PagerTest, without_room_edits_are_refused_by_name_or_wait_where_room_will
   // Paint of 8 m edits at most 9³ bricks and costs no pieces.
   const auto paint = [&](uint32_t at) {
     const float x_m = 40.0F * static_cast<float>(at % 40) - 800.0F, z_m = 40.0F * static_cast<float>(at / 40);
-    return Command{1, at, PaintRequest{box({x_m, 0.0F, z_m}, glm::vec3(4.6F)), Material::ice}};
+    return Command{1, at, PaintRequest{box({x_m, 0.0F, z_m}, glm::vec3(4.6F)), material::ice}};
   };
   open(0);
   uint32_t at = 0;
@@ -260,7 +260,7 @@ TEST_F(PagerTest, an_answer_frees_the_room_of_one_edit_though_others_have_its_nu
   config.memory_max_mb = limits::memory_max_min_mb;
   open(0);
   constexpr uint32_t number = 7;
-  const Command paint{1, number, PaintRequest{box(glm::vec3(0.0F), glm::vec3(4.6F)), Material::ice}};
+  const Command paint{1, number, PaintRequest{box(glm::vec3(0.0F), glm::vec3(4.6F)), material::ice}};
   const Command change{1, number, SettingsRequest{{{"impacts", "false"}}}};
   const std::vector<Reply> answer{{1, number, {}, 0}};
   const auto is_admitted = [&](const Command& command) {
@@ -293,7 +293,7 @@ TEST_F(PagerTest, shapes_that_no_operation_may_have_are_refused_by_the_simulatio
         ASSERT_FALSE(validate_edit(shape)) << far_m;
         const Command commands[] = {{1, ++asked, CarveRequest{.shape = shape}},
                                     {1, ++asked, FillRequest{shape}},
-                                    {1, ++asked, PaintRequest{shape, Material::ice}}};
+                                    {1, ++asked, PaintRequest{shape, material::ice}}};
         for (const Command& command : commands) {
           const Admitted admitted = admission.admit({command}, {*world, *pager, nullptr, true});
           ASSERT_EQ(admitted.commands.size(), 1U) << far_m;

@@ -21,7 +21,7 @@ BodyShape box_shape(glm::vec3 half_m) {
   for (int i = 0; i < 8; ++i)
     shape.hull_m.emplace_back((i & 4) != 0 ? half_m.x : -half_m.x, (i & 2) != 0 ? half_m.y : -half_m.y,
                               (i & 1) != 0 ? half_m.z : -half_m.z);
-  shape.mass_kg = 8.0F * half_m.x * half_m.y * half_m.z * traits_of(Material::rock).density_kg_m3;
+  shape.mass_kg = 8.0F * half_m.x * half_m.y * half_m.z * traits_of(material::rock).density_kg_m3;
   const glm::vec3 squares = half_m * half_m;
   const glm::vec3 sums(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y);
   for (int axis = 0; axis < 3; ++axis) shape.inertia_kg_m2[axis][axis] = sums[axis] * shape.mass_kg / 3.0F;
@@ -140,10 +140,10 @@ TEST(Bodies, hulls_that_overlap_are_counted_and_those_that_touch_are_not) {
 }
 
 TEST(Bodies, the_material_of_the_ground_holds_them_back) {
-  const float on_soil = slide_m(Material::soil), on_rock = slide_m(Material::rock);
+  const float on_soil = slide_m(material::soil), on_rock = slide_m(material::rock);
   EXPECT_GT(on_soil, 0.1F);
   EXPECT_GT(on_rock, 1.1F * on_soil);
-  EXPECT_GT(slide_m(Material::ice), 1.3F * on_rock);
+  EXPECT_GT(slide_m(material::ice), 1.3F * on_rock);
 }
 
 TEST(Bodies, none_of_two_hundred_falls_through_noise_terrain) {

@@ -30,7 +30,7 @@ struct Carved {
   Carved() {
     source.step({source.carve({1.0F, -0.5F, 1.0F}, 1.5F, 4), source.carve({12.0F, 0.0F, 1.0F}, 1.0F, 1),
                  source.carve({40.0F, 0.0F, 1.0F}, 1.0F, 1)});
-    source.field().paint_brick(source.field().edited_bricks(chunks().front()).front(), Material::ice);
+    source.field().paint_brick(source.field().edited_bricks(chunks().front()).front(), material::ice);
     store();
   }
   void store() {

@@ -198,7 +198,7 @@ TEST(Predictions, several_lie_over_each_other_in_the_order_of_asking) {
 TEST(Predictions, fills_and_paint_are_seen_and_taken_back_alike) {
   Foreseeing client;
   const FillRequest fill{box({0.0F, 1.0F, 0.0F}, {1.0F, 1.0F, 1.0F})};
-  const PaintRequest paint{sphere({1.0F, 0.0F, 1.0F}, 2.0F), Material::ice};
+  const PaintRequest paint{sphere({1.0F, 0.0F, 1.0F}, 2.0F), material::ice};
   ASSERT_TRUE(client.foresee(1, fill));
   ASSERT_TRUE(client.foresee(2, paint));
   EXPECT_FALSE(client.foresee(3, SettingsRequest{{{"impacts", "false"}}})) << "edits nothing";

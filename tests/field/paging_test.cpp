@@ -24,7 +24,7 @@ class PagingTest : public ::testing::Test {
         Random random(static_cast<uint32_t>(i));
         const BrickCoord coord{static_cast<int>(random.next() % 24), static_cast<int>(random.next() % 8), 0};
         each->set_brick(coord, i % 5 == 0 ? solid_brick() : scribbled(random));
-        if (i % 7 == 0) each->paint_brick(coord, Material::ice);
+        if (i % 7 == 0) each->paint_brick(coord, material::ice);
       }
   }
 
@@ -75,7 +75,7 @@ TEST_F(PagingTest, whoever_reads_or_writes_brings_it_in_once) {
     const bool paints = i % 3 == 0;
     for (Field* each : {static_cast<Field*>(&field), static_cast<Field*>(&other)}) {
       if (paints)
-        each->paint_brick(coord, i % 2 == 0 ? std::optional(Material::soil) : std::nullopt);
+        each->paint_brick(coord, i % 2 == 0 ? std::optional(material::soil) : std::nullopt);
       else
         each->set_brick(coord, brick);
     }

@@ -48,7 +48,7 @@ void add_cube(WeldedSurface& surface, int x, int y, int z) {
     at[static_cast<size_t>(i)] = static_cast<uint32_t>(found - surface.points.begin());
     if (found != surface.points.end()) continue;
     surface.points.push_back(p);
-    surface.materials.push_back(Material::rock);
+    surface.materials.push_back(material::rock);
   }
   for (const auto& [a, b, c, d] : std::initializer_list<std::array<size_t, 4>>{
            {0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}) {
@@ -103,7 +103,7 @@ class ExportTest : public ::testing::Test {
 };
 
 TEST_F(ExportTest, a_glb_is_one_closed_mesh_with_the_colours_of_its_materials) {
-  field_.paint_brick(brick_of(VoxelCoord{12, 20, 12}), Material::ice);
+  field_.paint_brick(brick_of(VoxelCoord{12, 20, 12}), material::ice);
   const auto exported = export_mesh(field_, box_, folder_ / "rock.glb", quiet);
   ASSERT_TRUE(exported) << exported.error().message;
   const std::string bytes = read(folder_ / "rock.glb");

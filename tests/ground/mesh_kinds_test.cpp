@@ -97,8 +97,8 @@ TEST_F(MeshKinds, materials_go_by_the_nearest_triangle) {
   const auto file = GroundFile::open(folder_ / "made.ground");
   ASSERT_TRUE(file);
   const TerrainSource source{.heights = *file};
-  EXPECT_EQ(material_at(source, {0.5F, 5.5F, 0.5F}), Material::ice);
-  EXPECT_EQ(material_at(source, {4.5F, 3.0F, 0.5F}), Material::rock);
+  EXPECT_EQ(material_at(source, {0.5F, 5.5F, 0.5F}), material::ice);
+  EXPECT_EQ(material_at(source, {4.5F, 3.0F, 0.5F}), material::rock);
 }
 
 TEST_F(MeshKinds, open_sheets_are_filled_down_or_refused) {

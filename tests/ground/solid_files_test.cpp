@@ -166,7 +166,7 @@ TEST_F(SolidFiles, edits_and_paint_are_exported_with_the_ground) {
   MapField field({.heights = *file});
   const BrickCoord hole{0, 3, 0}, painted{-1, 3, 0};
   field.set_brick(hole, air_brick());
-  field.paint_brick(painted, Material::ice);
+  field.paint_brick(painted, material::ice);
   ASSERT_TRUE(export_vdb(field, *whole_of(field), folder_ / "edited.vdb", [](double) {}));
   const auto back = read_solids({folder_ / "edited.vdb"}, {});
   ASSERT_TRUE(back) << back.error().message;
@@ -180,7 +180,7 @@ TEST_F(SolidFiles, edits_and_paint_are_exported_with_the_ground) {
     for (int i = 0; i < 64; ++i)
       ASSERT_EQ(again.brick(brick_in_chunk(chunk, i)), field.brick(brick_in_chunk(chunk, i)));
   });
-  EXPECT_EQ(material_at(source, {-0.5F, 6.5F, 0.5F}), Material::ice);
+  EXPECT_EQ(material_at(source, {-0.5F, 6.5F, 0.5F}), material::ice);
 }
 
 TEST_F(SolidFiles, exported_meshes_are_closed_and_have_the_rock_s_volume) {

@@ -145,9 +145,9 @@ TEST_F(VdbChoices, materials_of_single_voxels_are_read_and_silent_ones_are_not) 
     for (int y = 28; y < 68; ++y)
       for (int z = -28; z < 12; ++z) {
         if (x < middle_x)
-          voxels.setValueOn({x, y, z}, static_cast<int32_t>(Material::ice));
+          voxels.setValueOn({x, y, z}, static_cast<int32_t>(material::ice));
         else
-          voxels.setValueOff({x, y, z}, static_cast<int32_t>(Material::soil));
+          voxels.setValueOff({x, y, z}, static_cast<int32_t>(material::soil));
       }
   const auto read = read_solids({written({rock, materials})}, {});
   ASSERT_TRUE(read) << read.error().message;
@@ -156,8 +156,8 @@ TEST_F(VdbChoices, materials_of_single_voxels_are_read_and_silent_ones_are_not) 
   const auto file = GroundFile::open(folder_ / "ball.ground");
   ASSERT_TRUE(file);
   const TerrainSource source{.heights = *file};
-  EXPECT_EQ(material_at(source, {0.5F, 12.0F, -2.0F}), Material::ice);
-  EXPECT_EQ(material_at(source, {5.5F, 12.0F, -2.0F}), Material::rock);
+  EXPECT_EQ(material_at(source, {0.5F, 12.0F, -2.0F}), material::ice);
+  EXPECT_EQ(material_at(source, {5.5F, 12.0F, -2.0F}), material::rock);
 }
 
 TEST_F(VdbChoices, volumes_without_an_inside_are_refused_in_their_own_words) {

@@ -26,9 +26,9 @@ class GrowthServerTest : public NetServerTest {
     PaintMessage paint;
     paint.request = 9;
     paint.shape = sphere({}, 1.0F);
-    paint.material = Material::ice;
+    paint.material = material::ice;
     std::vector<uint8_t> bytes = encode(ClientMessage(paint));
-    EXPECT_EQ(bytes.back(), static_cast<uint8_t>(Material::ice));
+    EXPECT_EQ(bytes.back(), static_cast<uint8_t>(material::ice));
     bytes.back() = 77;
     return bytes;
   }

@@ -21,7 +21,7 @@ class OlderClientTest : public PublisherTest {
     };
     std::vector<Operation> operations{source.carve(place(0.0F), 1.5F, 2 + random.below(6))};
     if (random.below(3) == 0) operations.push_back(FillOperation{sphere(place(1.0F), 1.0F)});
-    if (random.below(3) == 0) operations.push_back(PaintOperation{sphere(place(0.0F), 2.0F), Material::ice});
+    if (random.below(3) == 0) operations.push_back(PaintOperation{sphere(place(0.0F), 2.0F), material::ice});
     for (const auto& [id, volume] : source.pieces()) {
       if (random.below(8) == 0)
         operations.push_back(source.stamp(id));

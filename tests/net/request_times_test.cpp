@@ -67,7 +67,7 @@ TEST_F(NetServerTest, a_reply_says_how_long_each_stage_took) {
   ASSERT_TRUE(client.send(hello()));
   const auto welcome = client.receive_as<WelcomeMessage>();
   ASSERT_TRUE(welcome.has_value());
-  PaintMessage paint{{sphere({0.0F, 0.0F, 0.0F}, 1.0F), Material::ice}, 5};
+  PaintMessage paint{{sphere({0.0F, 0.0F, 0.0F}, 1.0F), material::ice}, 5};
   ASSERT_TRUE(client.send(paint));
   std::vector<Command> taken;
   const auto deadline = std::chrono::steady_clock::now() + seconds(10);

@@ -56,7 +56,7 @@ std::vector<uint8_t> with_last_byte(const ClientMessage& message, uint8_t was) {
 }
 
 TEST(Growth, a_request_with_an_unknown_kind_keeps_its_number_and_names_the_kind) {
-  const PaintMessage paint{{sphere({1.0F, 2.0F, 3.0F}, 1.0F), Material::ice}, 8};
+  const PaintMessage paint{{sphere({1.0F, 2.0F, 3.0F}, 1.0F), material::ice}, 8};
   const auto got = decode_client(samples::body_of(with_last_byte(paint, 2)));
   ASSERT_TRUE(got) << got.error().message;
   const auto& unknown = std::get<UnknownMessage>(*got);

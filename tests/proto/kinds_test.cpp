@@ -112,18 +112,18 @@ TEST(Kinds, every_shape_goes_through_every_codec_and_an_unknown_one_through_none
   for (const ShapeKind kind : all_kinds<ShapeKind>) {
     EXPECT_EQ(refusal(carve_message(kind, SeedPattern::radial)), "") << name_of(kind);
     EXPECT_EQ(refusal(FillMessage{{shape_of(kind)}, 1}), "") << name_of(kind);
-    EXPECT_EQ(refusal(PaintMessage{{shape_of(kind), Material::ice}, 1}), "") << name_of(kind);
+    EXPECT_EQ(refusal(PaintMessage{{shape_of(kind), material::ice}, 1}), "") << name_of(kind);
     EXPECT_EQ(refusal(Operation(carve_operation(kind, SeedPattern::radial))), "") << name_of(kind);
     EXPECT_EQ(refusal(Operation(FillOperation{shape_of(kind)})), "") << name_of(kind);
-    EXPECT_EQ(refusal(Operation(PaintOperation{shape_of(kind), Material::ice})), "") << name_of(kind);
+    EXPECT_EQ(refusal(Operation(PaintOperation{shape_of(kind), material::ice})), "") << name_of(kind);
   }
   constexpr auto none = unknown<ShapeKind>;
   EXPECT_TRUE(holds(refusal(carve_message(none, SeedPattern::radial)), "kind of shape"));
   EXPECT_TRUE(holds(refusal(FillMessage{{shape_of(none)}, 1}), "kind of shape"));
-  EXPECT_TRUE(holds(refusal(PaintMessage{{shape_of(none), Material::ice}, 1}), "kind of shape"));
+  EXPECT_TRUE(holds(refusal(PaintMessage{{shape_of(none), material::ice}, 1}), "kind of shape"));
   EXPECT_TRUE(holds(refusal(Operation(carve_operation(none, SeedPattern::radial))), "kind of shape"));
   EXPECT_TRUE(holds(refusal(Operation(FillOperation{shape_of(none)})), "kind of shape"));
-  EXPECT_TRUE(holds(refusal(Operation(PaintOperation{shape_of(none), Material::ice})), "kind of shape"));
+  EXPECT_TRUE(holds(refusal(Operation(PaintOperation{shape_of(none), material::ice})), "kind of shape"));
 }
 
 TEST(Kinds, every_pattern_goes_through_every_codec_and_an_unknown_one_through_none) {

@@ -32,7 +32,7 @@ TEST(RecordingCodec, a_keyframe_of_pieces_of_air_cannot_fill_the_memory) {
 
 TEST(RecordingCodec, commands_keep_their_parties) {
   std::vector<Command> commands(3);
-  for (uint32_t i = 0; i < 3; ++i) commands[i] = {i + 1, i, PaintRequest{sphere({}, 1.0F), Material::ice}, 0};
+  for (uint32_t i = 0; i < 3; ++i) commands[i] = {i + 1, i, PaintRequest{sphere({}, 1.0F), material::ice}, 0};
   EXPECT_EQ(decode_recorded_commands(encode(commands))->at(1).party, 0U);
   const size_t plain = encode(commands).size();
   commands[2].party = 2;
@@ -46,7 +46,7 @@ TEST(RecordingCodec, commands_keep_their_parties) {
 }
 
 TEST(RecordingCodec, parties_without_their_commands_are_refused) {
-  const std::vector<Command> commands = {{1, 1, PaintRequest{sphere({}, 1.0F), Material::ice}, 1}};
+  const std::vector<Command> commands = {{1, 1, PaintRequest{sphere({}, 1.0F), material::ice}, 1}};
   std::vector<uint8_t> blob = encode(commands);
   blob.insert(blob.end(), {0x1A, 1, 5});  // field 3, packed: one party more
   const auto read = decode_recorded_commands(blob);
@@ -55,7 +55,7 @@ TEST(RecordingCodec, parties_without_their_commands_are_refused) {
 }
 
 TEST(RecordingCodec, that_a_session_cannot_go_on_is_kept_among_the_commands) {
-  const std::vector<Command> commands = {{4, 1, PaintRequest{sphere({}, 1.0F), Material::ice}, 1},
+  const std::vector<Command> commands = {{4, 1, PaintRequest{sphere({}, 1.0F), material::ice}, 1},
                                          {4, 0, LeaveRequest{}, 0}};
   const auto read = decode_recorded_commands(encode(commands));
   ASSERT_TRUE(read) << read.error().message;

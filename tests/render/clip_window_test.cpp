@@ -137,7 +137,7 @@ TEST(PaintNumber, tells_every_material_apart_painted_or_in_a_cut) {
     EXPECT_LT(painted, paint_in_cuts) << name_of(material);
     EXPECT_LT(layer, 1U << paint_bits) << name_of(material);
     EXPECT_TRUE(numbers.insert(painted).second) << name_of(material);
-    EXPECT_EQ(numbers.insert(layer).second, material != Material::rock) << "fresh rock is no paint";
+    EXPECT_EQ(numbers.insert(layer).second, material != material::rock) << "fresh rock is no paint";
   }
 }
 

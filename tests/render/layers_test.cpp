@@ -12,7 +12,7 @@
 namespace scree {
 namespace {
 
-constexpr float soil_depth_m = traits_of(Material::soil).layer_depth_m;
+constexpr float soil_depth_m = traits_of(material::soil).layer_depth_m;
 /// A wall that faces the camera, from the ground down.
 constexpr float wall_z_m = -4.0F, pit_depth_m = 4.0F;
 
@@ -85,7 +85,7 @@ TEST_P(Layers, a_cut_lays_the_soil_bare) {
 
 TEST_P(Layers, paint_is_seen) {
   const std::vector<BrickCoord> painted =
-      paint(field_, in_voxels(box({0.0F, -3.0F, wall_z_m}, {4.0F, 1.5F, 3.0F}), voxel_m), Material::ice);
+      paint(field_, in_voxels(box({0.0F, -3.0F, wall_z_m}, {4.0F, 1.5F, 3.0F}), voxel_m), material::ice);
   changes_.bricks.insert(changes_.bricks.end(), painted.begin(), painted.end());
   const Image image = show();
   save_picture(image, "paint");

@@ -57,7 +57,7 @@ TEST_F(Looks, a_wall_is_worn_up_to_the_ground_that_it_ends_at) {
 }
 
 TEST_F(Looks, a_layer_becomes_thinner_with_depth_and_ends_as_deep_as_it_is) {
-  const float depth_m = traits_of(Material::soil).layer_depth_m;
+  const float depth_m = traits_of(material::soil).layer_depth_m;
   size_t walls = 0;
   for_each_vertex([&](const SurfaceVertex& vertex, glm::vec3 p) {
     if (std::abs(vertex.normal[0]) < 120 || vertex.before < 58) return;
@@ -69,20 +69,20 @@ TEST_F(Looks, a_layer_becomes_thinner_with_depth_and_ends_as_deep_as_it_is) {
 }
 
 TEST_F(Looks, paint_lies_beside_the_layer) {
-  paint(field_, in_voxels(box({2.0F, -2.0F, 2.0F}, {2.0F, 2.0F, 2.0F}), voxel_m), Material::ice);
+  paint(field_, in_voxels(box({2.0F, -2.0F, 2.0F}, {2.0F, 2.0F, 2.0F}), voxel_m), material::ice);
   size_t layered = 0;
   for_each_vertex([&](const SurfaceVertex& vertex, glm::vec3 p) {
     if (std::abs(vertex.normal[0]) < 120 || vertex.before < 58 || p.z < 1.0F || p.z > 15.0F) return;
-    EXPECT_EQ(vertex.paint % paint_in_cuts, paint_number(Material::ice)) << p.y;
+    EXPECT_EQ(vertex.paint % paint_in_cuts, paint_number(material::ice)) << p.y;
     layered += layer_m(vertex) > 0.2F;
   });
   EXPECT_GT(layered, 10U);
 }
 
 TEST(VertexPaint, tells_a_piece_that_is_of_one_material_from_one_that_is_of_a_layer) {
-  EXPECT_EQ(vertex_paint(paint_number(Material::ice)), paint_number(Material::ice));
-  EXPECT_EQ(vertex_paint(layer_number(Material::soil)), paint_in_cuts * layer_steps_max);
-  EXPECT_EQ(vertex_paint(layer_number(Material::rock)), 0);
+  EXPECT_EQ(vertex_paint(paint_number(material::ice)), paint_number(material::ice));
+  EXPECT_EQ(vertex_paint(layer_number(material::soil)), paint_in_cuts * layer_steps_max);
+  EXPECT_EQ(vertex_paint(layer_number(material::rock)), 0);
   EXPECT_EQ(vertex_paint(3, -1.0F), 3);
 }
 

@@ -43,7 +43,7 @@ inline std::shared_ptr<const GroundFile> written_table(const std::string& path,
                                                        std::shared_ptr<const GroundFile> hills) {
   std::vector<std::unique_ptr<Solid>> solids;
   const int top = static_cast<int>(top_m({.heights = hills}) * 4.0F) + 8;
-  solids.push_back(std::make_unique<BoxSolid>(VoxelBox{{-40, top, -40}, {40, top + 8, 40}}, Material::soil));
+  solids.push_back(std::make_unique<BoxSolid>(VoxelBox{{-40, top, -40}, {40, top + 8, 40}}, material::soil));
   solids.push_back(std::make_unique<BoxSolid>(VoxelBox{{-6, -200, -6}, {6, top + 4, 6}}));
   const auto imported = import_bricks(solids, path, {.on = std::move(hills)}, [](double) {});
   EXPECT_TRUE(imported) << imported.error().message;

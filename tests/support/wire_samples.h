@@ -25,7 +25,7 @@ inline Volume volume() {
     volume.window.codes[i] = static_cast<Code>(static_cast<int>(i % 255) - 127);
   volume.mass = 12345;
   volume.centre_voxels = {1.5F, 12.0F, 9.25F};
-  volume.material = Material::soil;
+  volume.material = material::soil;
   return volume;
 }
 
@@ -76,8 +76,8 @@ inline FrameMessage frame() {
       DiscardOperation{77791},
       ShatterOperation{77792, SeedPattern::uniform, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 80000, Cutter::slice},
       IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005},
-      PaintOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), Material::ice}};
-  frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2), Material::soil}};
+      PaintOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), material::ice}};
+  frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2), material::soil}};
   frame.dropped_chunks = {{1, -2, 3}, {-100, 0, 100}};
   frame.removed_pieces = {9, 4000000000U, 12};
   frame.transforms = pack_transforms(
@@ -132,7 +132,7 @@ inline std::vector<ServerMessage> server_messages() {
   ChunkMessage chunk;
   chunk.chunk = {-1, 2, 0};
   chunk.version = 17;
-  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), Material::rock}, {{-1, 11, 3}, noisy_brick(4)}};
+  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), material::rock}, {{-1, 11, 3}, noisy_brick(4)}};
   chunk.hash = 0xFEDCBA9876543210ULL;
   WelcomeMessage on_heights = welcome;
   on_heights.spawn = Spawn{{-3.5F, 40.25F, 17.0F}, -120.5F, 12.0F};
@@ -201,7 +201,7 @@ inline std::vector<ClientMessage> client_messages() {
           carve,
           authored,
           FillMessage{{sphere({0.0F, 1.0F, 0.0F}, 2.0F)}, 6},
-          PaintMessage{{box({0.0F, 1.0F, 0.0F}, {2.0F, 4.0F, 8.0F}), Material::ice}, 8},
+          PaintMessage{{box({0.0F, 1.0F, 0.0F}, {2.0F, 4.0F, 8.0F}), material::ice}, 8},
           RepairMessage{77, {{1, 2, 3}, {-4, 5, -6}}, {11, 0xFFFFFFFFFFFFFFFFULL}},
           AckMessage{1ULL << 40U},
           AdminMessage{8, "a-token-of-some-length", SettingsRequest{{{"dents", "false"}, {"impacts", ""}}}},

@@ -12,7 +12,7 @@ namespace scree {
 namespace {
 
 PieceEvent event_of(PieceEventKind kind, PieceId piece = 1) {
-  return {kind, {static_cast<float>(piece), 2.0F, -3.0F}, 1.0F, 9000.0F, Material::rock, piece};
+  return {kind, {static_cast<float>(piece), 2.0F, -3.0F}, 1.0F, 9000.0F, material::rock, piece};
 }
 
 bool same(const std::vector<Particle>& a, const std::vector<Particle>& b) {

@@ -24,7 +24,7 @@ std::vector<PieceEvent> blast_events() {
   std::vector<PieceEvent> events;
   for (int i = 0; i < 12; ++i)
     events.push_back({PieceEventKind::crack, {0.2F * static_cast<float>(i), 0.0F, -6.0F}, 0.7F, 2600.0F});
-  events.push_back({PieceEventKind::strike, {1.0F, 0.0F, -5.0F}, 0.7F, 1500.0F, Material::rock});
+  events.push_back({PieceEventKind::strike, {1.0F, 0.0F, -5.0F}, 0.7F, 1500.0F, material::rock});
   return events;
 }
 
@@ -70,14 +70,14 @@ TEST(Synthesiser, the_same_events_make_the_same_samples) {
 
 TEST(Synthesiser, no_crowd_of_sounds_goes_beyond_the_peak_or_the_voices) {
   Synthesiser synthesiser;
-  for (int i = 0; i < 1000; ++i) synthesiser.add({PieceEventKind::strike, {}, 2.0F, 1e9F, Material::ice}, {});
+  for (int i = 0; i < 1000; ++i) synthesiser.add({PieceEventKind::strike, {}, 2.0F, 1e9F, material::ice}, {});
   EXPECT_LE(synthesiser.voices(), limits::voices_max);
   EXPECT_LE(peak(synthesiser.render(second)), Synthesiser::peak_max);
 }
 
 TEST(Synthesiser, far_is_quieter_and_later_and_sides_are_heard) {
   const auto strike = [](glm::vec3 place_m) {
-    return std::vector<PieceEvent>{{PieceEventKind::strike, place_m, 0.5F, 3000.0F, Material::rock}};
+    return std::vector<PieceEvent>{{PieceEventKind::strike, place_m, 0.5F, 3000.0F, material::rock}};
   };
   const std::vector<float> near = rendered(strike({0.0F, 0.0F, -3.0F}), second);
   const std::vector<float> far = rendered(strike({0.0F, 0.0F, -100.0F}), second);

@@ -99,7 +99,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.width = 801;
   settings.method = all_methods().front().name;
   settings.method_options = values_of(GridShape{64, 4, GridSpacing::growing});
-  settings.tool = {ToolKind::box, ToolUse::paint, Material::ice, 3.25F, 12.0F, SeedPattern::uniform, 40};
+  settings.tool = {ToolKind::box, ToolUse::paint, material::ice, 3.25F, 12.0F, SeedPattern::uniform, 40};
   settings.hud = {Telling::all, true, true, false, true};
   settings.hand = {75.0F, 2.5F, 1.5F};
   settings.overlay = {true, false, true, false, true};
@@ -203,7 +203,7 @@ TEST(Tool, is_told_with_what_it_does_and_units) {
   tool.kind = ToolKind::box;
   EXPECT_EQ(describe(tool), "fill: box, radius 2.00 m");
   tool.use = ToolUse::paint;
-  tool.material = Material::ice;
+  tool.material = material::ice;
   EXPECT_EQ(describe(tool), "paint: box, radius 2.00 m, ice");
 }
 

@@ -57,32 +57,32 @@ TEST(paint, hashes_know_it_only_where_it_is_and_forget_it_with_its_chunk) {
     const Brick codes = field->brick(coord);
     field->paint_brick(coord, std::nullopt);
     EXPECT_EQ(field->hash(), 0U) << "no paint off what has none";
-    field->paint_brick(coord, Material::ice);
+    field->paint_brick(coord, material::ice);
     EXPECT_EQ(field->brick(coord), codes);
-    EXPECT_EQ(field->painted(coord), Material::ice);
-    EXPECT_EQ(field->hash(), brick_hash(coord, codes, Material::ice));
-    EXPECT_NE(field->hash(), brick_hash(coord, codes, Material::soil));
+    EXPECT_EQ(field->painted(coord), material::ice);
+    EXPECT_EQ(field->hash(), brick_hash(coord, codes, material::ice));
+    EXPECT_NE(field->hash(), brick_hash(coord, codes, material::soil));
     EXPECT_NE(field->hash(), brick_hash(coord, codes));
     EXPECT_EQ(field->chunk_hash(chunk_of(coord)), field->hash());
     field->set_brick(coord, air_brick());
-    EXPECT_EQ(field->painted(coord), Material::ice) << "paint stays";
-    EXPECT_EQ(field->hash(), brick_hash(coord, air_brick(), Material::ice));
+    EXPECT_EQ(field->painted(coord), material::ice) << "paint stays";
+    EXPECT_EQ(field->hash(), brick_hash(coord, air_brick(), material::ice));
     field->paint_brick(coord, std::nullopt);
     EXPECT_EQ(field->hash(), brick_hash(coord, air_brick()));
-    field->paint_brick(coord, Material::rock);
+    field->paint_brick(coord, material::rock);
     field->forget_chunk(chunk_of(coord));
     EXPECT_EQ(field->painted(coord), std::nullopt);
     EXPECT_EQ(field->hash(), 0U);
-    const std::vector<BrickCoord> painted = paint(*field, in_voxels(patch, voxel_m), Material::ice);
+    const std::vector<BrickCoord> painted = paint(*field, in_voxels(patch, voxel_m), material::ice);
     EXPECT_FALSE(painted.empty());
-    EXPECT_TRUE(paint(*field, in_voxels(patch, voxel_m), Material::ice).empty()) << "it was ice before";
+    EXPECT_TRUE(paint(*field, in_voxels(patch, voxel_m), material::ice).empty()) << "it was ice before";
   }
   EXPECT_EQ(map.hash(), vdb.hash());
 }
 
 TEST(paint, a_piece_is_made_of_what_its_place_was_painted_and_keeps_it) {
   World world(flat_world());
-  world.step({{paint_it(Material::ice)}});
+  world.step({{paint_it(material::ice)}});
   auto delta = world.step({{carve_at({0.0F, -0.3F, 0.0F})}});
   ASSERT_EQ(delta->replies.front().refusal, "");
   std::vector<SpawnedPiece> spawned = delta->spawned;
@@ -93,31 +93,31 @@ TEST(paint, a_piece_is_made_of_what_its_place_was_painted_and_keeps_it) {
   size_t ice = 0, soil = 0;
   for (const SpawnedPiece& piece : spawned) {
     const bool painted = piece.volume->centre_voxels.x < 40.0F;
-    EXPECT_EQ(piece.volume->material == Material::ice, painted);
-    ice += piece.volume->material == Material::ice ? 1 : 0;
-    soil += piece.volume->material == Material::soil ? 1 : 0;
+    EXPECT_EQ(piece.volume->material == material::ice, painted);
+    ice += piece.volume->material == material::ice ? 1 : 0;
+    soil += piece.volume->material == material::soil ? 1 : 0;
   }
   EXPECT_GT(ice, 2U);
   EXPECT_GT(soil, 0U);
-  const std::vector<Command> other{paint_it(Material::rock)};
+  const std::vector<Command> other{paint_it(material::rock)};
   world.step(other);
   MapField field(flat_terrain);
   PieceTable pieces{{1, spawned.front().volume}};
   const Volume& parent = *spawned.front().volume;
-  ASSERT_EQ(parent.material, Material::ice);
+  ASSERT_EQ(parent.material, material::ice);
   apply(ShatterOperation{1, SeedPattern::uniform, 3, 1, parent.centre_voxels, 10}, field, pieces);
   ASSERT_GE(pieces.size(), 2U);
-  for (const auto& [id, child] : pieces) EXPECT_EQ(child->material, Material::ice);
+  for (const auto& [id, child] : pieces) EXPECT_EQ(child->material, material::ice);
 }
 
 TEST(paint, an_island_is_made_of_what_its_place_was_painted) {
   MapField field(flat_terrain);
   PieceTable pieces;
   apply(FillOperation{sphere({0.0F, 5.0F, 0.0F}, 1.0F)}, field, pieces);
-  apply(PaintOperation{sphere({0.0F, 5.0F, 0.0F}, 3.0F), Material::soil}, field, pieces);
+  apply(PaintOperation{sphere({0.0F, 5.0F, 0.0F}, 3.0F), material::soil}, field, pieces);
   apply(IslandOperation{{{-4, 16, -4}, {5, 25, 5}}, {0, 20, 0}, 5}, field, pieces);
   ASSERT_TRUE(pieces.contains(5));
-  EXPECT_EQ(pieces.at(5)->material, Material::soil);
+  EXPECT_EQ(pieces.at(5)->material, material::soil);
 }
 
 TEST(paint, the_reply_says_how_many_bricks_were_painted) {
@@ -130,15 +130,15 @@ TEST(paint, the_reply_says_how_many_bricks_were_painted) {
     return reply.painted;
   };
   // Bricks are 2 m wide: each whose centre lies in the box.
-  const auto first = painted(Material::ice, patch);
+  const auto first = painted(material::ice, patch);
   ASSERT_TRUE(first.has_value());
   EXPECT_GT(*first, 0U);
-  EXPECT_EQ(painted(Material::ice, patch), 0U) << "all of them are ice";
-  EXPECT_EQ(painted(Material::soil, sphere({2.0F, 9.0F, 2.0F}, 0.9F)), 0U) << "there is air alone";
+  EXPECT_EQ(painted(material::ice, patch), 0U) << "all of them are ice";
+  EXPECT_EQ(painted(material::soil, sphere({2.0F, 9.0F, 2.0F}, 0.9F)), 0U) << "there is air alone";
   const std::vector<Command> carve{carve_at({0.0F, -0.3F, 0.0F})};
   EXPECT_FALSE(world.step(carve)->replies.front().painted.has_value());
   EXPECT_FALSE(
-      world.step({{paint_it(Material::ice, sphere({}, -1.0F))}})->replies.front().painted.has_value());
+      world.step({{paint_it(material::ice, sphere({}, -1.0F))}})->replies.front().painted.has_value());
 }
 
 TEST(paint, what_cannot_be_painted_is_refused_by_name_and_changes_nothing) {
@@ -150,17 +150,17 @@ TEST(paint, what_cannot_be_painted_is_refused_by_name_and_changes_nothing) {
     return delta->replies.front().refusal;
   };
   EXPECT_NE(refusal(static_cast<Material>(kind_count<Material>), patch).find("material"), std::string::npos);
-  EXPECT_NE(refusal(Material::ice, sphere({}, 9.0F)).find("edit_reach_max_m"), std::string::npos);
-  EXPECT_NE(refusal(Material::ice, sphere({}, -1.0F)).find("negative"), std::string::npos);
-  EXPECT_NE(refusal(Material::ice, sphere({1e6F, 0, 0}, 1.0F)).find("outside the world"), std::string::npos);
+  EXPECT_NE(refusal(material::ice, sphere({}, 9.0F)).find("edit_reach_max_m"), std::string::npos);
+  EXPECT_NE(refusal(material::ice, sphere({}, -1.0F)).find("negative"), std::string::npos);
+  EXPECT_NE(refusal(material::ice, sphere({1e6F, 0, 0}, 1.0F)).find("outside the world"), std::string::npos);
 }
 
 TEST(paint, bytes_that_paint_what_is_not_there_are_refused) {
-  const std::vector<BrickPatch> bricks{{{0, 0, 0}, air_brick(), Material::ice}, {{0, 0, 1}, air_brick(), {}}};
+  const std::vector<BrickPatch> bricks{{{0, 0, 0}, air_brick(), material::ice}, {{0, 0, 1}, air_brick(), {}}};
   const std::vector<uint8_t> bytes = encode_bricks(bricks);
   const auto decoded = decode_bricks(bytes);
   ASSERT_TRUE(decoded) << decoded.error().message;
-  EXPECT_EQ((*decoded)[0].paint, Material::ice);
+  EXPECT_EQ((*decoded)[0].paint, material::ice);
   EXPECT_EQ((*decoded)[1].paint, std::nullopt);
   // varint 2, two coordinates of three bytes, varint 1, varint 0, u8 2
   const auto refused = [&](size_t at, uint8_t value, const char* word) {
@@ -225,13 +225,13 @@ TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   Client beside(publisher, 2, {14.0F, 0.0F, 0.0F}, 5.0F);
   tick({}, {&live, &beside});
   tick({carve_at({3.0F, -0.3F, 0.0F})}, {&live, &beside});
-  tick({paint_it(Material::ice, box({4.0F, 0.0F, 0.0F}, {8.0F, 3.0F, 5.0F}))}, {&live, &beside});
+  tick({paint_it(material::ice, box({4.0F, 0.0F, 0.0F}, {8.0F, 3.0F, 5.0F}))}, {&live, &beside});
   EXPECT_EQ(live.mirror->counters().operations.of<PaintOperation>(), 1U);
-  EXPECT_EQ(live.mirror->field().painted({1, -1, 0}), Material::ice);
+  EXPECT_EQ(live.mirror->field().painted({1, -1, 0}), material::ice);
   EXPECT_TRUE(std::ranges::find(live.changed, BrickCoord{1, -1, 0}) != live.changed.end())
       << "meshes of painted bricks must be made anew";
   Client late(publisher, 3, {0.0F, 0.0F, 0.0F}, 64.0F);
-  tick({paint_it(Material::soil, sphere({-6.0F, 0.0F, 0.0F}, 3.0F)), carve_at({-6.0F, -0.3F, 0.0F})},
+  tick({paint_it(material::soil, sphere({-6.0F, 0.0F, 0.0F}, 3.0F)), carve_at({-6.0F, -0.3F, 0.0F})},
        {&live, &beside, &late});
   for (int i = 0; i < 120; ++i) tick({}, {&live, &beside, &late});
   for (const Client* client : {&live, &beside, &late}) expect_same(*client, world);
@@ -239,7 +239,7 @@ TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   size_t ice = 0;
   for (const auto& [id, motion] : late.mirror->pieces()) {
     EXPECT_EQ(motion.volume->material, live.mirror->pieces().at(id).volume->material);
-    ice += motion.volume->material == Material::ice || motion.volume->material == Material::soil ? 1 : 0;
+    ice += motion.volume->material == material::ice || motion.volume->material == material::soil ? 1 : 0;
   }
   EXPECT_EQ(ice, late.mirror->pieces().size());
 }
@@ -254,8 +254,8 @@ TEST(paint, a_recorded_session_verifies_and_plays_from_its_middle) {
   const Tick last = limits::ticks_per_keyframe + 10;
   for (Tick tick = 1; tick <= last; ++tick) {
     std::vector<Command> commands;
-    if (tick == 2) commands = {paint_it(Material::ice), carve_at({0.0F, -0.3F, 0.0F})};
-    if (tick == last - 12) commands = {carve_at({1.0F, -1.0F, 3.0F}), paint_it(Material::soil)};
+    if (tick == 2) commands = {paint_it(material::ice), carve_at({0.0F, -0.3F, 0.0F})};
+    if (tick == last - 12) commands = {carve_at({1.0F, -1.0F, 3.0F}), paint_it(material::soil)};
     (*recorder)->push(world.step(commands), commands);
   }
   ASSERT_TRUE((*recorder)->finish());
@@ -274,10 +274,10 @@ TEST(paint, a_recorded_session_verifies_and_plays_from_its_middle) {
     size_t painted = 0;
     for (const BrickState& state : (*whole)->bricks) {
       EXPECT_EQ(state.paint, world.field().painted(state.coord));
-      painted += state.paint == Material::soil ? 1 : 0;
+      painted += state.paint == material::soil ? 1 : 0;
     }
     EXPECT_GT(painted, 10U);
-    for (const SpawnedPiece& piece : (*whole)->spawned) EXPECT_EQ(piece.volume->material, Material::ice);
+    for (const SpawnedPiece& piece : (*whole)->spawned) EXPECT_EQ(piece.volume->material, material::ice);
   }
   std::filesystem::remove_all(folder);
 }

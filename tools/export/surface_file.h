@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "shared/base/result.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 

@@ -141,7 +141,7 @@ Result<SceneSetup> bridge_scene(const std::string&) {
 /// one layer.
 Result<SceneSetup> quarry_scene(const std::string&) {
   SceneSetup setup = on_ground(flat_ground, {15.0F, 10.0F, 17.0F}, {-1.0F, 3.0F, -6.0F});
-  constexpr std::array layers{Material::rock, Material::soil, Material::rock, Material::ice, Material::soil};
+  constexpr std::array layers{material::rock, material::soil, material::rock, material::ice, material::soil};
   constexpr float step_m = 2.0F, side_m = 16.0F;
   std::vector<BuildStep> painted;
   for (size_t i = 0; i < layers.size(); ++i) {

@@ -9,8 +9,8 @@ void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_u
   const MaterialHeights& layers = pass.lighting.layers;
   program.set("u_ice_above_m", layers.ice_above_m);
   program.set("u_soil_below_m", layers.soil_below_m);
-  program.set("u_layers", glm::vec4(layers.soil_below_m, traits_of(Material::soil).layer_depth_m,
-                                    layers.ice_above_m, traits_of(Material::ice).layer_depth_m));
+  program.set("u_layers", glm::vec4(layers.soil_below_m, traits_of(material::soil).layer_depth_m,
+                                    layers.ice_above_m, traits_of(material::ice).layer_depth_m));
   program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
   program.set("u_shadow_map", shadow_unit);
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(shadow_unit));

@@ -1,4 +1,4 @@
-// The table of materials (shared/field/material.h) for shaders, as text in GLSL.
+// The table of materials (shared/material/material.h) for shaders, as text in GLSL.
 #pragma once
 
 #include <string_view>

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "shared/base/vector_clones.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 #include "shared/surface/marching_cubes.h"
 
 namespace scree {
@@ -159,7 +159,7 @@ float BlockWindows::layer_m(const MaterialHeights& layers, glm::vec3 p) const {
   const float height_m = p.y * source.voxel_size_m;
   const bool soil = height_m < layers.soil_below_m;
   if (!soil && height_m <= layers.ice_above_m) return 0.0F;
-  const float depth_m = traits_of(soil ? Material::soil : Material::ice).layer_depth_m;
+  const float depth_m = traits_of(soil ? material::soil : material::ice).layer_depth_m;
   const glm::vec3 end(p.x, p.y + depth_m / source.voxel_size_m, p.z);
   // Mostly the surface is farther above.
   const VoxelCoord cell = cell_at(before->box, end);

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 
@@ -27,7 +27,7 @@ constexpr uint8_t paint_number(std::optional<Material> paint) {
 /// The number of a layer that shows where a cut lays it bare. A cut through rock shows fresh rock, which is
 /// no paint.
 constexpr uint8_t layer_number(Material layer) {
-  return layer == Material::rock ? uint8_t{0} : static_cast<uint8_t>(paint_number(layer) | paint_in_cuts);
+  return layer == material::rock ? uint8_t{0} : static_cast<uint8_t>(paint_number(layer) | paint_in_cuts);
 }
 
 /// How far a vertex lies within a layer is told in steps of so many metres, up to layer_steps_max: beyond,

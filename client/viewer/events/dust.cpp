@@ -42,7 +42,7 @@ constexpr Throw throw_of(PieceEventKind kind) {
 
 /// The colour of the dust; rock as generated is sandstone (client/shaders/rock.glsl).
 glm::vec3 colour_of(Material material) {
-  if (material == Material::rock) return {0.58F, 0.37F, 0.21F};
+  if (material == material::rock) return {0.58F, 0.37F, 0.21F};
   const auto& [r, g, b] = traits_of(material).albedo;
   return {r, g, b};
 }

@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 
 #include "shared/base/ids.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 
@@ -18,7 +18,7 @@ struct PieceEvent {
   glm::vec3 place_m{0.0F};
   float size_m = 1.0F;       ///< side of a cube of its volume
   float impulse_n_s = 0.0F;  ///< that it had, gave or lost
-  Material material = Material::rock;
+  Material material = material::rock;
   PieceId piece = 0;
 };
 

@@ -26,7 +26,7 @@ class PieceEventDetector {
     glm::vec3 speed_m_s{0.0F};
     float size_m = 0.0F;
     float mass_kg = 0.0F;
-    Material material = Material::rock;
+    Material material = material::rock;
     bool moved = false;  ///< its speed is known
   };
   using Table = std::map<PieceId, Known>;

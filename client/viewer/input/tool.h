@@ -9,7 +9,7 @@
 #include "client/viewer/input/actions.h"
 #include "proto/messages.h"
 #include "shared/base/kind_table.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 
@@ -61,7 +61,7 @@ constexpr ToolRow row_of(ToolKind kind) {
 struct Tool {
   ToolKind kind = ToolKind::crater;
   ToolUse use = ToolUse::carve;
-  Material material = Material::rock;  ///< to paint with
+  Material material = material::rock;  ///< to paint with
   float radius_m = 2.0F;               ///< of a box: half its side; a tunnel is six times as long
   float blast_speed_m_s = 6.0F;
   SeedPattern pattern = SeedPattern::radial;

@@ -20,11 +20,11 @@ struct Timbre {
 
 constexpr Timbre timbre_of(Material material) {
   switch (material) {
-    case Material::rock:
+    case material::rock:
       return {.pitch_hz = 190.0F, .ring_s = 0.05F, .noise = 0.6F};
-    case Material::soil:
+    case material::soil:
       return {.pitch_hz = 70.0F, .ring_s = 0.03F, .noise = 0.85F};
-    case Material::ice:
+    case material::ice:
       return {.pitch_hz = 420.0F, .ring_s = 0.12F, .noise = 0.4F};
   }
   return {};

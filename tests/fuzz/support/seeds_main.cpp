@@ -103,7 +103,7 @@ std::vector<std::vector<ClientMessage>> conversation() {
   std::vector<std::vector<ClientMessage>> said(session_ticks);
   said[1] = {carve(16.0F, 1)};
   said[4] = {FillMessage{{box({21.0F, 1.0F, 16.0F}, {1.0F, 2.0F, 1.0F})}, 2}, AckMessage{3}};
-  said[8] = {PaintMessage{{sphere({16.0F, 0.0F, 16.0F}, 3.0F), Material::ice}, 3},
+  said[8] = {PaintMessage{{sphere({16.0F, 0.0F, 16.0F}, 3.0F), material::ice}, 3},
              CursorMessage{{0.0F, 2.0F, 0.0F}, {1.0F, 0.0F, 0.0F}}};
   said[12] = {carve(21.0F, 4), AskGroundMessage{{{0, 0, 0}, {1, -1, 0}}}};
   said[20] = {InterestMessage{{80.0F, 2.0F, 0.0F}, 40.0F}};

@@ -16,7 +16,7 @@
 #include <string_view>
 
 #include "shared/base/kind_table.h"
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 #include "tools/import/assimp/folder_files.h"
 #include "tools/import/assimp/nesting.h"
 #include "tools/import/assimp/ply_header.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/field/material.h"
+#include "shared/material/material.h"
 
 namespace scree {
 

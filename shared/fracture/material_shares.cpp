@@ -1,0 +1,113 @@
+#include "shared/fracture/material_shares.h"
+
+#include <algorithm>
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+/// A table of masses, a row for each piece and one for the dust, a column for each material. Sums of rows and
+/// columns are given; what is missing in a row is filled up, and then moved within rows until the columns
+/// agree as well.
+class ShareTable {
+ public:
+  ShareTable(const Cut& cut, const MaterialMasses& lost) : lost_(lost), left_(lost.size()) {
+    CHECK(!lost.empty());
+    for (const CutPiece& piece : cut.pieces) sums_.push_back(piece.volume.mass);
+    sums_.push_back(cut.dust);
+    rows_.resize(sums_.size(), std::vector<MassUnits>(lost.size()));
+  }
+
+  /// A piece's first share: in proportion to the mass of its voxels.
+  void propose(size_t row, const MaterialMasses& weights) {
+    MassUnits sum = 0;
+    for (const MaterialMass& one : lost_) sum += mass_of(weights, one.material);
+    if (sum == 0) return;
+    // Products stay below 2^60: a window has at most 128³ voxels of 254 units.
+    for (size_t m = 0; m < lost_.size(); ++m)
+      rows_[row][m] = sums_[row] * mass_of(weights, lost_[m].material) / sum;
+  }
+
+  void balance() {
+    for (size_t m = 0; m < lost_.size(); ++m) {
+      left_[m] = lost_[m].mass;
+      for (const auto& row : rows_) left_[m] -= row[m];
+    }
+    for (size_t row = 0; row < rows_.size(); ++row) fill_up(row);
+    for (const bool among_own : {true, false})
+      for (size_t row = 0; row < rows_.size(); ++row) move_within(row, among_own);
+    CHECK(std::ranges::all_of(left_, [](MassUnits left) { return left == 0; }));
+  }
+
+  MaterialMasses row(size_t row) const {
+    MaterialMasses masses;
+    for (size_t m = 0; m < lost_.size(); ++m)
+      if (rows_[row][m] != 0) masses.push_back({lost_[m].material, rows_[row][m]});
+    return masses;
+  }
+
+ private:
+  /// Gives a row what is missing in its sum: of its own materials first, of any in the end.
+  void fill_up(size_t row) {
+    MassUnits missing = sums_[row];
+    for (const MassUnits share : rows_[row]) missing -= share;
+    for (const bool among_own : {true, false})
+      for (size_t m = 0; m < lost_.size() && missing > 0; ++m) {
+        if (left_[m] <= 0 || (among_own && rows_[row][m] == 0)) continue;
+        const MassUnits given = std::min(missing, left_[m]);
+        rows_[row][m] += given;
+        left_[m] -= given;
+        missing -= given;
+      }
+    CHECK_EQ(missing, 0);  // as much is left as all rows miss together
+  }
+
+  /// Turns mass of materials of which too much was given into those of which some is left.
+  void move_within(size_t row, bool among_own) {
+    for (size_t from = 0; from < lost_.size(); ++from)
+      for (size_t to = 0; to < lost_.size(); ++to) {
+        if (left_[from] >= 0 || left_[to] <= 0 || (among_own && rows_[row][to] == 0)) continue;
+        const MassUnits moved = std::min({-left_[from], left_[to], rows_[row][from]});
+        rows_[row][from] -= moved;
+        rows_[row][to] += moved;
+        left_[from] += moved;
+        left_[to] -= moved;
+      }
+  }
+
+  const MaterialMasses& lost_;
+  std::vector<MassUnits> sums_;               ///< by row
+  std::vector<std::vector<MassUnits>> rows_;  ///< by row and material
+  std::vector<MassUnits> left_;               ///< by material; negative where too much is given
+};
+
+}  // namespace
+
+MaterialMasses share_materials(Cut& cut, const MaterialWindow& materials, const MaterialMasses& lost) {
+  if (lost.size() == 1 && materials.is_uniform()) {
+    for (CutPiece& piece : cut.pieces) piece.volume.materials.all = lost.front().material;
+    if (cut.dust == 0) return {};
+    return {{lost.front().material, cut.dust}};
+  }
+  if (lost.empty()) return {};
+  ShareTable table(cut, lost);
+  for (size_t i = 0; i < cut.pieces.size(); ++i) {
+    Volume& volume = cut.pieces[i].volume;
+    volume.materials = part_of(materials, volume.window.box);
+    spread(volume.materials, volume.window);
+    table.propose(i, masses_of(volume.window, volume.materials));
+  }
+  table.balance();
+  for (size_t i = 0; i < cut.pieces.size(); ++i) {
+    Volume& volume = cut.pieces[i].volume;
+    volume.masses = table.row(i);
+    if (volume.materials.is_uniform() && volume.masses.size() == 1 &&
+        volume.masses.front().material == volume.materials.all)
+      volume.masses.clear();
+  }
+  return table.row(cut.pieces.size());
+}
+
+}  // namespace scree

@@ -1,0 +1,61 @@
+#include "shared/operation/ledger.h"
+
+#include <algorithm>
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+MaterialLedger::MaterialLedger(const Ledger& all, Material material) {
+  row(material) = {.terrain = all.terrain, .pieces = all.pieces, .dust = all.dust, .poured = all.poured};
+}
+
+MaterialLedger::Row& MaterialLedger::row(Material material) {
+  if (rows_.size() <= row_number(material)) rows_.resize(row_number(material) + 1);
+  return rows_[row_number(material)];
+}
+
+void MaterialLedger::enter(std::span<const MaterialFlow> flows) {
+  MassUnits missing = 0;
+  for (const MaterialFlow& flow : flows) {
+    Row& to = row(flow.material);
+    to.terrain += flow.terrain;
+    to.pieces += flow.pieces;
+    to.poured += flow.poured;
+    to.converted += flow.converted;
+    to.dust -= to.error();
+    if (to.dust >= 0) continue;
+    missing -= to.dust;
+    to.converted -= to.dust;
+    to.dust = 0;
+  }
+  if (missing > 0) CHECK_EQ(convert(flows, missing), 0);
+}
+
+/// Takes the missing mass from dust: first of the flows' own materials, then of any. Returns what is left.
+MassUnits MaterialLedger::convert(std::span<const MaterialFlow> flows, MassUnits missing) {
+  const auto take = [&](Row& from) {
+    const MassUnits taken = std::min(missing, from.dust);
+    from.dust -= taken;
+    from.converted -= taken;
+    missing -= taken;
+  };
+  for (const MaterialFlow& flow : flows) take(row(flow.material));
+  for (Row& one : rows_) take(one);
+  return missing;
+}
+
+bool MaterialLedger::agrees(const Ledger& all) const {
+  Row sum;
+  for (const Row& one : rows_) {
+    if (one.error() != 0 || one.dust < 0 || one.pieces < 0) return false;
+    sum.terrain += one.terrain;
+    sum.pieces += one.pieces;
+    sum.dust += one.dust;
+    sum.poured += one.poured;
+    sum.converted += one.converted;
+  }
+  return sum == Row{all.terrain, all.pieces, all.dust, all.poured, 0};
+}
+
+}  // namespace scree
