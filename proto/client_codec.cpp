@@ -38,12 +38,13 @@ struct Writing {
     wire::Fill& fill = *to.mutable_fill();
     fill.set_request(from.request);
     write(*fill.mutable_shape(), from.shape);
+    if (from.material) fill.set_material(static_cast<uint32_t>(*from.material));
   }
   void operator()(const PaintMessage& from) const {
     wire::Paint& paint = *to.mutable_paint();
     paint.set_request(from.request);
     write(*paint.mutable_shape(), from.shape);
-    paint.set_material(static_cast<wire::Material>(from.material));
+    paint.set_material(static_cast<uint32_t>(from.material));
   }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
@@ -87,9 +88,14 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
   return carve;
 }
 
+FillMessage read(const wire::Fill& from, FieldChecker& check) {
+  FillMessage fill{{check.shape(from.shape())}, from.request()};
+  if (from.has_material()) fill.material = check.asked_material(from.material());
+  return fill;
+}
+
 PaintMessage read(const wire::Paint& from, FieldChecker& check) {
-  return {{check.shape(from.shape()), check.asked_kind<Material>(from.material(), "material")},
-          from.request()};
+  return {{check.shape(from.shape()), check.asked_material(from.material())}, from.request()};
 }
 
 RepairMessage read(const wire::Repair& from, FieldChecker& check) {
@@ -130,7 +136,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kCarve:
       return checked(read(from.carve(), check));
     case wire::ClientMessage::kFill:
-      return checked(FillMessage{{check.shape(from.fill().shape())}, from.fill().request()});
+      return checked(read(from.fill(), check));
     case wire::ClientMessage::kPaint:
       return checked(read(from.paint(), check));
     case wire::ClientMessage::kRepair:

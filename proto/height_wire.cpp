@@ -106,6 +106,28 @@ HeightGround read_heights(const wire::HeightGround& from, FieldChecker& check) {
   return ground;
 }
 
+void write(wire::GroundRows& to, const GroundRows& from) {
+  to.set_bulk(static_cast<uint32_t>(from.bulk));
+  to.set_soil(static_cast<uint32_t>(from.soil));
+  to.set_cap(static_cast<uint32_t>(from.cap));
+  to.set_soil_depth_m(from.soil_depth_m);
+  to.set_cap_depth_m(from.cap_depth_m);
+}
+
+GroundRows read_rows(const wire::GroundRows& from, FieldChecker& check) {
+  const auto row = [&](uint32_t number, const char* what) {
+    return static_cast<Material>(check.within(number, 0, materials_max - 1, what));
+  };
+  const auto depth = [&](float depth_m, const char* what) {
+    if (check.not_negative(depth_m, what) > limits::layer_depth_max_m)
+      check.refuse(fmt::format("{} is {} m, over {} m", what, depth_m, limits::layer_depth_max_m));
+    return depth_m;
+  };
+  return {row(from.bulk(), "the ground's bulk"), row(from.soil(), "the ground's soil"),
+          row(from.cap(), "the ground's cap"), depth(from.soil_depth_m(), "depth of the ground's soil"),
+          depth(from.cap_depth_m(), "depth of the ground's cap")};
+}
+
 void write(wire::TileRequest& to, const AskTilesMessage& from) {
   to.set_wanted(pack_keys(from.wanted));
   to.set_held(pack_keys(from.held));

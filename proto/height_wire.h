@@ -8,6 +8,8 @@ namespace scree {
 
 void write(wire::HeightGround& to, const HeightGround& from);
 HeightGround read_heights(const wire::HeightGround& from, FieldChecker& check);
+void write(wire::GroundRows& to, const GroundRows& from);
+GroundRows read_rows(const wire::GroundRows& from, FieldChecker& check);
 void write(wire::TileRequest& to, const AskTilesMessage& from);
 AskTilesMessage read_tile_request(const wire::TileRequest& from, FieldChecker& check);
 void write(wire::Tile& to, const TileMessage& from);

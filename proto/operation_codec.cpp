@@ -17,33 +17,43 @@ namespace {
 
 constexpr const char* subject = "operation";
 
-/// The number of an operation's kind: its place in the variant.
+/// The number of an operation's kind: its place in the variant, and beyond that the forms that operations of
+/// voxels with materials have, so that those of older recordings keep theirs.
 constexpr unsigned kind_bits = 3;
 constexpr uint64_t kind_mask = (1U << kind_bits) - 1;
 constexpr size_t kinds = std::variant_size_v<Operation>;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | kind_mask;
-static_assert(kinds <= kind_mask + 1);
+/// The kind of a fill of a material and of paint by voxels; a byte after the head says which.
+constexpr uint64_t kind_with_material = 7;
+enum WithMaterial : uint8_t { fill_of_material = 0, paint_of_voxels = 1 };
+static_assert(kinds == kind_with_material);
 
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
 /// takes no byte of its own.
 constexpr unsigned shift_bits = 14;
-/// A stamp has one of its method's two numbers: that for one piece, or that for several together.
+/// A stamp has one of its method's two numbers, for one piece or for several together; as many more where it
+/// brings materials.
 struct WireMethod {
   StampMethod method;
   bool together;
+  bool brings_materials;
 
   bool operator==(const WireMethod&) const = default;
 };
 constexpr auto wire_methods = [] {
-  std::array<WireMethod, kind_count<StampMethod> + kinds_that<StampMethod, lays>.size()> methods{};
+  constexpr size_t numbers = kind_count<StampMethod> + kinds_that<StampMethod, lays>.size();
+  std::array<WireMethod, 2 * numbers> methods{};
   size_t places = 0;  // a bit for each number that a row has
   const auto enter = [&](size_t number, WireMethod method) {
     methods.at(number) = method;
     places |= size_t{1} << number;
   };
   for (const StampMethod method : all_kinds<StampMethod>) {
-    enter(traits_of(method).wire, {method, false});
-    if (lays(method)) enter(traits_of(method).wire_together.value(), {method, true});
+    for (const bool brings : {false, true}) {
+      enter(traits_of(method).wire + (brings ? numbers : 0), {method, false, brings});
+      if (lays(method))
+        enter(traits_of(method).wire_together.value() + (brings ? numbers : 0), {method, true, brings});
+    }
   }
   if (places + 1 != size_t{1} << methods.size())
     throw "two methods of merging have one number";  // no compilation
@@ -100,14 +110,18 @@ struct Writing {
     writer.vec3(carve.impact_m);
     for (const glm::vec3& point_m : carve.authored_m) writer.vec3(point_m);
   }
-  void operator()(const FillOperation& fill) const { write_shape(writer, fill.shape); }
+  void operator()(const FillOperation& fill) const {
+    if (fill.material) writer.u8(fill_of_material);
+    write_shape(writer, fill.shape);
+    if (fill.material) writer.u8(static_cast<uint8_t>(*fill.material));
+  }
   void operator()(const StampOperation& stamp) const {
     writer.position(stamp.pose);
     writer.u32(stamp.pose.rotation);
     const uint64_t shift = fold_sign(stamp.shift);
     CHECK(shift >> shift_bits == 0);
     // The number after the last, which nobody reads, where there is no such method.
-    const auto method = std::ranges::find(wire_methods, WireMethod{stamp.method, !stamp.others.empty()});
+    const auto method = std::ranges::find(wire_methods, WireMethod{stamp.method, !stamp.others.empty(), stamp.brings_materials});
     writer.varint((static_cast<uint64_t>(method - wire_methods.begin()) << shift_bits) | shift);
     if (stamp.others.empty()) return;
     CHECK(stamp.others.size() < limits::stamp_group_max);
@@ -127,6 +141,7 @@ struct Writing {
     writer.vec3(shatter.impact_voxels);
   }
   void operator()(const PaintOperation& paint) const {
+    if (!paint.whole_bricks) writer.u8(paint_of_voxels);
     write_shape(writer, paint.shape);
     writer.u8(static_cast<uint8_t>(paint.material));
   }
@@ -189,6 +204,7 @@ void read(ByteReader& reader, PieceId id, StampOperation& stamp) {
   if (stamp.shift < -stamp_shift_max)
     reader.refuse(fmt::format("shift of a stamp is beyond ±{}", stamp_shift_max));
   stamp.method = method.method;
+  stamp.brings_materials = method.brings_materials;
   if (!method.together) return;
   const uint64_t others = reader.varint("number of pieces stamped together", limits::stamp_group_max - 1);
   if (others == 0) reader.refuse("a stamp together with none");
@@ -222,10 +238,24 @@ void read(ByteReader& reader, PieceId id, IslandOperation& island) {
   island.start = island.box.lo + voxels("start of an island");
 }
 
+Material read_material(ByteReader& reader) {
+  return static_cast<Material>(reader.u8("material", materials_max - 1));
+}
+
 void read(ByteReader& reader, PieceId id, PaintOperation& paint) {
   if (id != 0) reader.refuse("paint with a piece id");
   paint.shape = read_shape(reader);
-  paint.material = reader.kind<Material>("material");
+  paint.material = read_material(reader);
+  paint.whole_bricks = true;
+}
+
+Operation read_with_material(ByteReader& reader, PieceId id) {
+  if (id != 0) reader.refuse("a fill or paint with a piece id");
+  const uint8_t which = reader.u8("kind of an operation with a material", paint_of_voxels);
+  const Shape shape = read_shape(reader);
+  const Material material = read_material(reader);
+  if (which == fill_of_material) return FillOperation{shape, material};
+  return PaintOperation{shape, material};
 }
 
 template <typename Kind>
@@ -243,19 +273,25 @@ constexpr std::array<Reading, kinds> readings_of(std::index_sequence<kind...>) {
 }
 constexpr std::array<Reading, kinds> readings = readings_of(std::make_index_sequence<kinds>{});
 
+bool has_form_with_material(const Operation& operation) {
+  const auto* fill = std::get_if<FillOperation>(&operation);
+  const auto* paint = std::get_if<PaintOperation>(&operation);
+  return (fill != nullptr && fill->material) || (paint != nullptr && !paint->whole_bricks);
+}
+
 Operation read_operation(ByteReader& reader) {
   const uint64_t head = reader.varint("id and kind", head_max);
   const uint64_t kind = head & kind_mask;
-  if (kind < kinds) return readings.at(kind)(reader, static_cast<PieceId>(head >> kind_bits));
-  reader.refuse(fmt::format("kind {} is unknown", kind));
-  return DiscardOperation{};
+  const auto id = static_cast<PieceId>(head >> kind_bits);
+  return kind == kind_with_material ? read_with_material(reader, id) : readings.at(kind)(reader, id);
 }
 
 }  // namespace
 
 void append_operation(std::vector<uint8_t>& bytes, const Operation& operation) {
   ByteWriter writer(bytes);
-  writer.varint((uint64_t{head_id(operation)} << kind_bits) | operation.index());
+  const uint64_t kind = has_form_with_material(operation) ? kind_with_material : operation.index();
+  writer.varint((uint64_t{head_id(operation)} << kind_bits) | kind);
   std::visit(Writing{writer}, operation);
 }
 

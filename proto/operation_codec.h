@@ -33,7 +33,7 @@ size_t operation_bytes(const Operation& operation);
 struct BrickView {
   BrickCoord coord;
   const Brick* brick = nullptr;
-  std::optional<Material> paint = std::nullopt;
+  BrickMaterials materials{};
 };
 
 /// Coordinates, then all codes compressed as one. Any number of bricks; none gives no bytes.

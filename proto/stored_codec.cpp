@@ -7,7 +7,6 @@
 #include "proto/compressed.h"
 #include "proto/limits.h"
 #include "shared/base/check.h"
-#include "shared/material/material.h"
 
 namespace scree {
 
@@ -15,8 +14,10 @@ namespace {
 
 constexpr int compression_level = 9;  // chunks are packed once, and sent often
 constexpr size_t head_bytes = 2 * chunk_brick_count;
-constexpr size_t content_bytes_max = head_bytes + chunk_brick_count * brick_voxels;
+constexpr size_t content_bytes_max = head_bytes + 2 * chunk_brick_count * brick_voxels;
 enum Form : uint8_t { air = 0, rock = 1, codes = 2 };
+/// With a form: each voxel has its own material, after all codes.
+constexpr uint8_t each_its_own = 4;
 
 /// Each code less the one before: distances change little along a row.
 void write_codes(const Brick& brick, std::vector<uint8_t>& content) {
@@ -40,13 +41,23 @@ Result<Brick> read_codes(std::span<const uint8_t> content) {
 
 std::vector<uint8_t> content_of(const GeneratedChunk& chunk) {
   std::vector<uint8_t> content;
-  for (const Brick* brick : chunk.bricks) {
-    const Brick* uniform = uniform_equivalent(*brick);
-    content.push_back(uniform == nullptr ? codes : (uniform == &air_brick() ? air : rock));
+  for (size_t i = 0; i < chunk_brick_count; ++i) {
+    const Brick* uniform = uniform_equivalent(*chunk.bricks[i]);
+    const Form form = uniform == nullptr ? codes : (uniform == &air_brick() ? air : rock);
+    const bool one = chunk.materials(static_cast<int>(i)).is_uniform();
+    content.push_back(static_cast<uint8_t>(one ? form : form | each_its_own));
   }
-  content.insert(content.end(), chunk.materials.begin(), chunk.materials.end());
+  for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
+    const BrickMaterials materials = chunk.materials(i);
+    content.push_back(materials.is_uniform() ? materials.uniform() : ground_own);
+  }
   for (const Brick* brick : chunk.bricks)
     if (uniform_equivalent(*brick) == nullptr) write_codes(*brick, content);
+  for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
+    if (chunk.materials(i).is_uniform()) continue;
+    const VoxelMaterials voxels = chunk.materials(i).unpacked();
+    content.insert(content.end(), voxels.begin(), voxels.end());
+  }
   return content;
 }
 
@@ -64,14 +75,35 @@ Result<std::vector<uint8_t>> decompressed(std::span<const uint8_t> packed) {
   return content;
 }
 
+/// The bricks' materials; those of single voxels begin at `next`, and are the last of the content.
+Result<ChunkMaterials> materials_of(std::span<const uint8_t> content, size_t next) {
+  ChunkMaterials materials;
+  for (size_t i = 0; i < chunk_brick_count; ++i) {
+    const VoxelMaterial one = content[chunk_brick_count + i];
+    if ((content[i] & each_its_own) == 0) {
+      materials[i] = BrickMaterials(one);
+      continue;
+    }
+    if (one != ground_own) return fail("stored chunk: a brick has one material, and each voxel its own");
+    if (content.size() - next < brick_voxels) return fail("stored chunk: a brick's materials are missing");
+    VoxelMaterials voxels;
+    std::ranges::copy(content.subspan(next, brick_voxels), voxels.begin());
+    materials[i] = BrickMaterials(voxels);
+    if (materials[i].is_uniform()) return fail("stored chunk: voxels with materials of their own are all of one");
+    next += brick_voxels;
+  }
+  if (next != content.size()) return fail("stored chunk: more codes or materials than bricks");
+  return materials;
+}
+
 Result<GeneratedChunk> chunk_of_content(std::span<const uint8_t> content) {
   std::array<Brick, chunk_brick_count> bricks;
   size_t next = head_bytes;
   for (size_t i = 0; i < chunk_brick_count; ++i) {
-    if (content[i] > codes || content[chunk_brick_count + i] > kind_count<Material>)
-      return fail("stored chunk: a brick or its material is of an unknown kind");
-    if (content[i] != codes) {
-      bricks[i] = content[i] == air ? air_brick() : solid_brick();
+    const int form = content[i] & ~each_its_own;
+    if (form > codes) return fail("stored chunk: a brick is of an unknown kind");
+    if (form != codes) {
+      bricks[i] = form == air ? air_brick() : solid_brick();
       continue;
     }
     if (content.size() - next < brick_voxels) return fail("stored chunk: a brick's codes are missing");
@@ -79,9 +111,9 @@ Result<GeneratedChunk> chunk_of_content(std::span<const uint8_t> content) {
     bricks[i] = brick;
     next += brick_voxels;
   }
-  if (next != content.size()) return fail("stored chunk: more codes than bricks");
   GeneratedChunk chunk = chunk_of_bricks(bricks);
-  std::ranges::copy(content.subspan(chunk_brick_count, chunk_brick_count), chunk.materials.begin());
+  const auto materials = TRY(materials_of(content, next));
+  chunk.stored_materials = stored_materials_of(materials);
   return chunk;
 }
 

@@ -16,7 +16,6 @@ namespace {
 static_assert(wire::ShapeKind_ARRAYSIZE == kind_count<ShapeKind>);
 static_assert(wire::SeedPattern_ARRAYSIZE == kind_count<SeedPattern>);
 static_assert(wire::TerrainKind_ARRAYSIZE == kind_count<TerrainKind>);
-static_assert(wire::Material_ARRAYSIZE == kind_count<Material>);
 static_assert(wire::Role_ARRAYSIZE == kind_count<Role>);
 
 }  // namespace

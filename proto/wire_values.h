@@ -41,6 +41,12 @@ class FieldChecker {
     note_unknown(number, what);
     return Kind{};
   }
+  /// Reads a material of a request: one beyond every palette is noted as unknown.
+  Material asked_material(uint32_t number) {
+    if (number < materials_max) return static_cast<Material>(number);
+    note_unknown(number, "material");
+    return Material{};
+  }
   /// Reads a kind where an unknown one can be taken for another.
   template <HasRows Kind>
   static Kind kind_or(int64_t number, Kind otherwise) {

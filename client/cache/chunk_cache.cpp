@@ -25,7 +25,7 @@ std::vector<BrickPatch> unpacked(const CachedChunk& cached) {
   uint64_t hash = 0;
   for (const BrickPatch& patch : *bricks) {
     if (chunk_of(patch.coord) != cached.chunk) return {};
-    hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    hash += brick_hash(patch.coord, patch.brick, patch.materials);
   }
   if (hash != cached.hash) return {};
   return std::move(*bricks);
@@ -44,7 +44,7 @@ bool ChunkCache::store(Field& field, ChunkCoord chunk) {
   if (coords.empty()) return false;
   std::vector<BrickPatch> bricks;
   bricks.reserve(coords.size());
-  for (const BrickCoord coord : coords) bricks.push_back({coord, field.brick(coord), field.painted(coord)});
+  for (const BrickCoord coord : coords) bricks.push_back({coord, field.brick(coord), field.materials(coord)});
   put({chunk, hash, std::make_shared<const std::vector<uint8_t>>(encode_bricks(bricks))}, true);
   return true;
 }

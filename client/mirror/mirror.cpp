@@ -260,7 +260,7 @@ void Mirror::replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bric
 void Mirror::set_bricks(const std::vector<BrickPatch>& bricks, MirrorChanges& changes) {
   for (const BrickPatch& patch : bricks) {
     field_.set_brick(patch.coord, patch.brick);
-    field_.paint_brick(patch.coord, patch.paint);
+    field_.set_materials(patch.coord, patch.materials);
     changes.bricks.push_back(patch.coord);
   }
 }
@@ -306,7 +306,7 @@ void Mirror::forget_all_but(uint64_t edited, ChunkCoord chunk, MirrorChanges& ch
   const std::vector<BrickCoord> before = field_.edited_bricks(chunk);
   for (const BrickCoord brick : before)
     if (((edited >> index_in_chunk(brick)) & 1U) != 0)
-      kept.push_back({brick, field_.brick(brick), field_.painted(brick)});
+      kept.push_back({brick, field_.brick(brick), field_.materials(brick)});
   if (kept.size() == before.size()) return;
   forget_chunk(chunk, changes);
   set_bricks(kept, changes);

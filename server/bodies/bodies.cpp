@@ -41,11 +41,21 @@ void note_carried(const btCollisionObject& upper, const btCollisionObject& lower
     contacts.carried.push_back({id_of(&upper), id_of(&lower)});
 }
 
+/// The state of the point of a body that lies so far off, in the body's axes.
+BodyState moved_by(BodyState state, glm::vec3 offset_m) {
+  if (offset_m == glm::vec3(0.0F)) return state;
+  const glm::vec3 turned_m = state.pose.rotation * offset_m;
+  state.pose.position_m += turned_m;
+  state.velocity_m_s += glm::cross(state.spin_rad_s, turned_m);
+  return state;
+}
+
 BodyState state_of(PieceId id, const Body& body) {
   if (body.frozen) return *body.frozen;
   const btRigidBody& rigid = *body.rigid;
-  return {id, pose_of(body), from_bullet(rigid.getLinearVelocity()), from_bullet(rigid.getAngularVelocity()),
-          false};
+  BodyState state{id, pose_of(body), from_bullet(rigid.getLinearVelocity()),
+                  from_bullet(rigid.getAngularVelocity()), false};
+  return moved_by(state, -body.given->centre_m);
 }
 
 void check_sound(const BodyShape& shape, const BodyState& state) {
@@ -74,10 +84,11 @@ void Bodies::add(BodyShape given, const BodyState& state) {
   State& s = *state_;
   CHECK(!contains(state.id));
   check_sound(given, state);
+  const BodyState at_mass = moved_by(state, given.centre_m);
   Body& body = s.make(state.id, std::make_shared<const BodyShape>(std::move(given)));
   body.rigid->setCenterOfMassTransform(
-      to_bullet(Pose{state.pose.position_m, state.pose.rotation * body.axes}));
-  body.rigid->setLinearVelocity(to_bullet(state.velocity_m_s));
+      to_bullet(Pose{at_mass.pose.position_m, state.pose.rotation * body.axes}));
+  body.rigid->setLinearVelocity(to_bullet(at_mass.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
   body.last = body.rigid->getWorldTransform();
   s.enter(body);
@@ -140,6 +151,11 @@ void Bodies::terrain_changed(const VoxelBox& box) {
   CHECK(!box.empty());
   state_->terrain.terrain_changed(box);
   state_->pending.add(box);
+}
+
+void Bodies::set_palette(std::shared_ptr<const Palette> palette) {
+  CHECK(palette != nullptr);
+  state_->config.palette = std::move(palette);
 }
 
 void Bodies::set_terrain_collider(TerrainColliderKind kind) {

@@ -3,7 +3,8 @@
 // Deterministic: the same calls in the same order give the same bits, on any build and on any number of
 // threads. Bullet's own snapshots do not restore that, so a Bodies is never copied; restore() takes up
 // motions without contacts. Not thread-safe: one thread calls, and step() shares its work with others.
-// Metres, seconds, kilograms; a body's position is its centre of mass.
+// Metres, seconds, kilograms. A body's pose and speed are those of its piece: of the volume's centre, which
+// is the centre of mass where the piece is of one material (BodyShape::centre_m).
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "content/builtin_palette.h"
 #include "proto/messages.h"
 #include "server/colliders/terrain_collider_kind.h"
 #include "server/formats/world_value.h"
@@ -58,7 +60,7 @@ struct BodyImpact {
 struct BodiesConfig {
   uint32_t tick_rate_hz = 60;
   float gravity_m_s2 = 9.81F;
-  float restitution = 0.05F;  ///< rubble hardly bounces
+  std::shared_ptr<const Palette> palette = shared_builtin_palette();  ///< what the terrain rubs and bounces by
   TerrainColliderKind terrain_collider = TerrainColliderKind::field;
   size_t threads = 1;  ///< that step() takes, its own included; 0: as many as the machine has cores
 };
@@ -96,6 +98,8 @@ class Bodies {
   /// changed bricks). Bodies near the box wake and read the terrain again in the next step.
   void terrain_changed(const VoxelBox& box);
 
+  /// Changes what the terrain rubs and bounces by, from the next step on. Not null.
+  void set_palette(std::shared_ptr<const Palette> palette);
   /// Changes the way in which bodies find the terrain, from the next step on. Poses and speeds stay; all
   /// bodies wake.
   void set_terrain_collider(TerrainColliderKind kind);

@@ -64,9 +64,9 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
       dispatcher(&collision_configuration),
       dynamics(dispatcher, broadphase, collision_configuration, workers),
       terrain(field, c.terrain_collider, dispatcher,
-              {step_size.voxel_size_m, c.restitution, step_size.step_s}) {
+              {step_size.voxel_size_m, step_size.step_s}) {
   CHECK(std::isfinite(step_size.step_s) && std::isfinite(c.gravity_m_s2));
-  CHECK(c.restitution >= 0.0F && c.restitution <= 1.0F);
+  CHECK(c.palette != nullptr);
   dispatcher.registerCollisionCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE,
                                          &hull_algorithm);
   dynamics.setGravity(btVector3(0.0F, -c.gravity_m_s2, 0.0F));
@@ -82,7 +82,7 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
 Body& Bodies::State::make(PieceId id, std::shared_ptr<const BodyShape> given,
                           std::vector<glm::vec3> points_m) {
   Body& body = bodies[id];
-  body = make_body(id, std::move(given), std::move(points_m), {step_size, config.restitution});
+  body = make_body(id, std::move(given), std::move(points_m), step_size);
   terrain.attach(body);
   return body;
 }
@@ -137,11 +137,9 @@ void Bodies::State::step() {
   for_all(copying, [this](std::span<Body*> some) { terrain.refill(some, false); });
   run(copying);
   dynamics.find_contacts(touching);
-  for_all(touching, [this](std::span<Body*> some) {
-    terrain.refill(some, true);
-    terrain.roughen(some);
-  });
+  for_all(touching, [this](std::span<Body*> some) { terrain.refill(some, true); });
   run(touching);
+  terrain.roughen(loose, *config.palette);
   dynamics.solve();
   for_all(moving, [this](std::span<Body*> some) {
     for (Body* body : some) {

@@ -52,7 +52,7 @@ void add_hulls(const BodyShape& shape, Body& body) {
 }  // namespace
 
 Body make_body(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<glm::vec3> points_m,
-               const BodyRules& rules) {
+               const StepSize& step) {
   const PrincipalAxes principal = principal_axes(given->inertia_kg_m2);
   const BodyShape shape = in_axes(*given, principal.rotation);
   Body body;
@@ -62,11 +62,11 @@ Body make_body(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<g
   body.reach_m = radius_of(shape.hull_m);
   body.mass_kg = shape.mass_kg;
   body.inertia_kg_m2 = stable_inertia(principal.moments);
-  const float spin_travel_m = 0.2F * limits::travel_max_voxels * rules.step.voxel_size_m / rules.step.step_s;
+  const float spin_travel_m = 0.2F * limits::travel_max_voxels * step.voxel_size_m / step.step_s;
   body.spin_max_rad_s = std::min(limits::spin_max_rad_s, spin_travel_m / std::max(body.reach_m, 0.01F));
   btRigidBody::btRigidBodyConstructionInfo info(shape.mass_kg, nullptr, body.shape.get(), body.inertia_kg_m2);
   info.m_friction = std::sqrt(shape.friction);  // Bullet multiplies those of both bodies
-  info.m_restitution = std::sqrt(rules.restitution);
+  info.m_restitution = std::sqrt(shape.restitution);
   info.m_linearSleepingThreshold = limits::sleep_speed_m_s;
   info.m_angularSleepingThreshold = limits::sleep_spin_rad_s;
   body.rigid = std::make_unique<btRigidBody>(info);
@@ -79,7 +79,7 @@ Body make_body(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<g
   if (body.points_m.empty())
     body.points_m =
         shape.surface_m.empty()
-            ? surface_points(shape.hull_m, limits::sample_spacing_voxels * rules.step.voxel_size_m)
+            ? surface_points(shape.hull_m, limits::sample_spacing_voxels * step.voxel_size_m)
             : shape.surface_m;
   return body;
 }

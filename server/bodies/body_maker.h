@@ -9,14 +9,9 @@
 
 namespace scree {
 
-struct BodyRules {
-  StepSize step;
-  float restitution = 0.0F;
-};
-
 /// A body of that shape, which lies nowhere, is in no world yet, and has no probe. `points_m`: Body::points_m
 /// of a body of that shape, which are most of the work; empty: they are found.
 Body make_body(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<glm::vec3> points_m,
-               const BodyRules& rules);
+               const StepSize& step);
 
 }  // namespace scree

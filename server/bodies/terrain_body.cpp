@@ -82,9 +82,11 @@ void TerrainBody::refill(std::span<Body*> some, bool copying) const {
   }
 }
 
-void TerrainBody::roughen(std::span<Body*> some) const {
-  for (Body* body : some)
-    if (body->awake) scree::roughen(*body->ground, *body->rigid, body->rubs_at_m, field_);
+void TerrainBody::roughen(std::span<Body*> some, const Palette& palette) const {
+  for (Body* body : some) {
+    if (!body->awake || body->ground->getNumContacts() == 0) continue;
+    scree::roughen(*body->ground, *body->rigid, palette.row_or_first(material_at(field_, body->rubs_at_m)));
+  }
 }
 
 }  // namespace scree

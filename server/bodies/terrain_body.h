@@ -1,8 +1,8 @@
 // The terrain in Bullet's world: one static object that is in no broadphase, and for each body that can move
 // its contacts with the ground, found in one of several ways. Private to this folder.
 //
-// turn(), refill() and roughen() change the given bodies alone: threads may call them for different bodies at
-// once, while nothing changes the terrain.
+// turn() and refill() change the given bodies alone: threads may call them for different bodies at once, while
+// nothing changes the terrain.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
@@ -46,8 +46,8 @@ class TerrainBody {
   /// Refills the contacts of the bodies that are awake; of those that needed a copy of the terrain, or of the
   /// others.
   void refill(std::span<Body*> some, bool copying) const;
-  /// Gives the contacts with the terrain its friction.
-  void roughen(std::span<Body*> some) const;
+  /// Gives the contacts with the terrain the friction and restitution of its materials. One thread.
+  void roughen(std::span<Body*> some, const Palette& palette) const;
 
  private:
   Field& field_;

@@ -9,7 +9,6 @@
 #include "server/bodies/to_bullet.h"
 #include "server/bodies/told_overlap.h"
 #include "shared/base/check.h"
-#include "shared/field/paint.h"
 
 namespace scree {
 
@@ -62,7 +61,6 @@ btManifoldPoint contact_point(const TerrainContact& contact, const btRigidBody& 
   btManifoldPoint point(at.invXform(on_body), on_ground, normal, distance);
   point.m_positionWorldOnA = on_body;
   point.m_positionWorldOnB = on_ground;
-  point.m_combinedRestitution = surface.restitution;
   point.m_index0 = contact.point;
   return point;
 }
@@ -101,12 +99,14 @@ glm::vec3 refill(btPersistentManifold& manifold, const btRigidBody& body, std::v
   return place_below(body, found.front(), surface.voxel_size_m);
 }
 
-void roughen(btPersistentManifold& manifold, const btRigidBody& body, glm::vec3 place_m, const Field& field) {
-  if (manifold.getNumContacts() == 0) return;
-  // The body's own friction is a square root already: Bullet multiplies the two.
-  const float friction = body.getFriction() * std::sqrt(traits_of(material_at(field, place_m)).friction);
-  for (int i = 0; i < manifold.getNumContacts(); ++i)
+void roughen(btPersistentManifold& manifold, const btRigidBody& body, const MaterialRow& terrain) {
+  // The body's own are square roots already: Bullet multiplies the two.
+  const float friction = body.getFriction() * std::sqrt(terrain.friction);
+  const float restitution = body.getRestitution() * std::sqrt(terrain.restitution);
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
     manifold.getContactPoint(i).m_combinedFriction = friction;
+    manifold.getContactPoint(i).m_combinedRestitution = restitution;
+  }
 }
 
 }  // namespace scree

@@ -7,13 +7,13 @@
 #include <vector>
 
 #include "server/colliders/terrain_collider.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
 /// Parameters that all terrain contacts of a step share.
 struct TerrainSurface {
   float voxel_size_m = 0.0F;
-  float restitution = 0.0F;
   float step_s = 0.0F;
 };
 
@@ -23,8 +23,7 @@ struct TerrainSurface {
 /// Changes the order and content of `found`.
 glm::vec3 refill(btPersistentManifold& manifold, const btRigidBody& body, std::vector<TerrainContact>& found,
                  const TerrainSurface& surface);
-/// Sets the friction of all contacts, between the body and the material at that place. Reads the field's
-/// paint alone.
-void roughen(btPersistentManifold& manifold, const btRigidBody& body, glm::vec3 place_m, const Field& field);
+/// Sets friction and restitution of all contacts, between the body and that material of the terrain.
+void roughen(btPersistentManifold& manifold, const btRigidBody& body, const MaterialRow& terrain);
 
 }  // namespace scree

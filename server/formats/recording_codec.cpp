@@ -120,6 +120,7 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
   to.set_field_hash(keyframe.field_hash);
   to.set_state_hash(keyframe.state_hash);
   write(*to.mutable_settings(), keyframe.settings);
+  write(*to.mutable_materials(), keyframe.materials);
   return bytes_of(to);
 }
 
@@ -147,6 +148,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   keyframe.state_hash = from.state_hash();
   keyframe.settings = check.settings(from.settings());
   keyframe.poses = check.value_or_refuse(unpack_transforms(as_span(from.poses())));
+  keyframe.materials = read(from.materials(), check);
   return checked(std::move(keyframe), check);
 }
 

@@ -19,8 +19,13 @@
 
 namespace scree {
 
-/// Version of the blobs and the tables. A reader refuses any other.
-inline constexpr uint32_t recording_format = 6;
+/// Version of the blobs and the tables that is written, and the oldest that is read: what both have is the
+/// same. A reader refuses any other.
+inline constexpr uint32_t recording_format = 7;
+inline constexpr uint32_t recording_format_oldest = 6;
+constexpr bool reads_recording_format(uint32_t format) {
+  return recording_format_oldest <= format && format <= recording_format;
+}
 
 struct RecordedHeader {
   uint32_t format = recording_format;
@@ -33,6 +38,8 @@ struct RecordedHeader {
   std::optional<Spawn> spawn{};    ///< as of WorldConfig: it is not among `settings`
   uint32_t merge_burst_ticks = 0;  ///< of a recording's events: EventDeriver
   uint32_t rules = 0;              ///< by which the simulation serves (server/world/rules.h)
+  /// The palette to start with (proto/palette_codec.h); empty: the first rows of the built-in one.
+  std::vector<uint8_t> palette{};
 };
 
 struct RecordedFrame {
@@ -54,6 +61,7 @@ struct RecordedKeyframe {
   uint64_t state_hash = 0;
   SettingValues settings;
   std::vector<PieceState> poses;  ///< of the pieces whose volumes are rows of their own; ordered by id
+  MaterialLedger materials;       ///< empty in recordings that keep none
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);

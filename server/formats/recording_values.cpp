@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "proto/byte_stream.h"
+#include "proto/height_wire.h"
+#include "proto/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/text.h"
@@ -27,6 +30,32 @@ Ledger read(const recorded::Ledger& from) {
   return {from.terrain(), from.pieces(), from.dust(), from.poured(), from.moved()};
 }
 
+void write(recorded::MaterialLedger& to, const MaterialLedger& from) {
+  std::vector<uint8_t> bytes;
+  ByteWriter writer(bytes);
+  for (const MaterialLedger::Row& row : from.rows())
+    for (const MassUnits mass : {row.terrain, row.pieces, row.dust, row.poured, row.converted})
+      writer.zigzag(mass);
+  to.set_rows(to_string(bytes));
+}
+
+MaterialLedger read(const recorded::MaterialLedger& from, FieldChecker& check) {
+  std::vector<MaterialLedger::Row> rows;
+  ByteReader reader(as_span(from.rows()), "ledger of the materials");
+  constexpr MassUnits mass_max = int64_t{1} << 62U;
+  while (!reader.at_end() && !reader.failed()) {
+    if (rows.size() == materials_max) {
+      reader.refuse("more rows than a palette has");
+      break;
+    }
+    MaterialLedger::Row& row = rows.emplace_back();
+    for (MassUnits* mass : {&row.terrain, &row.pieces, &row.dust, &row.poured, &row.converted})
+      *mass = reader.zigzag("mass", mass_max);
+  }
+  if (reader.failed()) check.refuse(reader.error().message);
+  return MaterialLedger(std::move(rows));
+}
+
 void write(recorded::Header& to, const RecordedHeader& from) {
   to.set_format(from.format);
   to.set_program(showable(from.program, limits::program_bytes_max));
@@ -40,12 +69,14 @@ void write(recorded::Header& to, const RecordedHeader& from) {
   to.set_merge_burst_ticks(from.merge_burst_ticks);
   if (from.spawn) to.set_spawn(text_of(*from.spawn));
   to.set_rules(from.rules);
+  if (from.terrain.rows != GroundRows{}) write(*to.mutable_rows(), from.terrain.rows);
+  to.set_palette(from.palette.data(), from.palette.size());
 }
 
 RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
   RecordedHeader header;
   header.format = from.format();
-  if (header.format != recording_format) return header;
+  if (!reads_recording_format(header.format)) return header;
   header.program = check.text(from.program(), limits::program_bytes_max, "program");
   header.terrain.kind = check.kind<TerrainKind>(from.terrain_kind(), "terrain_kind");
   header.terrain.random_seed = from.terrain_seed();
@@ -67,6 +98,9 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
     std::ranges::copy(as_span(from.ground()), header.ground.begin());
   else if (!from.ground().empty())
     check.refuse("the hash of its ground is not of 32 bytes");
+  if (from.has_rows()) header.terrain.rows = read_rows(from.rows(), check);
+  const std::string palette = check.bytes(from.palette(), limits::palette_bytes_max, "palette");
+  header.palette.assign(palette.begin(), palette.end());
   return header;
 }
 

@@ -1,5 +1,5 @@
 // Converts the values that recordings and world files share between our types and Protobuf's. Internal to
-// proto/.
+// server/formats.
 #pragma once
 
 #include <google/protobuf/message_lite.h>
@@ -39,6 +39,9 @@ Result<T> checked(T value, const FieldChecker& check) {
 
 void write(recorded::Ledger& to, const Ledger& from);
 Ledger read(const recorded::Ledger& from);
+
+void write(recorded::MaterialLedger& to, const MaterialLedger& from);
+MaterialLedger read(const recorded::MaterialLedger& from, FieldChecker& check);
 
 void write(recorded::Header& to, const RecordedHeader& from);
 /// Reads nothing but the number of another format, whose fields may have another meaning.

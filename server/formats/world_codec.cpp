@@ -106,6 +106,8 @@ void write(kept::Piece& to, const PieceRecord& from) {
   to.set_inertia(pack_vec3s({shape.inertia_kg_m2[0], shape.inertia_kg_m2[1], shape.inertia_kg_m2[2]}));
   to.set_hull(pack_vec3s(shape.hull_m));
   to.set_surface(pack_vec3s(shape.surface_m));
+  if (shape.centre_m != glm::vec3(0.0F)) to.set_centre(pack_vec3s({shape.centre_m}));
+  to.set_restitution(shape.restitution);
   for (const std::vector<glm::vec3>& part : shape.parts_m) to.add_parts(pack_vec3s(part));
 }
 
@@ -120,6 +122,9 @@ BodyShape read_shape(const kept::Piece& from, FieldChecker& check) {
     check.refuse("a tensor of inertia without nine numbers");
   shape.hull_m = check.value_or_refuse(unpack_vec3s(from.hull(), "hull", hull_points_max));
   shape.surface_m = check.value_or_refuse(unpack_vec3s(from.surface(), "surface", surface_points_max));
+  const auto centre = check.value_or_refuse(unpack_vec3s(from.centre(), "centre of mass", 1));
+  if (!centre.empty()) shape.centre_m = centre.front();
+  if (from.has_restitution()) shape.restitution = check.not_negative(from.restitution(), "restitution");
   if (from.parts_size() > parts_max) check.refuse(fmt::format("more than {} parts", parts_max));
   for (int i = 0; i < from.parts_size() && !check.failed(); ++i)
     shape.parts_m.push_back(check.value_or_refuse(unpack_vec3s(from.parts(i), "part", hull_points_max)));
@@ -209,6 +214,7 @@ void write(kept::Moment& to, const WorldMoment& from) {
   to.set_gained(pack_boxes(from.gained));
   to.set_buried(pack_ids(from.buried));
   to.set_sunk(pack_ids(from.sunk));
+  write(*to.mutable_materials(), from.materials);
 }
 
 RequestsValue read_requests(const kept::Moment& from, FieldChecker& check) {
@@ -225,7 +231,7 @@ RequestsValue read_requests(const kept::Moment& from, FieldChecker& check) {
 WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   WorldMoment moment;
   moment.config = read(from.config(), check);
-  if (moment.config.format != recording_format) check.refuse("its settings are of another format");
+  if (!reads_recording_format(moment.config.format)) check.refuse("its settings are of another format");
   moment.tick = from.tick();
   moment.next_piece = from.next_piece();
   moment.ledger = scree::read(from.ledger());
@@ -250,6 +256,7 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   moment.gained = check.value_or_refuse(unpack_boxes(from.gained(), "gained terrain"));
   moment.buried = check.value_or_refuse(unpack_piece_ids(from.buried(), "buried pieces"));
   moment.sunk = check.value_or_refuse(unpack_piece_ids(from.sunk(), "sunk pieces"));
+  moment.materials = scree::read(from.materials(), check);
   return moment;
 }
 
@@ -272,12 +279,12 @@ Result<WorldHeader> decode_world_header(std::span<const uint8_t> bytes) {
   const auto from = TRY(parsed<kept::WorldHeader>(bytes, header_subject));
   WorldHeader header;
   header.format = from.format();
-  if (header.format != world_format) return header;  // in another format the fields may mean something else
+  if (!reads_world_format(header.format)) return header;  // in another format the fields may mean something else
   FieldChecker check(header_subject);
   header.world = from.world();
   if (header.world == 0) check.refuse("the world has no number");
   header.config = read(from.config(), check);
-  if (header.config.format != recording_format) check.refuse("its settings are of another format");
+  if (!reads_recording_format(header.config.format)) check.refuse("its settings are of another format");
   return checked(std::move(header), check);
 }
 

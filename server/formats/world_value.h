@@ -41,6 +41,8 @@ struct BodyShape {
   /// Convex parts that collide with other bodies, for a large concave piece: each has corners as `hull_m`
   /// has. Empty: the hull collides.
   std::vector<std::vector<glm::vec3>> parts_m{};
+  glm::vec3 centre_m{0.0F};   ///< the centre of mass, from the volume's centre, in the volume's axes
+  float restitution = 0.05F;  ///< share of the speed that a blow gives back; combined as friction is
 
   bool operator==(const BodyShape&) const = default;
 };
@@ -200,6 +202,7 @@ struct WorldMoment {
   std::vector<VoxelBox> gained;              ///< around terrain that gained rock
   std::vector<PieceId> buried;               ///< ordered, as `sunk`; may be gone
   std::vector<PieceId> sunk;
+  MaterialLedger materials;  ///< empty in worlds that keep none
 };
 
 struct WorldSnapshot {

@@ -111,4 +111,29 @@ PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m, Simpli
   return hull;
 }
 
+WeighedVolume weigh(const Volume& volume, const PieceHull& hull, const Palette& palette,
+                    float voxel_size_m) {
+  const float voxel_m3 = voxel_size_m * voxel_size_m * voxel_size_m;
+  WeighedVolume weighed;
+  if (volume.masses.empty()) {
+    weighed.mass_kg = hull.size_m3 * palette.row_or_first(volume.materials.all).density_kg_m3;
+    weighed.inertia_kg_m2 = hull.inertia_m2 * weighed.mass_kg;
+    return weighed;
+  }
+  for (const MaterialMass& one : volume.masses)
+    weighed.mass_kg += static_cast<float>(one.mass) / units_per_voxel * voxel_m3 *
+                       palette.row_or_first(one.material).density_kg_m3;
+  std::array<float, 256> densities{};
+  for (size_t row = 0; row < densities.size(); ++row)
+    densities[row] = palette.row_or_first(static_cast<Material>(row)).density_kg_m3;
+  if (volume.materials.is_uniform() || mass_of(volume.window) == 0) {
+    weighed.inertia_kg_m2 = hull.inertia_m2 * weighed.mass_kg;
+    return weighed;
+  }
+  const WeightedInertia weighted = weighted_inertia_of(volume, densities);
+  weighed.centre_m = weighted.centre_voxels * voxel_size_m;
+  weighed.inertia_kg_m2 = weighted.inertia * (voxel_size_m * voxel_size_m * weighed.mass_kg);
+  return weighed;
+}
+
 }  // namespace scree

@@ -103,4 +103,33 @@ glm::mat3 inertia_of(const Volume& volume) {
                               -products.y, -products.x, moments.z));
 }
 
+WeightedInertia weighted_inertia_of(const Volume& volume, std::span<const float, 256> densities) {
+  const VoxelBox& b = volume.window.box;
+  const glm::dvec3 origin(volume.centre_voxels);
+  glm::dvec3 moment(0.0), squares(0.0), products(0.0);
+  double mass = 0.0;
+  size_t at = 0;
+  for (int x = b.lo.x; x < b.hi.x; ++x)
+    for (int y = b.lo.y; y < b.hi.y; ++y)
+      for (int z = b.lo.z; z < b.hi.z; ++z, ++at) {
+        const int units = occupancy(volume.window.codes[at]);
+        if (units == 0) continue;
+        const double weight =
+            units * static_cast<double>(densities[row_number(volume.materials.at(at))]);
+        const glm::dvec3 p = glm::dvec3(x, y, z) - origin;
+        mass += weight;
+        moment += weight * p;
+        squares += weight * p * p;
+        products += weight * glm::dvec3(p.y * p.z, p.x * p.z, p.x * p.y);
+      }
+  CHECK(mass > 0.0);
+  const glm::dvec3 c = moment / mass;
+  squares = squares / mass - c * c + glm::dvec3(1.0 / 12.0);
+  products = products / mass - glm::dvec3(c.y * c.z, c.x * c.z, c.x * c.y);
+  const glm::dvec3 moments(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y);
+  return {glm::vec3(c), glm::mat3(glm::dmat3(moments.x, -products.z, -products.y,  //
+                                             -products.z, moments.y, -products.x,  //
+                                             -products.y, -products.x, moments.z))};
+}
+
 }  // namespace scree

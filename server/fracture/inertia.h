@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/mat3x3.hpp>
+#include <span>
 
 #include "shared/field/piece.h"
 
@@ -9,5 +10,13 @@ namespace scree {
 
 /// Inertia tensor of 1 kg about the volume's centre of mass, in voxels²; every voxel counts as a small cube.
 glm::mat3 inertia_of(const Volume& volume);
+
+/// The same of a volume whose materials weigh different, about its centre of mass.
+struct WeightedInertia {
+  glm::vec3 centre_voxels{0.0F};  ///< of mass, from the volume's centre
+  glm::mat3 inertia{0.0F};
+};
+/// `densities`: by row, relative to each other. The volume has mass.
+WeightedInertia weighted_inertia_of(const Volume& volume, std::span<const float, 256> densities);
 
 }  // namespace scree

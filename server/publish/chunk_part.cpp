@@ -40,7 +40,7 @@ ChunkMessage part_of_chunk(ChunkCoord coord, const PublishedChunk& chunk, uint64
   if (!more) part.hash = chunk.hash;
   for (const auto& [brick, state] : chunk.bricks)
     if ((bricks & bit_of(index_in_chunk(brick))) != 0)
-      part.bricks.push_back({brick, *state.brick, state.paint});
+      part.bricks.push_back({brick, *state.brick, state.materials});
   CHECK(part.is_part());
   return part;
 }

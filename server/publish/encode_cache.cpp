@@ -60,7 +60,7 @@ FrameMessage frame_of(const FrameSelection& selection, const TickChanges& change
     message.operations.push_back(changes.delta.operations[index].operation);
   for (const ChunkCoord chunk : selection.patched)
     for (const BrickState* state : changes.bricks.at(chunk))
-      message.patches.push_back({state->coord, *state->brick, state->paint});
+      message.patches.push_back({state->coord, *state->brick, state->materials});
   message.dropped_chunks = selection.dropped;
   message.removed_pieces = selection.removed;
   message.transforms = pack_transforms(selection.moved);
@@ -139,7 +139,7 @@ SharedBytes EncodeCache::chunk(ChunkCoord coord, const PublishedChunk& chunk) {
     message.hash = chunk.hash;
     message.bricks.reserve(chunk.bricks.size());
     for (const auto& [brick, state] : chunk.bricks)
-      message.bricks.push_back({brick, *state.brick, state.paint});
+      message.bricks.push_back({brick, *state.brick, state.materials});
     entry->bytes = share(std::move(message));
     chunk_bytes_ += entry->size();
     CHECK_DEBUG(decodes(entry->bytes));

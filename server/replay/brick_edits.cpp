@@ -12,13 +12,13 @@ using PatchesByChunk = std::map<ChunkCoord, std::vector<const BrickPatch*>>;
 
 uint64_t hash_of(const std::vector<const BrickPatch*>& bricks) {
   uint64_t hash = 0;
-  for (const BrickPatch* patch : bricks) hash += brick_hash(patch->coord, patch->brick, patch->paint);
+  for (const BrickPatch* patch : bricks) hash += brick_hash(patch->coord, patch->brick, patch->materials);
   return hash;
 }
 
 void set_edit(Field& field, BrickCoord brick, const PaintedBrick& edit) {
   field.set_brick(brick, edit.brick);
-  field.paint_brick(brick, edit.paint);
+  field.set_materials(brick, edit.materials);
 }
 
 /// A field forgets whole chunks: the other bricks are set again.
@@ -34,7 +34,7 @@ void forget_bricks(Field& field, ChunkCoord chunk, const std::set<BrickCoord>& g
 
 std::optional<PaintedBrick> edit_of(Field& field, BrickCoord brick) {
   if (!field.is_edited(brick)) return std::nullopt;
-  return PaintedBrick{field.brick(brick), field.painted(brick)};
+  return PaintedBrick{field.brick(brick), field.materials(brick)};
 }
 
 BricksBefore edits_within(Field& field, const VoxelBox& voxels) {
@@ -58,7 +58,7 @@ void replace_edits(Field& field, std::span<const BrickPatch> bricks, std::span<c
       before.try_emplace(brick, edit_of(field, brick));
     for (const BrickPatch* patch : patches) before.try_emplace(patch->coord, std::nullopt);
     field.forget_chunk(chunk);
-    for (const BrickPatch* patch : patches) set_edit(field, patch->coord, {patch->brick, patch->paint});
+    for (const BrickPatch* patch : patches) set_edit(field, patch->coord, {patch->brick, patch->materials});
   }
 }
 
@@ -87,9 +87,9 @@ void add_differences(Field& field, const BricksBefore& before, TickDelta& delta)
 
 BrickState published_brick(Field& field, BrickCoord coord) {
   auto brick = std::make_shared<const Brick>(field.brick(coord));
-  const std::optional<Material> paint = field.painted(coord);
-  const uint64_t hash = brick_hash(coord, *brick, paint);
-  return {coord, std::move(brick), hash, paint};
+  const BrickMaterials materials = field.materials(coord);
+  const uint64_t hash = brick_hash(coord, *brick, materials);
+  return {coord, std::move(brick), hash, materials};
 }
 
 }  // namespace scree

@@ -14,10 +14,10 @@ namespace scree {
 
 struct PaintedBrick {
   Brick brick;
-  std::optional<Material> paint;
+  BrickMaterials materials{};
 
   bool operator==(const PaintedBrick& other) const {
-    return brick.codes == other.brick.codes && paint == other.paint;
+    return brick.codes == other.brick.codes && materials == other.materials;
   }
 };
 

@@ -15,7 +15,7 @@ constexpr Tick keyframe_ahead_max = 1200;
 
 struct EditedBrick {
   Brick brick;
-  std::optional<Material> paint;
+  BrickMaterials materials{};
   uint64_t hash = 0;
 };
 using EditedBricks = std::map<BrickCoord, EditedBrick>;
@@ -40,8 +40,8 @@ Result<Terrain> at_next_keyframe(const DiffSide& side, Tick tick, const Error& b
   if (!keyframe.has_value()) return tl::unexpected(because);
   Terrain terrain{{}, at, reader->header().world.terrain.voxel_size_m};
   for (const BrickPatch& patch : keyframe->bricks)
-    terrain.bricks[patch.coord] = {patch.brick, patch.paint,
-                                   brick_hash(patch.coord, patch.brick, patch.paint)};
+    terrain.bricks[patch.coord] = {patch.brick, patch.materials,
+                                   brick_hash(patch.coord, patch.brick, patch.materials)};
   return terrain;
 }
 
@@ -51,7 +51,7 @@ Result<Terrain> terrain_after(const DiffSide& side, Tick tick) {
   if (tick == 0) return terrain;
   const auto whole = TRY(source->next());
   for (const BrickState& state : whole->bricks)
-    terrain.bricks[state.coord] = {*state.brick, state.paint, state.hash};
+    terrain.bricks[state.coord] = {*state.brick, state.materials, state.hash};
   return terrain;
 }
 

@@ -33,6 +33,7 @@ void append(TickDelta& to, const TickDelta& next) {
   to.pieces = next.pieces;
   if (!next.settings.empty()) to.settings = next.settings;
   to.ledger = next.ledger;
+  to.materials = next.materials;
   to.field_hash = next.field_hash;
   to.state_hash = next.state_hash;
 }

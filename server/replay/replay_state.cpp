@@ -55,6 +55,8 @@ Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& bef
     pieces[piece.id] = std::make_shared<const Volume>(std::move(piece.volume));
   }
   ledger = keyframe.ledger;
+  materials.reset();
+  if (keyframe.materials.agrees(ledger)) materials = keyframe.materials;
   settings = keyframe.settings;
   state_hash = keyframe.state_hash;
   return check_hash(keyframe.field_hash);
@@ -85,6 +87,7 @@ Result<void> ReplaySource::State::apply_operation(const Operation& operation, Ti
   const VoxelBox reads = read_box(operation, pieces, voxel_size_m);
   const BricksBefore stood = before != nullptr ? edits_within(field, reads) : BricksBefore();
   const Applied applied = apply(operation, field, pieces);
+  if (materials) materials->enter(applied.flows);
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
   for (const CreatedPiece& piece : applied.created) delta.spawned.push_back({piece.id, pieces.at(piece.id)});
@@ -116,7 +119,7 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   const auto frame = reader->frame(tick + 1);
   TRY(frame);
   PlayedTick undo;
-  if (undoable) undo = {{}, pieces, poses, ledger, settings, state_hash};
+  if (undoable) undo = {{}, pieces, poses, ledger, materials, settings, state_hash};
   const bool notes = before != nullptr || undoable;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++tick;
@@ -132,6 +135,7 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   if (!frame->settings.empty()) settings = frame->settings;
   delta->settings = frame->settings;
   delta->ledger = ledger;
+  if (materials) delta->materials = *materials;
   delta->field_hash = frame->field_hash;
   delta->state_hash = state_hash;
   if (before != nullptr) before->insert(undo.bricks.begin(), undo.bricks.end());
@@ -149,6 +153,7 @@ void ReplaySource::State::revert_tick(BricksBefore& before) {
   pieces = std::move(last.pieces);
   poses = std::move(last.poses);
   ledger = last.ledger;
+  materials = std::move(last.materials);
   settings = std::move(last.settings);
   state_hash = last.state_hash;
   --tick;
@@ -175,6 +180,7 @@ std::shared_ptr<TickDelta> ReplaySource::State::unchanged() const {
   delta->tick = tick;
   for (const auto& [id, volume] : pieces) delta->pieces.push_back({id, poses.at(id)});
   delta->ledger = ledger;
+  if (materials) delta->materials = *materials;
   delta->field_hash = field.hash();
   delta->state_hash = state_hash;
   return delta;

@@ -23,6 +23,7 @@ struct PlayedTick {
   PieceTable pieces;
   std::map<PieceId, QuantisedPose> poses;
   Ledger ledger;
+  std::optional<MaterialLedger> materials;
   SettingValues settings;
   uint64_t state_hash = 0;
 };
@@ -51,6 +52,7 @@ struct ReplaySource::State {
   PieceTable pieces;
   std::map<PieceId, QuantisedPose> poses;
   Ledger ledger;
+  std::optional<MaterialLedger> materials;  ///< nothing: a keyframe keeps none
   SettingValues settings;
   uint64_t state_hash = 0;
   Tick tick = 0;

@@ -14,6 +14,7 @@ struct FileKind {
   std::string_view noun;       ///< "recording"
   int64_t application_id = 0;  ///< PRAGMA application_id
   int64_t format = 0;          ///< PRAGMA user_version
+  int64_t oldest = 0;          ///< format that is read as well, as all between
   std::string_view way_out;    ///< what to do with another format
   /// What follows "CREATE TABLE NAME" in every table of such a file, and the only index; empty: there is
   /// none.

@@ -107,7 +107,7 @@ Result<std::vector<BrickPatch>> KeyframeWriter::read_whole(const PublishedChunk&
   auto bricks = read_(chunk);
   if (!bricks) return bricks;
   uint64_t hash = 0;
-  for (const BrickPatch& brick : *bricks) hash += brick_hash(brick.coord, brick.brick, brick.paint);
+  for (const BrickPatch& brick : *bricks) hash += brick_hash(brick.coord, brick.brick, brick.materials);
   if (hash != published.hash || bricks->empty())
     return fail(database_->path() + " cannot begin: a chunk was read that is not the world's");
   return bricks;
@@ -123,10 +123,10 @@ Result<void> KeyframeWriter::put_chunk(const PublishedState& state, ChunkCoord c
     auto whole = TRY(read_whole(published, chunk));
     read = std::move(whole);
   }
-  for (const BrickPatch& brick : read) bricks.push_back({brick.coord, &brick.brick, brick.paint});
+  for (const BrickPatch& brick : read) bricks.push_back({brick.coord, &brick.brick, brick.materials});
   if (read.empty())
     for (const auto& [coord, brick] : published.bricks)
-      bricks.push_back({coord, brick.brick.get(), brick.paint});
+      bricks.push_back({coord, brick.brick.get(), brick.materials});
   const std::vector<uint8_t> data = encode_bricks(bricks);
   const int64_t keys[] = {static_cast<int64_t>(state.tick()),
                           static_cast<int64_t>(world_schema::chunk_key(chunk)),
@@ -154,6 +154,7 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
   pieces_ = std::move(alive);
   keyframe.tick = state.tick();
   keyframe.ledger = state.ledger();
+  keyframe.materials = state.materials();
   keyframe.field_hash = state.field_hash();
   keyframe.state_hash = state.state_hash();
   if (state.settings() != header_) keyframe.settings = state.settings();

@@ -39,12 +39,13 @@ RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
   RecordedKeyframe keyframe;
   keyframe.tick = delta.tick;
   for (const BrickState& state : delta.bricks)
-    keyframe.bricks.push_back({state.coord, *state.brick, state.paint});
+    keyframe.bricks.push_back({state.coord, *state.brick, state.materials});
   for (size_t i = 0; i < delta.spawned.size(); ++i) {
     CHECK_DEBUG(delta.spawned[i].id == delta.pieces[i].id);
     keyframe.pieces.push_back({delta.spawned[i].id, *delta.spawned[i].volume, delta.pieces[i].pose});
   }
   keyframe.ledger = delta.ledger;
+  keyframe.materials = delta.materials;
   keyframe.field_hash = delta.field_hash;
   keyframe.state_hash = delta.state_hash;
   keyframe.settings = delta.settings;

@@ -51,7 +51,7 @@ Result<void> RecordingReader::State::read_header() {
   if (!bytes_read.has_value()) return fail(database.path() + ": damaged: it has no header");
   const auto recorded = decode_recorded_header(*bytes_read);
   if (!recorded) return fail(fmt::format("{}: damaged: {}", database.path(), recorded.error().message));
-  if (recorded->format != recording_format)
+  if (!reads_recording_format(recorded->format))
     return fail(fmt::format("{}: damaged: its header is of format {}", database.path(), recorded->format));
   auto understood = from_recorded(*recorded);
   if (!understood)

@@ -26,6 +26,7 @@ inline constexpr FileKind recording{
     .noun = "recording",
     .application_id = application_id,
     .format = recording_format,
+    .oldest = recording_format_oldest,
     .way_out = "play it with the release that recorded it",
     .columns = {row_columns, chunk_columns},
     .index = "CREATE INDEX keyframe_chunks_of ON keyframe_chunks (chunk, tick, hash)"};

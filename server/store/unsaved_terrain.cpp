@@ -18,7 +18,7 @@ Result<UnsavedTerrain::Chunk*> UnsavedTerrain::chunk_at(ChunkCoord coord) {
   if (!saved.has_value()) return &chunk;
   for (const BrickPatch& patch : saved->bricks)
     chunk.bricks[patch.coord] = {patch.coord, shared_copy(patch.brick),
-                                 brick_hash(patch.coord, patch.brick, patch.paint), patch.paint};
+                                 brick_hash(patch.coord, patch.brick, patch.materials), patch.materials};
   chunk.hash = saved->hash;
   if (saved->ground_mass) {
     chunk.ground_mass = *saved->ground_mass;
@@ -63,7 +63,7 @@ std::vector<WorldChunk> UnsavedTerrain::unsaved(Tick tick) const {
   for (const ChunkCoord coord : unsaved_) {
     const Chunk& chunk = chunks_.at(coord);
     WorldChunk& row = list.emplace_back(WorldChunk{coord, tick, chunk.hash, {}, chunk.ground_mass});
-    for (const auto& [brick, state] : chunk.bricks) row.bricks.push_back({brick, *state.brick, state.paint});
+    for (const auto& [brick, state] : chunk.bricks) row.bricks.push_back({brick, *state.brick, state.materials});
   }
   return list;
 }

@@ -50,7 +50,7 @@ std::vector<WorldChunk> chunks_of(const WorldSnapshot& world) {
     WorldChunk& chunk = chunks[chunk_of(patch.coord)];
     chunk.chunk = chunk_of(patch.coord);
     chunk.version = world.moment.tick;
-    chunk.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    chunk.hash += brick_hash(patch.coord, patch.brick, patch.materials);
     chunk.bricks.push_back(patch);
   }
   std::vector<WorldChunk> list;

@@ -50,8 +50,8 @@ ChunkNow chunk_now(const Field& field) {
     if (field.is_out(chunk)) return bricks;
     for (const BrickCoord coord : field.edited_bricks(chunk)) {
       const Brick& brick = field.brick(coord);
-      const auto paint = field.painted(coord);
-      bricks.push_back({coord, shared_copy(brick), brick_hash(coord, brick, paint), paint});
+      const BrickMaterials materials = field.materials(coord);
+      bricks.push_back({coord, shared_copy(brick), brick_hash(coord, brick, materials), materials});
     }
     return bricks;
   };

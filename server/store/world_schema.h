@@ -17,6 +17,7 @@ inline constexpr FileKind world{
     .noun = "world",
     .application_id = 0x53435257,
     .format = world_format,
+    .oldest = world_format_oldest,
     .way_out = "open it with the release that made it",
     .columns = {" (key INTEGER PRIMARY KEY, data BLOB NOT NULL, checksum INTEGER NOT NULL)"},
     .index = {}};

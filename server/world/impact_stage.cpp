@@ -13,7 +13,7 @@
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/roots.h"
-#include "shared/field/paint.h"
+#include "shared/field/material_window.h"
 
 namespace scree {
 
@@ -26,19 +26,32 @@ struct Blow {
   float excess = 0.0F;     ///< that change over strength_m_s(); up to 1 the piece holds
 };
 
-/// The change of speed above which the piece breaks.
-float strength_m_s(const World::State& state, PieceId id) {
+/// The material of a piece at the place of a blow.
+Material struck_material(const World::State& state, const Volume& volume, const BodyImpact& impact) {
+  if (volume.materials.is_uniform()) return volume.materials.all;
+  const Pose pose = state.bodies.state(impact.id).pose;
+  const glm::vec3 off_m = glm::conjugate(pose.rotation) * (impact.point_m - pose.position_m);
+  const glm::vec3 at = volume.centre_voxels + off_m / state.config.terrain.voxel_size_m + 0.5F;
+  const VoxelBox& box = volume.window.box;
+  return volume.materials.at(VoxelCoord{std::clamp(floor_to_int(at.x), box.lo.x, box.hi.x - 1),
+                                        std::clamp(floor_to_int(at.y), box.lo.y, box.hi.y - 1),
+                                        std::clamp(floor_to_int(at.z), box.lo.z, box.hi.z - 1)});
+}
+
+/// The change of speed above which the piece breaks, by what it is of where the blow fell.
+float strength_m_s(const World::State& state, const BodyImpact& impact) {
   const float dx = state.config.terrain.voxel_size_m;
-  const float size_m3 = static_cast<float>(state.pieces.at(id)->mass) / units_per_voxel * dx * dx * dx;
-  const float fourth_root = std::sqrt(std::sqrt(std::max(size_m3, 0.001F)));
-  return traits_of(state.pieces.at(id)->material).strength_m_s / fourth_root;
+  const Volume& volume = *state.pieces.at(impact.id);
+  const MaterialRow& row = state.palette->row_or_first(struck_material(state, volume, impact));
+  const float size_m3 = static_cast<float>(volume.mass) / units_per_voxel * dx * dx * dx;
+  return row.strength_m_s / power(std::max(size_m3, 0.001F), row.strength_by_size);
 }
 
 std::vector<Blow> blows_of(const World::State& state) {
   std::vector<Blow> blows;
   for (const BodyImpact& impact : state.bodies.impacts(limits::impact_speed_min_m_s)) {
     const float speed = impact.impulse_n_s / state.bodies.mass_kg(impact.id);
-    blows.push_back({impact, speed, speed / strength_m_s(state, impact.id)});
+    blows.push_back({impact, speed, speed / strength_m_s(state, impact)});
   }
   std::ranges::stable_sort(blows, std::ranges::greater{}, &Blow::excess);
   return blows;
@@ -51,7 +64,7 @@ uint32_t seeds_for(const World::State& state, const Blow& blow) {
   if (state.traits_of(blow.impact.id).generation >= limits::break_generations_max ||
       mass < limits::break_mass_min)
     return 0;
-  const float wanted = (1.0F + 2.0F * blow.excess) * traits_of(volume.material).seed_density;
+  const float wanted = (1.0F + 2.0F * blow.excess) * state.palette->row_or_first(main_material(volume)).seed_density;
   const auto seeds = static_cast<uint32_t>(std::clamp(wanted, 2.0F, limits::break_seeds_max));
   const auto heavy_enough = static_cast<uint32_t>(mass / limits::break_child_mass_min);
   const size_t others = state.pieces.size() - 1;
@@ -175,8 +188,11 @@ float dent_radius_m(float volume_m3) {
 
 float mass_kg(const World::State& state, const Volume& volume) {
   const float dx = state.config.terrain.voxel_size_m;
-  return static_cast<float>(volume.mass) / units_per_voxel * dx * dx * dx *
-         traits_of(volume.material).density_kg_m3;
+  float kg = 0.0F;
+  for (const MaterialMass& one : masses_of(volume))
+    kg += static_cast<float>(one.mass) / units_per_voxel * dx * dx * dx *
+          state.palette->row_or_first(one.material).density_kg_m3;
+  return kg;
 }
 
 /// The speeds of a dent's pieces: up and sideways, away from the blow. Their energy and their momentum come
@@ -228,7 +244,7 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   const float dx = state.config.terrain.voxel_size_m;
   const Material material = material_at(state.field, impact.point_m - impact.normal * dx);
   const float energy_j = 0.5F * impact.impulse_n_s * blow.speed_m_s;
-  const float volume_m3 = energy_j / traits_of(material).dent_resistance_j_m3;
+  const float volume_m3 = energy_j / state.palette->row_or_first(material).dent_resistance_j_m3;
   const uint32_t seeds = limits::dent_seeds;
   if (volume_m3 < limits::dent_voxels_min * dx * dx * dx) return;
   if (state.pieces.size() + seeds > state.config.pieces_max) return;

@@ -26,7 +26,7 @@ void remember(ChunkHistory& history, Tick version, uint64_t hash) {
 void PublishedState::apply_terrain(const TickDelta& delta) {
   std::unordered_set<ChunkCoord, CoordHash> touched;
   for (const BrickState& state : delta.bricks) {
-    CHECK_DEBUG(state.brick != nullptr && state.hash == brick_hash(state.coord, *state.brick, state.paint));
+    CHECK_DEBUG(state.brick != nullptr && state.hash == brick_hash(state.coord, *state.brick, state.materials));
     touched.insert(chunk_of(state.coord));
     PublishedChunk& chunk = chunks_[chunk_of(state.coord)];
     const auto [slot, is_new] = chunk.bricks.try_emplace(state.coord);
@@ -66,7 +66,7 @@ bool PublishedState::page_in(ChunkCoord coord, std::span<const BrickPatch> brick
   for (const BrickPatch& patch : bricks)
     if (chunk_of(patch.coord) == coord && !whole.contains(patch.coord))
       whole[patch.coord] = {patch.coord, shared_copy(patch.brick),
-                            brick_hash(patch.coord, patch.brick, patch.paint), patch.paint};
+                            brick_hash(patch.coord, patch.brick, patch.materials), patch.materials};
   uint64_t hash = 0, edited = 0;
   for (const auto& [brick, state] : whole) {
     hash += state.hash;
@@ -103,6 +103,7 @@ void PublishedState::apply(const TickDelta& delta) {
   for (const AppliedOperation& applied : delta.operations)
     pieces_merged_ += pieces_merged_by(applied.operation);
   ledger_ = delta.ledger;
+  materials_ = delta.materials;
   if (!delta.settings.empty()) settings_ = delta.settings;
   if (delta.spawn) spawn_ = delta.spawn;
   field_hash_ = delta.field_hash;
@@ -157,6 +158,7 @@ TickDelta PublishedState::without_bricks() const {
     delta.pieces.push_back({id, piece.pose});
   }
   delta.ledger = ledger_;
+  delta.materials = materials_;
   delta.settings = settings_;
   delta.spawn = spawn_;
   delta.field_hash = field_hash_;

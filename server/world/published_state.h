@@ -78,6 +78,7 @@ class PublishedState {
   const std::unordered_map<ChunkCoord, PublishedChunk, CoordHash>& chunks() const { return chunks_; }
   const std::map<PieceId, PublishedPiece>& pieces() const { return pieces_; }
   const Ledger& ledger() const { return ledger_; }
+  const MaterialLedger& materials() const { return materials_; }
   const SettingValues& settings() const { return settings_; }
   /// Where visitors begin; nothing where no delta said it.
   const std::optional<Spawn>& spawn() const { return spawn_; }
@@ -105,6 +106,7 @@ class PublishedState {
   size_t bricks_in_ = 0;
   std::map<PieceId, PublishedPiece> pieces_;
   Ledger ledger_;
+  MaterialLedger materials_;
   SettingValues settings_;
   std::optional<Spawn> spawn_;
   uint64_t field_hash_ = 0;

@@ -134,11 +134,21 @@ struct Checking {
                                             " m/s (limits.blast_speed_max_m_s)");
   }
   Checked operator()(const FillRequest& request) const {
-    return check_edit(state, FillOperation{request.shape}, request.shape, Refusal::fill_invalid);
+    if (request.material) TRY(check_material(*request.material, Refusal::fill_invalid));
+    return check_edit(state, FillOperation{request.shape, request.material}, request.shape,
+                      Refusal::fill_invalid);
   }
   Checked operator()(const PaintRequest& request) const {
+    TRY(check_material(request.material, Refusal::paint_invalid));
     return check_edit(state, PaintOperation{request.shape, request.material}, request.shape,
                       Refusal::paint_invalid);
+  }
+  Checked check_material(Material material, Refusal refusal) const {
+    if (state.palette->has(material)) return {};
+    return refuse(refusal, "material " + std::to_string(row_number(material)) +
+                               " is none of this world's palette, which has " +
+                               std::to_string(state.palette->rows.size()) + " (0 to " +
+                               std::to_string(state.palette->rows.size() - 1) + ")");
   }
   Checked operator()(const SettingsRequest& request) const {
     WorldConfig changed = state.config;
@@ -186,7 +196,7 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
 
 Outcome fill(World::State& state, const FillRequest& request, uint64_t party, TickDelta& delta) {
   const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
-  const Applied applied = state.apply_and_record(FillOperation{request.shape}, party, delta);
+  const Applied applied = state.apply_and_record(FillOperation{request.shape, request.material}, party, delta);
   state.ledger.poured += applied.terrain_gain;
   return enclosed;
 }

@@ -38,6 +38,33 @@ BodyState thrown(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
   return state;
 }
 
+namespace {
+
+/// Friction and restitution of a piece: the means of its materials by mass.
+MaterialRow mean_surface(const Volume& volume, const Palette& palette) {
+  if (volume.masses.empty()) return palette.row_or_first(volume.materials.all);
+  MaterialRow mean;
+  mean.friction = mean.restitution = 0.0F;
+  for (const MaterialMass& one : volume.masses) {
+    const MaterialRow& row = palette.row_or_first(one.material);
+    const float share = static_cast<float>(one.mass) / static_cast<float>(volume.mass);
+    mean.friction += share * row.friction;
+    mean.restitution += share * row.restitution;
+  }
+  return mean;
+}
+
+/// Points from the volume's centre become points from the centre of mass.
+void relate_to_mass(BodyShape& shape) {
+  if (shape.centre_m == glm::vec3(0.0F)) return;
+  for (glm::vec3& p : shape.hull_m) p -= shape.centre_m;
+  for (glm::vec3& p : shape.surface_m) p -= shape.centre_m;
+  for (std::vector<glm::vec3>& part : shape.parts_m)
+    for (glm::vec3& p : part) p -= shape.centre_m;
+}
+
+}  // namespace
+
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta) {
   if (applied.created.empty()) return;
@@ -49,21 +76,24 @@ void spawn(World::State& state, const Applied& applied,
     const std::shared_ptr<const Volume>& volume = state.pieces.at(hull.id);
     Newborn newborn = born(hull.id, *volume);
     newborn.body.id = hull.id;
-    const MaterialRow& material = traits_of(volume->material);
-    const float mass_kg = hull.size_m3 * material.density_kg_m3;
+    const float dx = state.config.terrain.voxel_size_m;
+    const WeighedVolume weighed = weigh(*volume, hull, *state.palette, dx);
+    const MaterialRow surface = mean_surface(*volume, *state.palette);
     BodyShape shape;
     shape.hull_m = hull.corners_m;
-    shape.mass_kg = mass_kg;
-    shape.inertia_kg_m2 = hull.inertia_m2 * mass_kg;
-    shape.friction = material.friction;
+    shape.mass_kg = weighed.mass_kg;
+    shape.inertia_kg_m2 = weighed.inertia_kg_m2;
+    shape.centre_m = weighed.centre_m;
+    shape.friction = surface.friction;
+    shape.restitution = surface.restitution;
     if (newborn.may_be_concave) {
-      const float dx = state.config.terrain.voxel_size_m;
       shape.surface_m = surface_samples(*volume, dx, limits::concave_samples_max);
       shape.surface_m.insert(shape.surface_m.end(), hull.corners_m.begin(), hull.corners_m.end());
       const VoxelCoord size = volume->window.box.size();
       if (std::max({size.x, size.y, size.z}) >= limits::compound_side_min_voxels)
         shape.parts_m = convex_parts(*volume, dx, limits::compound_parts_max);
     }
+    relate_to_mass(shape);
     state.bodies.add(std::move(shape), newborn.body);
     state.traits[hull.id] = newborn.traits;
     state.shares.add(newborn.traits.owner);

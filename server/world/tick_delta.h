@@ -38,7 +38,7 @@ struct BrickState {
   BrickCoord coord;
   std::shared_ptr<const Brick> brick;
   uint64_t hash = 0;
-  std::optional<Material> paint = std::nullopt;
+  BrickMaterials materials{};
 };
 
 /// A chunk's state after the tick.
@@ -72,6 +72,7 @@ struct TickDelta {
   std::shared_ptr<const MarksMessage> marks;  ///< the recording's events; null: none are known
   std::shared_ptr<const RecordedCursorsMessage> cursors;  ///< of who was there; null: as in the tick before
   Ledger ledger;
+  MaterialLedger materials;  ///< the same by material; empty in a replay of a recording that keeps none
   StageTimes times;
   TickWork work;
   std::shared_ptr<const PhysicsMessage> physics;  ///< null unless watched (World::watch)

@@ -61,6 +61,7 @@ void publish(World::State& state, TickDelta& delta) {
   state.changed.clear();
   for (const BodyState& body : state.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
   delta.ledger = state.ledger;
+  delta.materials = state.materials;
   state.work.report(delta.work);
   delta.field_hash = state.field.hash();
   delta.state_hash = state.hash();

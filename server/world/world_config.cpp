@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <string>
+#include <tuple>
 
 #include "server/work/limits.h"
 #include "server/world/limits.h"
@@ -36,7 +37,17 @@ Result<void> check(const Bounded& bounded) {
 
 }  // namespace
 
+bool WorldConfig::operator==(const WorldConfig& other) const {
+  const auto tied = [](const WorldConfig& c) {
+    return std::tie(c.terrain, c.tick_rate_hz, c.pieces_max, c.memory_max_mb, c.merges_per_tick_max,
+                    c.work_percent, c.methods, c.service, c.spawn, c.ground, c.rules, *c.palette);
+  };
+  return tied(*this) == tied(other);
+}
+
 Result<void> validate(const WorldConfig& config) {
+  if (config.terrain.rows != config.palette->ground)
+    return fail("the terrain's layers are not those of the palette's ground");
   TRY(validate_kind(config.terrain.kind, "kind of terrain"));
   const Bounded all[] = {
       {.value = config.terrain.voxel_size_m,

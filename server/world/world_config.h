@@ -3,8 +3,10 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 
+#include "content/builtin_palette.h"
 #include "server/world/methods.h"
 #include "server/world/rules.h"
 #include "server/world/service_limits.h"
@@ -32,8 +34,10 @@ struct WorldConfig {
   std::optional<Spawn> spawn{};    ///< where visitors begin; nothing: where the ground suggests (SpawnPlace)
   Digest ground{};                 ///< names the file that terrain.heights is from; zeros: of no file
   uint32_t rules = rules::newest;  ///< of service (rules.h); fixed from the start
+  /// What the world is made of, to start with; not null. `terrain.rows` are its ground's.
+  std::shared_ptr<const Palette> palette = shared_builtin_palette();
 
-  bool operator==(const WorldConfig&) const = default;
+  bool operator==(const WorldConfig& other) const;
 };
 
 /// Refuses what the simulation cannot run with; the error names the limit (server/world/limits.h and

@@ -34,6 +34,7 @@ WorldMoment World::moment() const {
   m.tick = s.tick;
   m.next_piece = s.next_piece;
   m.ledger = s.ledger;
+  m.materials = s.materials;
   m.field_hash = s.field.hash();
   m.state_hash = s.hash();
   for (const auto& [id, volume] : s.pieces)

@@ -78,7 +78,7 @@ class Restoring {
       if (last != nullptr && !(last->coord < patch.coord)) return fail("its bricks are not in order");
       if (!in_world(patch.coord)) return fail("a brick lies outside the world");
       s_.field.set_brick(patch.coord, patch.brick);
-      s_.field.paint_brick(patch.coord, patch.paint);
+      s_.field.set_materials(patch.coord, patch.materials);
       last = &patch;
     }
     return {};
@@ -145,6 +145,19 @@ class Restoring {
     return s_.bodies.restore(shapes, m_.motion);
   }
 
+  /// Worlds of older programs have none, and who measures anew knows the whole alone.
+  Result<void> materials() {
+    s_.materials = m_.materials;
+    if (!measure_ && !m_.materials.rows().empty()) {
+      if (s_.materials.agrees(s_.ledger)) return {};
+      return fail("the ledgers of its materials do not add up to its ledger");
+    }
+    MaterialMasses of_pieces;
+    for (const auto& [id, volume] : s_.pieces) add(of_pieces, masses_of(*volume));
+    s_.materials = MaterialLedger(s_.ledger, of_pieces, s_.config.terrain.rows.bulk);
+    return {};
+  }
+
   Result<void> ledger() {
     const Ledger said = m_.ledger;
     for (const MassUnits mass : {said.terrain, said.pieces, said.dust, said.poured, said.moved})
@@ -157,7 +170,7 @@ class Restoring {
     if (!measure_ && ledger.terrain != s_.measure_terrain(ground_))
       return fail("its ledger does not hold the mass of its terrain");
     if (ledger.error() != 0) return fail("its ledger does not balance");
-    return {};
+    return materials();
   }
 
   /// What is there, with its dust; what is missing was poured, or became dust.
@@ -294,7 +307,7 @@ std::vector<BrickPatch> World::chunk(ChunkCoord chunk) {
   std::vector<BrickPatch> bricks;
   const bool was_out = field.is_out(chunk);
   for (const BrickCoord coord : field.edited_bricks(chunk))
-    bricks.push_back({coord, field.brick(coord), field.painted(coord)});
+    bricks.push_back({coord, field.brick(coord), field.materials(coord)});
   if (was_out) field.page_out(chunk);
   return bricks;
 }
@@ -329,6 +342,7 @@ TickDelta World::outline() {
   for (const auto& [id, volume] : s.pieces) delta.spawned.push_back({id, volume});
   for (const BodyState& body : s.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
   delta.ledger = s.ledger;
+  delta.materials = s.materials;
   publish_settings(s, delta);
   delta.spawn = s.spawn_place.find(s.field, s.config.spawn);
   delta.field_hash = s.field.hash();

@@ -22,6 +22,7 @@ BodiesConfig bodies_config(const WorldConfig& config, size_t threads) {
   out.tick_rate_hz = config.tick_rate_hz;
   out.terrain_collider = config.methods.collider;
   out.threads = threads;
+  out.palette = config.palette;
   return out;
 }
 
@@ -69,6 +70,7 @@ float client_us_per_s(const WorkBudget& work, const WorldConfig& config) {
 
 World::State::State(const WorldConfig& world_config, size_t threads)
     : config(world_config),
+      palette(config.palette),
       field(config.terrain),
       bodies(field, bodies_config(config, threads)),
       rest(RestConfig{}, config.tick_rate_hz),
@@ -105,6 +107,7 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   if (applied.terrain_gain > 0) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
+  materials.enter(applied.flows);
   for (const PieceId ended : pieces_ended_by(operation)) {
     CHECK(!pieces.contains(ended));
     shares.remove(traits.at(ended).owner);
@@ -141,9 +144,9 @@ uint64_t World::State::hash() const {
 
 BrickState World::State::brick_state(BrickCoord coord) {
   std::shared_ptr<const Brick> brick = shared_copy(field.brick(coord));
-  const std::optional<Material> paint = field.painted(coord);
-  const uint64_t hash = brick_hash(coord, *brick, paint);
-  return {coord, std::move(brick), hash, paint};
+  const BrickMaterials materials = field.materials(coord);
+  const uint64_t hash = brick_hash(coord, *brick, materials);
+  return {coord, std::move(brick), hash, materials};
 }
 
 ChunkState World::State::chunk_state(ChunkCoord chunk) const {
@@ -177,6 +180,7 @@ void World::State::check() const {
   CHECK_EQ(traits.size(), pieces.size());
   CHECK(pieces.empty() || pieces.rbegin()->first < next_piece);
   CHECK(requests.size() <= limits::requests_waiting_max);
+  CHECK(materials.agrees(ledger));
   CHECK_DEBUG(ledger.pieces == mass_of_pieces());
   CHECK_DEBUG(std::ranges::all_of(pieces, [this](const auto& piece) {
     return bodies.contains(piece.first) && traits.contains(piece.first);

@@ -25,7 +25,7 @@
 #include "server/world/stages.h"
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
-#include "shared/material/material.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -83,12 +83,14 @@ struct World::State {
   MassUnits mass_of_pieces() const;
 
   WorldConfig config;  ///< with the current settings
+  std::shared_ptr<const Palette> palette;  ///< as it stands; never null
   VdbField field;
   PieceTable pieces;
   Bodies bodies;                          ///< one for each of `pieces`
   std::map<PieceId, PieceTraits> traits;  ///< one for each of `pieces`
   RestDetector rest;
   Ledger ledger;
+  MaterialLedger materials;  ///< the ledger by material
   Tick tick = 0;
   PieceId next_piece = 1;
   std::set<BrickCoord> changed;   ///< in this tick

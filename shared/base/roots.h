@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "shared/base/check.h"
 
@@ -14,6 +15,20 @@ inline float cube_root(float x) {
   float root = std::max(x, 1.0F);
   for (int i = 0; i < 64; ++i) root = (2.0F * root + x / (root * root)) / 3.0F;
   return root;
+}
+
+/// x to the power of an exponent within 0 … 1, whose first eight binary digits count: by square roots alone.
+inline float power(float x, float exponent) {
+  CHECK(x >= 0.0F && exponent >= 0.0F && exponent <= 1.0F);
+  constexpr int digits = 8;
+  const int binary = static_cast<int>(exponent * (1 << digits) + 0.5F);
+  float result = binary == 1 << digits ? x : 1.0F;
+  float root = x;
+  for (int digit = digits - 1; digit >= 0; --digit) {
+    root = std::sqrt(root);
+    if (((binary >> digit) & 1) != 0) result *= root;
+  }
+  return result;
 }
 
 }  // namespace scree

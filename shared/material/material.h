@@ -10,7 +10,7 @@ namespace scree {
 /// for: so the palette's other numbers may change in a running world.
 enum class Material : uint8_t {};
 
-/// Rows of a palette at most: 255, for the last value of a byte says "more than one" on the wire.
+/// Rows of a palette at most: of a byte's 256 values one says "the ground's own" (brick_materials.h).
 inline constexpr size_t materials_max = 255;
 
 constexpr size_t row_number(Material material) {

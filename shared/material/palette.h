@@ -122,7 +122,7 @@ struct MaterialRow {
   std::string name;
   float density_kg_m3 = 2600.0F;
   float friction = 0.7F;     ///< coefficient; of two that touch, the geometric mean counts
-  float restitution = 0.0F;  ///< share of the speed that a blow gives back; of two, the larger counts
+  float restitution = 0.05F;  ///< share of the speed that a blow gives back; combined likewise
   /// Change of speed in one contact that breaks a piece of 1 m³. Larger pieces have more flaws and break
   /// sooner: by the volume to the power of `strength_by_size` (rock: 1/4, Weibull's modulus near 4).
   float strength_m_s = 10.0F;

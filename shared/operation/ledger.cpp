@@ -6,8 +6,14 @@
 
 namespace scree {
 
-MaterialLedger::MaterialLedger(const Ledger& all, Material material) {
-  row(material) = {.terrain = all.terrain, .pieces = all.pieces, .dust = all.dust, .poured = all.poured};
+MaterialLedger::MaterialLedger(const Ledger& all, const MaterialMasses& pieces, Material material) {
+  row(material) = {.terrain = all.terrain, .dust = all.dust, .poured = all.poured};
+  for (const MaterialMass& one : pieces) {
+    row(one.material).pieces += one.mass;
+    if (one.material != material) row(one.material).converted += one.mass;
+  }
+  CHECK_EQ(sum_of(pieces), all.pieces);
+  row(material).converted += row(material).error();
 }
 
 MaterialLedger::Row& MaterialLedger::row(Material material) {

@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "shared/field/mass.h"
-#include "shared/material/material.h"
+#include "shared/field/material_window.h"
 
 namespace scree {
 
@@ -55,8 +54,8 @@ class MaterialLedger {
   MaterialLedger() = default;
   /// Of these rows, by material; they need not balance.
   explicit MaterialLedger(std::vector<Row> rows) : rows_(std::move(rows)) {}
-  /// A ledger that keeps no materials, entered as that of one.
-  MaterialLedger(const Ledger& all, Material material);
+  /// Of a world whose ledger kept no materials: all counts for one, but for what its pieces are of.
+  MaterialLedger(const Ledger& all, const MaterialMasses& pieces, Material material);
 
   /// Enters one operation's flows, whose sum leaves no dust less than nothing.
   void enter(std::span<const MaterialFlow> flows);
