@@ -43,7 +43,8 @@ std::vector<Layer> other_layers() {
   return {
       {"cmake/", {}},  // precompiled headers of libraries
       {"shared/base/", {}},
-      {"shared/field/", {"shared/base/"}},
+      {"shared/material/", {"shared/base/"}},
+      {"shared/field/", {"shared/material/"}},
       {"shared/surface/", {"shared/field/"}},
       {"shared/falling/", {"shared/field/"}},
       {"shared/fracture/", {"shared/surface/"}},
@@ -52,6 +53,7 @@ std::vector<Layer> other_layers() {
       {"proto/", {"shared/operation/"}},
       {"crypto/", {"shared/base/"}},
       {"ground/", {"proto/", "crypto/"}},
+      {"content/", {"proto/", "crypto/"}},
       {"tools/import/", {"ground/"}},
       {"tools/export/", {"tools/import/", "server/app/", "client/session/"}},
       {"transport/", {"crypto/"}},
@@ -71,7 +73,7 @@ std::vector<Layer> other_layers() {
       {"server/net/", {"server/doors/", "server/publish/", "server/web/"}},
       {"server/store/", {"proto/", "server/world/"}},
       {"server/replay/", {"server/store/"}},
-      {"server/app/", {"server/net/", "server/replay/", "ground/"}},
+      {"server/app/", {"server/net/", "server/replay/", "ground/", "content/"}},
       {"client/mirror/", {"proto/"}},
       {"client/connection/", {"client/mirror/", "transport/"}},
       {"client/cache/", {"client/connection/"}},
@@ -149,6 +151,7 @@ const std::vector<Library>& libraries() {
       {"utf8proc", std::regex("utf8proc\\.h"), {"server/net/"}},
       {"cmark-gfm", std::regex("cmark.*"), {"studies/report/"}},
       {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"tools/import/", "tools/export/gdal/"}},
+      {"toml++", std::regex("toml(\\+\\+|plusplus)?/.*"), {"content/"}},
       {"OpenSSL", std::regex("openssl/.*"), {"crypto/", "tests/"}},
       {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/", "server/formats/"}},
   };

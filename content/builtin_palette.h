@@ -1,0 +1,17 @@
+// The palette of worlds that name no file of their own: content/materials.toml, embedded when the program is
+// built. Nothing to find at run time.
+#pragma once
+
+#include <string_view>
+
+#include "shared/material/palette.h"
+
+namespace scree {
+
+/// Read once. Any thread.
+const Palette& builtin_palette();
+
+/// The file itself, which people copy to begin one of their own.
+std::string_view builtin_palette_text();
+
+}  // namespace scree

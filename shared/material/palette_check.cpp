@@ -1,0 +1,86 @@
+// What a palette must keep, alone and beside the one that a world has.
+#include <algorithm>
+#include <set>
+
+#include "shared/material/material_members.h"
+#include "shared/material/palette.h"
+
+namespace scree {
+
+namespace {
+
+bool is_letter(char c) {
+  return c >= 'a' && c <= 'z';
+}
+
+Result<void> check_row(const MaterialRow& row) {
+  for (const MaterialNumber& member : material_numbers()) TRY(check_number(member, member.get(row)));
+  for (const MaterialChoice& member : material_choices())
+    if (member.get(row) >= member.values.size())
+      return fail(std::string(member.name) + " is not a known one (" + listed(member.values) + ")");
+  return {};
+}
+
+Result<void> check_ground(const Palette& palette) {
+  const GroundRows& ground = palette.ground;
+  const auto check_layer = [&](Material layer, const char* what) -> Result<void> {
+    if (palette.has(layer)) return {};
+    return fail("ground: " + std::string(what) + " is material " + std::to_string(row_number(layer)) +
+                ", and the palette has " + std::to_string(palette.rows.size()));
+  };
+  TRY(check_layer(ground.bulk, "bulk"));
+  TRY(check_layer(ground.soil, "soil"));
+  TRY(check_layer(ground.cap, "cap"));
+  for (const GroundNumber& member : ground_numbers())
+    if (const auto checked = check_number(member, member.get(ground)); !checked)
+      return fail("ground: " + checked.error().message);
+  return {};
+}
+
+}  // namespace
+
+Result<void> check_material_name(std::string_view name) {
+  const auto may_stand = [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '_'; };
+  if (name.empty()) return fail("it has no name");
+  if (name.size() > material_name_max)
+    return fail("its name has " + std::to_string(name.size()) + " characters, over the limit of " +
+                std::to_string(material_name_max));
+  if (!is_letter(name.front()) || !std::ranges::all_of(name, may_stand))
+    return fail("its name must begin with a letter, and have only a to z, 0 to 9 and _");
+  return {};
+}
+
+Result<void> validate(const Palette& palette) {
+  if (palette.rows.empty()) return fail("a palette has at least one material");
+  if (palette.rows.size() > materials_max)
+    return fail(std::to_string(palette.rows.size()) + " materials are over the limit of " +
+                std::to_string(materials_max));
+  std::set<std::string_view> names;
+  for (size_t i = 0; i < palette.rows.size(); ++i) {
+    const MaterialRow& row = palette.rows[i];
+    if (const auto checked = check_material_name(row.name); !checked)
+      return fail("material " + std::to_string(i) + ": " + checked.error().message);
+    if (!names.insert(row.name).second) return fail(row.name + ": two materials have this name");
+    if (const auto checked = check_row(row); !checked) return fail(row.name + ": " + checked.error().message);
+  }
+  return check_ground(palette);
+}
+
+Result<void> validate_change(const Palette& before, const Palette& next) {
+  TRY(validate(next));
+  for (size_t i = 0; i < before.rows.size(); ++i) {
+    const std::string& name = before.rows[i].name;
+    if (i >= next.rows.size())
+      return fail("the world has material " + std::to_string(i) + ", " + name +
+                  ", and the new palette does not: materials may be added, but not removed");
+    if (next.rows[i].name != name)
+      return fail("material " + std::to_string(i) + " is " + name + " in the world, and " +
+                  next.rows[i].name +
+                  " in the new palette: materials keep their numbers and names; new ones come last");
+  }
+  if (!(next.ground == before.ground))
+    return fail("the new palette has another [ground] than the world, whose terrain it decides");
+  return {};
+}
+
+}  // namespace scree

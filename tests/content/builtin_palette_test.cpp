@@ -1,0 +1,107 @@
+// The built-in palette: its file has no mistakes, and its first materials have the numbers that worlds of
+// before palettes were made with.
+#include "content/builtin_palette.h"
+
+#include <array>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <iterator>
+
+#include "content/palette_file.h"
+#include "shared/material/material_members.h"
+
+namespace scree {
+namespace {
+
+TEST(BuiltinPalette, is_the_file_of_the_sources) {
+  std::ifstream in(std::string(SCREE_SOURCE_DIR) + "/content/materials.toml");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_EQ(builtin_palette_text(), text);
+  const Result<Palette> read = read_palette(text, "materials.toml");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_TRUE(*read == builtin_palette());
+  EXPECT_TRUE(validate(*read));
+}
+
+TEST(BuiltinPalette, has_these_materials_in_this_order) {
+  const std::vector<std::string_view> wanted{"rock",     "soil",  "ice",    "sand",  "clay",  "gravel",
+                                             "concrete", "brick", "timber", "glass", "steel", "snow"};
+  EXPECT_EQ(builtin_palette().names(), wanted);
+}
+
+/// Each row says all numbers: a reader of the file need not know the defaults.
+TEST(BuiltinPalette, says_every_physical_number_of_every_material) {
+  const std::string text(builtin_palette_text());
+  for (const std::string& name : number_names()) {
+    if (name.starts_with("look.pattern_m") || name.starts_with("look.image_m"))
+      continue;  // where there is one
+    const std::string last = name.substr(name.rfind('.') + 1) + " = ";
+    size_t count = 0;
+    for (size_t at = text.find(last); at != std::string::npos; at = text.find(last, at + 1))
+      if (at == 0 || text[at - 1] == '\n' || text[at - 1] == ' ') ++count;
+    EXPECT_EQ(count, builtin_palette().rows.size()) << name;
+  }
+}
+
+struct FormerRow {
+  const char* name;
+  float density_kg_m3, friction, strength_m_s, seed_density, dent_resistance_j_m3;
+  Bearing bearing;
+  std::array<float, 3> albedo;
+};
+constexpr std::array former_rows{
+    FormerRow{"rock",
+              2600.0F,
+              0.7F,
+              10.0F,
+              1.0F,
+              5.0e7F,
+              {5.1e6F, 1.27e6F, 6.4e5F, 2.75e6F},
+              {0.33F, 0.31F, 0.30F}},
+    FormerRow{
+        "soil", 1700.0F, 0.9F, 7.0F, 1.5F, 2.5e5F, {4.0e5F, 1.0e5F, 5.0e4F, 1.0e5F}, {0.20F, 0.12F, 0.06F}},
+    FormerRow{
+        "ice", 920.0F, 0.3F, 6.0F, 1.25F, 5.0e6F, {1.35e6F, 3.4e5F, 1.7e5F, 7.3e5F}, {0.62F, 0.76F, 0.86F}}};
+
+TEST(BuiltinPalette, rock_soil_and_ice_have_their_former_numbers) {
+  for (size_t i = 0; i < former_rows.size(); ++i) {
+    const FormerRow& former = former_rows[i];
+    const MaterialRow& row = builtin_palette().rows[i];
+    EXPECT_EQ(row.name, former.name);
+    EXPECT_EQ(row.density_kg_m3, former.density_kg_m3) << former.name;
+    EXPECT_EQ(row.friction, former.friction) << former.name;
+    EXPECT_EQ(row.restitution, 0.05F) << former.name;
+    EXPECT_EQ(row.strength_m_s, former.strength_m_s) << former.name;
+    EXPECT_EQ(row.strength_by_size, 0.25F) << former.name;
+    EXPECT_EQ(row.seed_density, former.seed_density) << former.name;
+    EXPECT_EQ(row.dent_resistance_j_m3, former.dent_resistance_j_m3) << former.name;
+    EXPECT_TRUE(row.bearing == former.bearing) << former.name;
+    EXPECT_EQ(row.look.colour, former.albedo) << former.name;
+  }
+  EXPECT_TRUE(builtin_palette().ground == GroundRows{});
+}
+
+TEST(BuiltinPalette, rock_soil_and_ice_ring_as_before) {
+  constexpr float rock_hz = 190.0F;
+  constexpr std::array pitches_hz{190.0F, 70.0F, 420.0F}, damping_s{0.05F, 0.03F, 0.12F},
+      noise{0.6F, 0.85F, 0.4F};
+  for (size_t i = 0; i < pitches_hz.size(); ++i) {
+    const MaterialSound& sound = builtin_palette().rows[i].sound;
+    EXPECT_FLOAT_EQ(sound.pitch * rock_hz, pitches_hz[i]);
+    EXPECT_EQ(sound.damping_s, damping_s[i]);
+    EXPECT_EQ(sound.noise, noise[i]);
+  }
+}
+
+TEST(BuiltinPalette, materials_come_apart_in_different_ways) {
+  const Palette& palette = builtin_palette();
+  const auto breaks = [&](const char* name) { return palette.row(*palette.named(name)).breaks; };
+  EXPECT_EQ(breaks("glass"), BreakLook::shards);
+  EXPECT_EQ(breaks("ice"), BreakLook::shards);
+  EXPECT_EQ(breaks("timber"), BreakLook::grain);
+  EXPECT_EQ(breaks("brick"), BreakLook::even);
+  EXPECT_EQ(palette.row(*palette.named("timber")).axis, GrainAxis::x);
+}
+
+}  // namespace
+}  // namespace scree
