@@ -2,6 +2,7 @@
 // built. Nothing to find at run time.
 #pragma once
 
+#include <memory>
 #include <string_view>
 
 #include "shared/material/palette.h"
@@ -10,6 +11,7 @@ namespace scree {
 
 /// Read once. Any thread.
 const Palette& builtin_palette();
+std::shared_ptr<const Palette> shared_builtin_palette();
 
 /// The file itself, which people copy to begin one of their own.
 std::string_view builtin_palette_text();

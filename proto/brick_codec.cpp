@@ -105,7 +105,8 @@ MaterialMasses read_masses(ByteReader& reader, MassUnits sum) {
     const auto mass = static_cast<MassUnits>(
         reader.varint("mass of a piece's material", static_cast<uint64_t>(std::max<MassUnits>(left, 0))));
     if (mass == 0) reader.refuse("a piece has a material without mass");
-    if (!masses.empty() && material <= masses.back().material) reader.refuse("a piece's materials are not in order");
+    if (!masses.empty() && material <= masses.back().material)
+      reader.refuse("a piece's materials are not in order");
     masses.push_back({material, mass});
     left -= mass;
   }

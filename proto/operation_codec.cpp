@@ -121,7 +121,8 @@ struct Writing {
     const uint64_t shift = fold_sign(stamp.shift);
     CHECK(shift >> shift_bits == 0);
     // The number after the last, which nobody reads, where there is no such method.
-    const auto method = std::ranges::find(wire_methods, WireMethod{stamp.method, !stamp.others.empty(), stamp.brings_materials});
+    const auto method = std::ranges::find(
+        wire_methods, WireMethod{stamp.method, !stamp.others.empty(), stamp.brings_materials});
     writer.varint((static_cast<uint64_t>(method - wire_methods.begin()) << shift_bits) | shift);
     if (stamp.others.empty()) return;
     CHECK(stamp.others.size() < limits::stamp_group_max);

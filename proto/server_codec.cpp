@@ -187,7 +187,7 @@ GroundMessage read(const wire::Ground& from, FieldChecker& check) {
   ground.bricks = bricks_within(ground.chunk, from.bricks(), check);
   ground.hash = from.hash();
   for (const BrickPatch& patch : ground.bricks) {
-    if (patch.paint) check.refuse("a painted brick of ground");
+    if (!patch.materials.is_ground()) check.refuse("a painted brick of ground");
     if (((ground.rock >> index_in_chunk(patch.coord)) & 1U) != 0)
       check.refuse("a brick of ground that is listed, and wholly rock as well");
   }

@@ -89,7 +89,8 @@ Result<ChunkMaterials> materials_of(std::span<const uint8_t> content, size_t nex
     VoxelMaterials voxels;
     std::ranges::copy(content.subspan(next, brick_voxels), voxels.begin());
     materials[i] = BrickMaterials(voxels);
-    if (materials[i].is_uniform()) return fail("stored chunk: voxels with materials of their own are all of one");
+    if (materials[i].is_uniform())
+      return fail("stored chunk: voxels with materials of their own are all of one");
     next += brick_voxels;
   }
   if (next != content.size()) return fail("stored chunk: more codes or materials than bricks");

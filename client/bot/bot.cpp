@@ -203,7 +203,8 @@ void Bot::ask(Clock::time_point now) {
     requests_[carve.request] = {sent, carve.random_seed};
     unseen_[carve.random_seed] = sent;
     go_near(carve.impact_m);
-    if (config_.paint) client_.send(PaintMessage{{carve.shape, *config_.paint}, 0});
+    if (const auto paint = client_.mirror()->palette()->named(config_.paint))
+      client_.send(PaintMessage{{carve.shape, *paint}, 0});
     client_.send(carve);
   }
 }

@@ -27,7 +27,7 @@ struct BotConfig : ServerEndpoint {
   double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come
   CarverConfig carver;
   bool at_spawn = false;  ///< carve before the eyes of who begins in the world, not around carver.centre_m
-  std::optional<Material> paint;    ///< material with which the rock of each carve is painted first
+  std::string paint;      ///< material with which the rock of each carve is painted first; empty: none
   float interest_radius_m = 96.0F;  ///< around the carver's centre
   bool linger = false;              ///< stay until no piece is left and the field is at rest
   bool check_hash = false;          ///< fail unless the hash of all edits equals the server's in the end

@@ -28,7 +28,6 @@ struct Words {
   std::string shape{name_of(CarverConfig{}.shape)};
   std::string pattern = "radial";
   std::vector<float> centre_m{};  ///< empty: in the view of the world's spawn
-  std::string paint;
 };
 
 void add_interest(CLI::App& app, BotConfig& bot) {
@@ -94,10 +93,9 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
           {0.0, world_m})
       ->envname("SCREE_AREA")
       ->capture_default_str();
-  app.add_option("--paint", words.paint,
-                 "before each carve, paint the rock with this material: " + listed(kind_names<Material>))
-      ->envname("SCREE_PAINT")
-      ->check(CLI::IsMember(names_of<Material>()));
+  app.add_option("--paint", bot.paint,
+                 "before each carve, paint the rock with this material of the world's palette")
+      ->envname("SCREE_PAINT");
 }
 
 void add_ending(CLI::App& app, BotOptions& options) {
@@ -122,7 +120,6 @@ void complete(BotOptions& options, const Words& words) {
   CarverConfig& carver = options.bot.carver;
   carver.shape = *kind_named<ShapeKind>(words.shape);       // one of bot_shapes
   carver.pattern = kind_named<SeedPattern>(words.pattern);  // none: both
-  options.bot.paint = kind_named<Material>(words.paint);
   options.bot.at_spawn = words.centre_m.empty();
   if (!options.bot.at_spawn) carver.centre_m = {words.centre_m[0], 0.0F, words.centre_m[1]};
 }

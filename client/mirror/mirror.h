@@ -18,6 +18,7 @@
 #include "proto/known_motions.h"
 #include "proto/messages.h"
 #include "shared/field/field.h"
+#include "shared/material/palette.h"
 #include "shared/operation/operation.h"
 #include "shared/operation/per_operation.h"
 
@@ -87,6 +88,9 @@ class Mirror {
   Field& field() { return field_; }
   const Field& field() const { return field_; }
   const TerrainSource& terrain() const { return field_.source(); }
+  /// What the world is made of, as far as it has come; never null.
+  const std::shared_ptr<const Palette>& palette() const { return palette_; }
+  void set_palette(std::shared_ptr<const Palette> palette) { palette_ = std::move(palette); }
   /// Chunks that follow the server: their edited bricks are exactly the server's.
   const std::unordered_set<ChunkCoord, CoordHash>& held_chunks() const { return held_; }
   Tick tick() const { return tick_; }                           ///< of the last frame applied
@@ -134,6 +138,7 @@ class Mirror {
   void count(const Operation& operation);
 
   FindCachedChunk find_cached_;
+  std::shared_ptr<const Palette> palette_ = plain_palette();
   MapField field_;
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses

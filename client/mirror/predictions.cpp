@@ -43,7 +43,9 @@ std::optional<Operation> operation_of(const Request& asked) {
                                  if (is_relaxed(made.pattern)) made.pattern = plain_pattern;
                                  return made;
                                },
-                               [](const FillRequest& fill) -> Made { return FillOperation{fill.shape}; },
+                               [](const FillRequest& fill) -> Made {
+                                 return FillOperation{fill.shape, fill.material};
+                               },
                                [](const PaintRequest& paint) -> Made {
                                  return PaintOperation{paint.shape, paint.material};
                                },

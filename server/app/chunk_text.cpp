@@ -35,6 +35,21 @@ void append_codes(std::string& text, const BrickPatch& patch) {
   }
 }
 
+/// "the ground's materials", "material 3", or how many voxels are of each: "300 of the ground's, 212 of 3".
+std::string materials_text(const BrickMaterials& materials) {
+  if (materials.is_ground()) return "the ground's materials";
+  if (materials.is_uniform()) return fmt::format("material {}", row_number(material_of(materials.uniform())));
+  const VoxelMaterials voxels = materials.unpacked();
+  std::string text;
+  for (const VoxelMaterial value : materials.list()) {
+    const auto count = std::ranges::count(voxels, value);
+    const std::string of =
+        value == ground_own ? "the ground's" : std::to_string(row_number(material_of(value)));
+    text += fmt::format("{}{} of {}", text.empty() ? "" : ", ", count, of);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string chunk_text(ChunkCoord chunk, std::span<const BrickPatch> bricks) {
@@ -46,8 +61,7 @@ std::string chunk_text(ChunkCoord chunk, std::span<const BrickPatch> bricks) {
   for (const BrickPatch* patch : ordered) {
     const Brick* uniform = uniform_equivalent(patch->brick);
     fmt::format_to(std::back_inserter(text), "brick {}: {}, hash {:016x}{}\n", coord_text(patch->coord),
-                   patch->paint ? name_of(*patch->paint) : "not painted",
-                   brick_hash(patch->coord, patch->brick, patch->paint),
+                   materials_text(patch->materials), brick_hash(patch->coord, patch->brick, patch->materials),
                    uniform == nullptr        ? ""
                    : uniform == &air_brick() ? ", all air"
                                              : ", all rock");

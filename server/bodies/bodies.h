@@ -60,7 +60,8 @@ struct BodyImpact {
 struct BodiesConfig {
   uint32_t tick_rate_hz = 60;
   float gravity_m_s2 = 9.81F;
-  std::shared_ptr<const Palette> palette = shared_builtin_palette();  ///< what the terrain rubs and bounces by
+  std::shared_ptr<const Palette> palette =
+      shared_builtin_palette();  ///< what the terrain rubs and bounces by
   TerrainColliderKind terrain_collider = TerrainColliderKind::field;
   size_t threads = 1;  ///< that step() takes, its own included; 0: as many as the machine has cores
 };

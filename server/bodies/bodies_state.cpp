@@ -63,8 +63,7 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
       workers(c.threads),
       dispatcher(&collision_configuration),
       dynamics(dispatcher, broadphase, collision_configuration, workers),
-      terrain(field, c.terrain_collider, dispatcher,
-              {step_size.voxel_size_m, step_size.step_s}) {
+      terrain(field, c.terrain_collider, dispatcher, {step_size.voxel_size_m, step_size.step_s}) {
   CHECK(std::isfinite(step_size.step_s) && std::isfinite(c.gravity_m_s2));
   CHECK(c.palette != nullptr);
   dispatcher.registerCollisionCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE,

@@ -77,10 +77,9 @@ Body make_body(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<g
   body.touches_by_surface = !shape.surface_m.empty();
   body.points_m = std::move(points_m);
   if (body.points_m.empty())
-    body.points_m =
-        shape.surface_m.empty()
-            ? surface_points(shape.hull_m, limits::sample_spacing_voxels * step.voxel_size_m)
-            : shape.surface_m;
+    body.points_m = shape.surface_m.empty()
+                        ? surface_points(shape.hull_m, limits::sample_spacing_voxels * step.voxel_size_m)
+                        : shape.surface_m;
   return body;
 }
 

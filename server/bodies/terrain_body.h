@@ -1,8 +1,8 @@
 // The terrain in Bullet's world: one static object that is in no broadphase, and for each body that can move
 // its contacts with the ground, found in one of several ways. Private to this folder.
 //
-// turn() and refill() change the given bodies alone: threads may call them for different bodies at once, while
-// nothing changes the terrain.
+// turn() and refill() change the given bodies alone: threads may call them for different bodies at once,
+// while nothing changes the terrain.
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>

@@ -279,7 +279,8 @@ Result<WorldHeader> decode_world_header(std::span<const uint8_t> bytes) {
   const auto from = TRY(parsed<kept::WorldHeader>(bytes, header_subject));
   WorldHeader header;
   header.format = from.format();
-  if (!reads_world_format(header.format)) return header;  // in another format the fields may mean something else
+  if (!reads_world_format(header.format))
+    return header;  // in another format the fields may mean something else
   FieldChecker check(header_subject);
   header.world = from.world();
   if (header.world == 0) check.refuse("the world has no number");
@@ -308,7 +309,7 @@ Result<WorldChunk> decode_world_chunk(std::span<const uint8_t> bytes) {
   chunk.bricks = check.value_or_refuse(decode_bricks(as_span(from.bricks())));
   uint64_t hash = 0;
   for (const BrickPatch& patch : chunk.bricks) {
-    hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    hash += brick_hash(patch.coord, patch.brick, patch.materials);
     if (chunk_of(patch.coord) != chunk.chunk) check.refuse("a brick of another chunk");
   }
   if (chunk.bricks.empty()) check.refuse("no bricks");

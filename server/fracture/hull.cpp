@@ -111,8 +111,7 @@ PieceHull make_hull(PieceId id, const Volume& volume, float voxel_size_m, Simpli
   return hull;
 }
 
-WeighedVolume weigh(const Volume& volume, const PieceHull& hull, const Palette& palette,
-                    float voxel_size_m) {
+WeighedVolume weigh(const Volume& volume, const PieceHull& hull, const Palette& palette, float voxel_size_m) {
   const float voxel_m3 = voxel_size_m * voxel_size_m * voxel_size_m;
   WeighedVolume weighed;
   if (volume.masses.empty()) {

@@ -37,8 +37,8 @@ std::vector<glm::vec3> surface_samples(const Volume& volume, float voxel_size_m,
 /// The mass of a volume by its materials' densities, its centre, and the tensor about that.
 struct WeighedVolume {
   float mass_kg = 0.0F;
-  glm::vec3 centre_m{0.0F};          ///< from the volume's centre, in its axes; 0 where it is of one material
-  glm::mat3 inertia_kg_m2{0.0F};     ///< in the volume's axes
+  glm::vec3 centre_m{0.0F};       ///< from the volume's centre, in its axes; 0 where it is of one material
+  glm::mat3 inertia_kg_m2{0.0F};  ///< in the volume's axes
 };
 /// `hull` is that of the volume. Materials that the palette lacks weigh as its first.
 WeighedVolume weigh(const Volume& volume, const PieceHull& hull, const Palette& palette, float voxel_size_m);

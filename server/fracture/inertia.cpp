@@ -114,8 +114,7 @@ WeightedInertia weighted_inertia_of(const Volume& volume, std::span<const float,
       for (int z = b.lo.z; z < b.hi.z; ++z, ++at) {
         const int units = occupancy(volume.window.codes[at]);
         if (units == 0) continue;
-        const double weight =
-            units * static_cast<double>(densities[row_number(volume.materials.at(at))]);
+        const double weight = units * static_cast<double>(densities[row_number(volume.materials.at(at))]);
         const glm::dvec3 p = glm::dvec3(x, y, z) - origin;
         mass += weight;
         moment += weight * p;

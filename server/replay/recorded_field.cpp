@@ -10,7 +10,7 @@ void follow_bricks(const TickDelta& delta, Field& field) {
   CHECK(delta.reverted.empty());
   for (const BrickState& brick : delta.bricks) {
     field.set_brick(brick.coord, *brick.brick);
-    field.paint_brick(brick.coord, brick.paint);
+    field.set_materials(brick.coord, brick.materials);
   }
 }
 

@@ -30,7 +30,7 @@ Result<std::unique_ptr<World>> RecordedTerrain::restore(const WorldSnapshot& sta
                                   [&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
                                     uint64_t hash = 0;
                                     for (const BrickPatch& brick : bricks)
-                                      hash += brick_hash(brick.coord, brick.brick, brick.paint);
+                                      hash += brick_hash(brick.coord, brick.brick, brick.materials);
                                     TRY(visit(chunk, bricks));  // it lies in the world
                                     hashes_[chunk] = hash;
                                     masses[chunk] = ground_under(terrain, chunk, bricks);

@@ -25,24 +25,25 @@ std::string text_of(const Shape& shape) {
                      shape.radius_m);
 }
 
-std::string text_of(const Command& command) {
-  const std::string body = std::visit(
-      Overloaded{[](const CarveRequest& carve) {
-                   return fmt::format("carve a {}, {} seeds, random seed {}", text_of(carve.shape),
-                                      carve.seeds, carve.random_seed);
-                 },
-                 [](const FillRequest& fill) { return "fill a " + text_of(fill.shape); },
-                 [](const PaintRequest& paint) {
-                   return fmt::format("paint a {} as {}", text_of(paint.shape), name_of(paint.material));
-                 },
-                 [](const SettingsRequest& request) {
-                   std::string set = "set";
-                   for (const SettingValue& value : request.settings)
-                     set += fmt::format(" {}={}", value.name, value.value);
-                   return set;
-                 },
-                 [](const LeaveRequest&) { return std::string("leave"); }},
-      command.body);
+std::string text_of(const Command& command, const Palette& palette) {
+  const std::string body =
+      std::visit(Overloaded{[](const CarveRequest& carve) {
+                              return fmt::format("carve a {}, {} seeds, random seed {}", text_of(carve.shape),
+                                                 carve.seeds, carve.random_seed);
+                            },
+                            [](const FillRequest& fill) { return "fill a " + text_of(fill.shape); },
+                            [&](const PaintRequest& paint) {
+                              return fmt::format("paint a {} as {}", text_of(paint.shape),
+                                                 palette.row_or_first(paint.material).name);
+                            },
+                            [](const SettingsRequest& request) {
+                              std::string set = "set";
+                              for (const SettingValue& value : request.settings)
+                                set += fmt::format(" {}={}", value.name, value.value);
+                              return set;
+                            },
+                            [](const LeaveRequest&) { return std::string("leave"); }},
+                 command.body);
   return fmt::format("session {}, request {}: {}", command.session, command.request, body);
 }
 
@@ -92,7 +93,8 @@ std::string command_difference(const Side& a, const Side& b) {
   size_t at = 0;
   while (at < both && a.commands[at] == b.commands[at]) ++at;
   const auto said = [at](const Side& side) {
-    return at < side.commands.size() ? text_of(side.commands[at]) : std::string("none");
+    return at < side.commands.size() ? text_of(side.commands[at], *side.reader->header().world.palette)
+                                     : std::string("none");
   };
   return fmt::format("command {}: {}; in the other: {}", at + 1, said(a), said(b));
 }

@@ -22,25 +22,27 @@ struct Asked {
   std::string text{};
 };
 
-Asked asked_by(const Request& request) {
-  return std::visit(Overloaded{[](const CarveRequest& carve) {
-                                 return Asked{"carve", carve.shape};
-                               },
-                               [](const FillRequest& fill) {
-                                 return Asked{"fill", fill.shape};
-                               },
-                               [](const PaintRequest& paint) {
-                                 return Asked{"paint", paint.shape, std::string(name_of(paint.material))};
-                               },
-                               [](const SettingsRequest& settings) {
-                                 Asked asked{"settings"};
-                                 for (const SettingValue& setting : settings.settings)
-                                   asked.text +=
-                                       (asked.text.empty() ? "" : " ") + setting.name + "=" + setting.value;
-                                 return asked;
-                               },
-                               [](const LeaveRequest&) { return Asked{}; }},
-                    request);
+Asked asked_by(const Request& request, const Palette& palette) {
+  return std::visit(
+      Overloaded{[](const CarveRequest& carve) {
+                   return Asked{"carve", carve.shape};
+                 },
+                 [&](const FillRequest& fill) {
+                   const std::string material =
+                       fill.material ? palette.row_or_first(*fill.material).name : "";
+                   return Asked{"fill", fill.shape, material};
+                 },
+                 [&](const PaintRequest& paint) {
+                   return Asked{"paint", paint.shape, std::string(palette.row_or_first(paint.material).name)};
+                 },
+                 [](const SettingsRequest& settings) {
+                   Asked asked{"settings"};
+                   for (const SettingValue& setting : settings.settings)
+                     asked.text += (asked.text.empty() ? "" : " ") + setting.name + "=" + setting.value;
+                   return asked;
+                 },
+                 [](const LeaveRequest&) { return Asked{}; }},
+      request);
 }
 
 /// In the order of the columns; what is not known is null.
@@ -104,7 +106,7 @@ Result<void> export_requests(RecordingReader& recording, LineFormat format, cons
     const auto commands = recording.commands(tick);
     TRY(commands);
     for (const Command& command : *commands) {
-      const Asked asked = asked_by(command.body);
+      const Asked asked = asked_by(command.body, *recording.header().world.palette);
       if (asked.name.empty()) continue;
       auto line = line_of(command, asked, tick, tick_rate_hz, people);
       write(format == LineFormat::csv ? as_csv(line) : as_json(std::move(line)));

@@ -118,8 +118,9 @@ Result<void> check_format(Database& database, const FileKind& kind) {
   const auto format = database.number("PRAGMA user_version");
   TRY(format);
   if (format->value_or(0) < kind.oldest || format->value_or(0) > kind.format)
-    return fail(fmt::format("{} is a {} of format {}; this program reads formats {} to {}: {}", database.path(),
-                            noun, format->value_or(0), kind.oldest, kind.format, kind.way_out));
+    return fail(fmt::format("{} is a {} of format {}; this program reads formats {} to {}: {}",
+                            database.path(), noun, format->value_or(0), kind.oldest, kind.format,
+                            kind.way_out));
   return check_schema(database, kind);
 }
 

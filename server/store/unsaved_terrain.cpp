@@ -63,7 +63,8 @@ std::vector<WorldChunk> UnsavedTerrain::unsaved(Tick tick) const {
   for (const ChunkCoord coord : unsaved_) {
     const Chunk& chunk = chunks_.at(coord);
     WorldChunk& row = list.emplace_back(WorldChunk{coord, tick, chunk.hash, {}, chunk.ground_mass});
-    for (const auto& [brick, state] : chunk.bricks) row.bricks.push_back({brick, *state.brick, state.materials});
+    for (const auto& [brick, state] : chunk.bricks)
+      row.bricks.push_back({brick, *state.brick, state.materials});
   }
   return list;
 }

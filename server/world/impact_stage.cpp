@@ -64,7 +64,8 @@ uint32_t seeds_for(const World::State& state, const Blow& blow) {
   if (state.traits_of(blow.impact.id).generation >= limits::break_generations_max ||
       mass < limits::break_mass_min)
     return 0;
-  const float wanted = (1.0F + 2.0F * blow.excess) * state.palette->row_or_first(main_material(volume)).seed_density;
+  const float wanted =
+      (1.0F + 2.0F * blow.excess) * state.palette->row_or_first(main_material(volume)).seed_density;
   const auto seeds = static_cast<uint32_t>(std::clamp(wanted, 2.0F, limits::break_seeds_max));
   const auto heavy_enough = static_cast<uint32_t>(mass / limits::break_child_mass_min);
   const size_t others = state.pieces.size() - 1;

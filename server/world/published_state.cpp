@@ -26,7 +26,8 @@ void remember(ChunkHistory& history, Tick version, uint64_t hash) {
 void PublishedState::apply_terrain(const TickDelta& delta) {
   std::unordered_set<ChunkCoord, CoordHash> touched;
   for (const BrickState& state : delta.bricks) {
-    CHECK_DEBUG(state.brick != nullptr && state.hash == brick_hash(state.coord, *state.brick, state.materials));
+    CHECK_DEBUG(state.brick != nullptr &&
+                state.hash == brick_hash(state.coord, *state.brick, state.materials));
     touched.insert(chunk_of(state.coord));
     PublishedChunk& chunk = chunks_[chunk_of(state.coord)];
     const auto [slot, is_new] = chunk.bricks.try_emplace(state.coord);

@@ -196,7 +196,8 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
 
 Outcome fill(World::State& state, const FillRequest& request, uint64_t party, TickDelta& delta) {
   const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
-  const Applied applied = state.apply_and_record(FillOperation{request.shape, request.material}, party, delta);
+  const Applied applied =
+      state.apply_and_record(FillOperation{request.shape, request.material}, party, delta);
   state.ledger.poured += applied.terrain_gain;
   return enclosed;
 }

@@ -137,9 +137,10 @@ constexpr std::array table{
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
   const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent, methods,
-               service, spawn, ground, rules] = world;
+               service, spawn, ground, rules, palette] = world;
   static_cast<void>(ground);  // names the terrain's
   static_cast<void>(rules);   // fixed from the start, as these three
+  static_cast<void>(palette);
   const auto& [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       methods;
   const auto& [sessions_max, requests_per_second, reach_m] = service;

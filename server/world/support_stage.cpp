@@ -99,7 +99,8 @@ bool search_cluster(World::State& state, uint64_t party, TickDelta& delta) {
   std::set<BrickCoord>& strained = state.strained.at(party);
   const std::vector<BrickCoord> cluster = first_cluster(strained);
   for (const BrickCoord brick : cluster) strained.erase(brick);
-  const SupportFound found = find_overloads(state.field, *state.palette, cluster, limits::support_reach_bricks);
+  const SupportFound found =
+      find_overloads(state.field, *state.palette, cluster, limits::support_reach_bricks);
   state.work.spend(limits::support_part_cost_us * static_cast<float>(found.parts));
   delta.work.supports_given_up += found.given_up ? 1 : 0;
   bool room = true;

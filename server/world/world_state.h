@@ -82,7 +82,7 @@ struct World::State {
   /// The sum of the pieces' masses.
   MassUnits mass_of_pieces() const;
 
-  WorldConfig config;  ///< with the current settings
+  WorldConfig config;                      ///< with the current settings
   std::shared_ptr<const Palette> palette;  ///< as it stands; never null
   VdbField field;
   PieceTable pieces;

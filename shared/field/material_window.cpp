@@ -11,15 +11,15 @@ namespace scree {
 namespace {
 
 /// The part of a brick that lies in a box, in world voxels.
-VoxelBox overlap(BrickCoord brick, const VoxelBox& box) {
+VoxelBox within_box(BrickCoord brick, const VoxelBox& box) {
   const VoxelCoord first = first_voxel(brick);
   return common(box, {first, first + VoxelCoord{brick_size, brick_size, brick_size}});
 }
 
 /// Calls f(index in the brick, index in the box, count) for each row along z.
 template <typename F>
-void for_each_row(BrickCoord brick, const VoxelBox& box, F&& f) {
-  const VoxelBox part = overlap(brick, box);
+void for_each_row_of(BrickCoord brick, const VoxelBox& box, F&& f) {
+  const VoxelBox part = within_box(brick, box);
   const VoxelCoord size = box.size();
   const auto count = static_cast<size_t>(part.hi.z - part.lo.z);
   for (int x = part.lo.x; x < part.hi.x; ++x)
@@ -130,7 +130,7 @@ MaterialWindow gather_materials(const Field& field, const VoxelBox& box) {
   VoxelMaterials voxels;
   for_each_brick(box, [&](BrickCoord coord) {
     brick_of_field(field, coord).resolve(voxels);
-    for_each_row(coord, box, [&](size_t from, size_t to, size_t count) {
+    for_each_row_of(coord, box, [&](size_t from, size_t to, size_t count) {
       for (size_t i = 0; i < count; ++i) window.each[to + i] = material_of(voxels[from + i]);
     });
   });
@@ -214,14 +214,14 @@ std::vector<BrickCoord> set_materials(Field& field, const VoxelBox& box, std::sp
   std::vector<BrickCoord> changed;
   for_each_brick(box, [&](BrickCoord coord) {
     bool any = false;
-    for_each_row(coord, box, [&](size_t, size_t from, size_t count) {
+    for_each_row_of(coord, box, [&](size_t, size_t from, size_t count) {
       for (size_t i = 0; i < count; ++i) any = any || marks[from + i] != 0;
     });
     if (!any) return;
     const BrickMaterials before = field.materials(coord);
     VoxelMaterials voxels = before.unpacked(), own;
     field.ground_materials(coord).unpack(own);
-    for_each_row(coord, box, [&](size_t to, size_t from, size_t count) {
+    for_each_row_of(coord, box, [&](size_t to, size_t from, size_t count) {
       for (size_t i = 0; i < count; ++i) {
         if (marks[from + i] == 0) continue;
         const VoxelMaterial value = said(materials.at(from + i));

@@ -8,7 +8,7 @@
 
 #include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -121,7 +121,7 @@ struct MaterialLook {
 struct MaterialRow {
   std::string name;
   float density_kg_m3 = 2600.0F;
-  float friction = 0.7F;     ///< coefficient; of two that touch, the geometric mean counts
+  float friction = 0.7F;      ///< coefficient; of two that touch, the geometric mean counts
   float restitution = 0.05F;  ///< share of the speed that a blow gives back; combined likewise
   /// Change of speed in one contact that breaks a piece of 1 m³. Larger pieces have more flaws and break
   /// sooner: by the volume to the power of `strength_by_size` (rock: 1/4, Weibull's modulus near 4).
@@ -157,6 +157,9 @@ struct Palette {
   std::optional<Material> named(std::string_view name) const;
   std::vector<std::string_view> names() const;
 };
+
+/// One row that looks and behaves like any rock: for who has no palette yet.
+const std::shared_ptr<const Palette>& plain_palette();
 
 /// Whether every number keeps its bounds, names are different, and the ground's rows are there. The error
 /// names the row and the member.

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "shared/base/result.h"
-#include "shared/material/material.h"
 #include "shared/field/stored_chunks.h"
+#include "shared/material/material.h"
 
 namespace scree {
 
