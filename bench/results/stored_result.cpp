@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "content/builtin_palette.h"
 #include "shared/base/check.h"
 
 namespace scree {

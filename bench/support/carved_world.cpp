@@ -20,7 +20,7 @@ Result<void> write_behind(MapField& field, MadeWorld& world, int z) {
     std::vector<BrickPatch> bricks;
     MassUnits ground = 0;
     for (const BrickCoord coord : field.edited_bricks(chunk)) {
-      bricks.push_back({coord, field.brick(coord), field.painted(coord)});
+      bricks.push_back({coord, field.brick(coord), field.materials(coord)});
       ground += brick_mass(field.generated_brick(coord));
     }
     std::ranges::sort(bricks, {}, &BrickPatch::coord);

@@ -35,7 +35,7 @@ Result<MadeWorld> MadeWorld::create(const std::string& path, const WorldConfig& 
 Result<void> MadeWorld::add(ChunkCoord chunk, std::vector<BrickPatch> bricks, MassUnits ground) {
   WorldChunk& made = unwritten_.emplace_back(WorldChunk{chunk, 1, 0, std::move(bricks), ground});
   for (const BrickPatch& patch : made.bricks) {
-    made.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    made.hash += brick_hash(patch.coord, patch.brick, patch.materials);
     gain_ += brick_mass(patch.brick);
   }
   gain_ -= ground;

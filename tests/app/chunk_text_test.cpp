@@ -4,18 +4,20 @@
 #include <algorithm>
 #include <gtest/gtest.h>
 
+#include "tests/support/materials.h"
+
 namespace scree {
 namespace {
 
 BrickPatch patch_at(BrickCoord coord, Code fill) {
-  BrickPatch patch{coord, {}, std::nullopt};
+  BrickPatch patch{coord, {}, {}};
   patch.brick.codes.fill(fill);
   return patch;
 }
 
 TEST(ChunkText, bricks_without_a_surface_take_a_line_each) {
   BrickPatch rock = patch_at({-3, 1, 8}, code_solid);
-  rock.paint = material::ice;
+  rock.materials = all_of(material::ice);
   const std::vector<BrickPatch> bricks = {patch_at({-3, 2, 8}, code_air), rock};
   const std::string text = chunk_text({-1, 0, 2}, bricks);
   EXPECT_TRUE(

@@ -12,6 +12,7 @@
 #include "shared/field/paint.h"
 #include "shared/operation/operation.h"
 #include "tests/support/bodies_support.h"
+#include "tests/support/materials.h"
 
 namespace scree {
 namespace {
@@ -21,7 +22,7 @@ BodyShape box_shape(glm::vec3 half_m) {
   for (int i = 0; i < 8; ++i)
     shape.hull_m.emplace_back((i & 4) != 0 ? half_m.x : -half_m.x, (i & 2) != 0 ? half_m.y : -half_m.y,
                               (i & 1) != 0 ? half_m.z : -half_m.z);
-  shape.mass_kg = 8.0F * half_m.x * half_m.y * half_m.z * traits_of(material::rock).density_kg_m3;
+  shape.mass_kg = 8.0F * half_m.x * half_m.y * half_m.z * builtin_row(material::rock).density_kg_m3;
   const glm::vec3 squares = half_m * half_m;
   const glm::vec3 sums(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y);
   for (int axis = 0; axis < 3; ++axis) shape.inertia_kg_m2[axis][axis] = sums[axis] * shape.mass_kg / 3.0F;
@@ -106,7 +107,7 @@ TEST(Bodies, a_stack_says_who_carries_whom) {
 /// How far a box slides that sets out at 4 m/s over ground of the material.
 float slide_m(Material material) {
   MapField field(ground(TerrainKind::flat));
-  paint(field, in_voxels(sphere({0.0F, 0.0F, 0.0F}, 12.0F), voxel_m), material);
+  paint_bricks(field, in_voxels(sphere({0.0F, 0.0F, 0.0F}, 12.0F), voxel_m), material);
   Bodies bodies(field, {});
   bodies.add(box_shape({0.6F, 0.2F, 0.6F}), body_at(1, {-4.0F, 0.21F, 0.1F}, {4.0F, 0.0F, 0.0F}));
   step(bodies, 240);

@@ -11,6 +11,7 @@
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
 #include "tests/support/bodies_support.h"
+#include "tests/support/materials.h"
 
 namespace scree {
 namespace {
@@ -23,7 +24,7 @@ BodyShape cube(float half_m) {
   for (int i = 0; i < 8; ++i)
     shape.hull_m.emplace_back((i & 4) != 0 ? half_m : -half_m, (i & 2) != 0 ? half_m : -half_m,
                               (i & 1) != 0 ? half_m : -half_m);
-  shape.mass_kg = 8.0F * half_m * half_m * half_m * traits_of(material::rock).density_kg_m3;
+  shape.mass_kg = 8.0F * half_m * half_m * half_m * builtin_row(material::rock).density_kg_m3;
   shape.inertia_kg_m2 = glm::mat3(shape.mass_kg * half_m * half_m * 2.0F / 3.0F);
   return shape;
 }

@@ -10,6 +10,7 @@
 #include "client/cache/tile_folder.h"
 #include "crypto/sha256.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/materials.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/tick_source.h"
 
@@ -30,7 +31,8 @@ struct Carved {
   Carved() {
     source.step({source.carve({1.0F, -0.5F, 1.0F}, 1.5F, 4), source.carve({12.0F, 0.0F, 1.0F}, 1.0F, 1),
                  source.carve({40.0F, 0.0F, 1.0F}, 1.0F, 1)});
-    source.field().paint_brick(source.field().edited_bricks(chunks().front()).front(), material::ice);
+    source.field().set_materials(source.field().edited_bricks(chunks().front()).front(),
+                                 all_of(material::ice));
     store();
   }
   void store() {
@@ -41,7 +43,7 @@ struct Carved {
 
 uint64_t hash_of(const std::vector<BrickPatch>& bricks) {
   uint64_t hash = 0;
-  for (const BrickPatch& patch : bricks) hash += brick_hash(patch.coord, patch.brick, patch.paint);
+  for (const BrickPatch& patch : bricks) hash += brick_hash(patch.coord, patch.brick, patch.materials);
   return hash;
 }
 

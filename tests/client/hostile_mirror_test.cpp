@@ -186,7 +186,7 @@ class Hostility {
         return IslandOperation{{lo, lo + size}, lo + VoxelCoord{size.x / 2, size.y / 2, size.z / 2}, next};
       }
       case 4:
-        return PaintOperation{shape(), static_cast<Material>(random_.below(kind_count<Material>))};
+        return PaintOperation{shape(), static_cast<Material>(random_.below(materials_max))};
       default:
         return CarveOperation{shape(),        drawn_patterns[random_.below(drawn_patterns.size())],
                               seeds % 64 + 1, random_.next(),

@@ -19,7 +19,7 @@ struct Followed {
     message.chunk = coord;
     message.hash = source.field().chunk_hash(coord);
     for (const BrickCoord brick : source.field().edited_bricks(coord))
-      message.bricks.push_back({brick, source.field().brick(brick), source.field().painted(brick)});
+      message.bricks.push_back({brick, source.field().brick(brick), source.field().materials(brick)});
     return message;
   }
 };

@@ -13,6 +13,8 @@
 #include "shared/falling/support_search.h"
 #include "shared/field/edit.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/flat_world.h"
+#include "tests/support/materials.h"
 #include "tests/support/rounds.h"
 #include "tests/support/verify_recording.h"
 #include "tests/support/world_steps.h"
@@ -97,12 +99,12 @@ TEST(support, the_neck_is_the_thinnest_section_counted_by_brute_force) {
   for (int round = 0; round < 60; ++round) {
     const bool in_one_brick = round % 2 == 0;
     const Table table(random, in_one_brick);
-    MapField field(flat_terrain);
+    MapField field(rock_terrain);
     table.build(field);
     const int64_t section = least_section(field, {{-16, 1, -16}, {16, 24, 16}});
     ASSERT_EQ(section, table.notch_x * table.leg_z);
-    const SupportFound found =
-        find_overloads(field, std::vector<BrickCoord>{{0, 1, 0}, {0, 0, 0}, {-1, 1, -1}, {-1, 0, -1}}, 7);
+    const SupportFound found = find_overloads(
+        field, builtin_palette(), std::vector<BrickCoord>{{0, 1, 0}, {0, 0, 0}, {-1, 1, -1}, {-1, 0, -1}}, 7);
     ASSERT_FALSE(found.given_up);
     // 25,600 voxels of 40.6 kg, on necks that carry 32.5 t a face: 32 hold them, 35 with the leg. What links
     // the bricks sideways may seem to add an eighth of itself.
@@ -123,7 +125,7 @@ TEST(support, a_mass_bears_more_pressed_than_hanging_and_than_sideways) {
   // Cubes of 16³ voxels at the end of a neck, from a block that is too large to be anything but held: 0:
   // sticking out, 4 · n faces; 1: upright, n; 2: hanging, 2 · n.
   const auto holds = [](int axis, int n) {
-    MapField field(flat_terrain);
+    MapField field(rock_terrain);
     if (axis == 0) {
       add(field, {{-100, -8, -8}, {-20, 60, 24}});
       add(field, {{-20, 38, 0}, {0, 42, n}});
@@ -137,7 +139,8 @@ TEST(support, a_mass_bears_more_pressed_than_hanging_and_than_sideways) {
       add(field, {{0, 48, 0}, {2, 72, n}});
       add(field, {{0, 32, 0}, {16, 48, 16}});
     }
-    const SupportFound found = find_overloads(field, std::vector<BrickCoord>{{0, 4, 0}, {0, 5, 0}}, 9);
+    const SupportFound found =
+        find_overloads(field, builtin_palette(), std::vector<BrickCoord>{{0, 4, 0}, {0, 5, 0}}, 9);
     EXPECT_FALSE(found.given_up);
     return !any_by_load(found);
   };
@@ -150,9 +153,10 @@ TEST(support, a_mass_bears_more_pressed_than_hanging_and_than_sideways) {
   EXPECT_TRUE(holds(0, 14));
 }
 
-WorldConfig supported(TerrainSource terrain = flat_terrain) {
-  WorldConfig config;
+WorldConfig supported(TerrainSource terrain = rock_terrain) {
+  WorldConfig config = rock_world();
   config.terrain = terrain;
+  config.terrain.rows = config.palette->ground;
   config.methods.support = true;
   return config;
 }
@@ -271,8 +275,8 @@ size_t overloads_of(TerrainSource source, float half_m, float step_m) {
       const glm::vec3 at = glm::vec3(x, ground_height_m(source, x, z), z) / source.voxel_size_m;
       const BrickCoord brick =
           brick_of(VoxelCoord{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)});
-      const SupportFound found =
-          find_overloads(field, std::vector<BrickCoord>{brick}, limits::support_reach_bricks);
+      const SupportFound found = find_overloads(field, builtin_palette(), std::vector<BrickCoord>{brick},
+                                                limits::support_reach_bricks);
       EXPECT_FALSE(found.given_up);
       overloads += found.overloads.size();
     }

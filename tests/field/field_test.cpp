@@ -8,6 +8,7 @@
 #include "shared/base/random.h"
 #include "shared/field/mass.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/materials.h"
 
 namespace scree {
 namespace {
@@ -69,10 +70,10 @@ TEST(field, new_codes_of_a_painted_brick_hash_with_its_paint) {
   const Brick a = random_brick(random), b = random_brick(random);
   MapField field(flat_terrain);
   field.set_brick({1, 2, 3}, a);
-  field.paint_brick({1, 2, 3}, material::ice);
+  field.set_materials({1, 2, 3}, all_of(material::ice));
   field.set_brick({1, 2, 3}, b);
-  EXPECT_EQ(field.hash(), brick_hash({1, 2, 3}, b, material::ice));
-  field.paint_brick({1, 2, 3}, std::nullopt);
+  EXPECT_EQ(field.hash(), brick_hash({1, 2, 3}, b, all_of(material::ice)));
+  field.set_materials({1, 2, 3}, BrickMaterials());
   EXPECT_EQ(field.hash(), brick_hash({1, 2, 3}, b));
 }
 

@@ -4,6 +4,7 @@
 #include "shared/base/random.h"
 #include "shared/field/field.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/materials.h"
 
 namespace scree {
 namespace {
@@ -24,7 +25,7 @@ TEST(Layer, what_is_written_stays_in_the_layer) {
   MapField below(flat_terrain);
   const Brick old = brick_of_noise(random), other = brick_of_noise(random), written = brick_of_noise(random);
   below.set_brick({0, 0, 0}, old);
-  below.paint_brick({0, 0, 0}, material::ice);
+  below.set_materials({0, 0, 0}, all_of(material::ice));
   const uint64_t hash = below.hash();
   MapField layer(&below);
   EXPECT_EQ(layer.source(), below.source());
@@ -34,14 +35,14 @@ TEST(Layer, what_is_written_stays_in_the_layer) {
 
   layer.set_brick({0, 0, 0}, written);
   EXPECT_EQ(layer.brick({0, 0, 0}), written);
-  EXPECT_EQ(layer.painted({0, 0, 0}), material::ice) << "paint lies on what was painted";
-  layer.paint_brick({0, 0, 0}, std::nullopt);
-  EXPECT_EQ(layer.painted({0, 0, 0}), std::nullopt);
-  layer.paint_brick({0, 0, 1}, material::soil);
+  EXPECT_EQ(layer.materials({0, 0, 0}), all_of(material::ice)) << "paint lies on what was painted";
+  layer.set_materials({0, 0, 0}, BrickMaterials());
+  EXPECT_TRUE(layer.materials({0, 0, 0}).is_ground());
+  layer.set_materials({0, 0, 1}, all_of(material::soil));
   EXPECT_TRUE(layer.is_edited({0, 0, 1}));
   EXPECT_EQ(below.hash(), hash);
   EXPECT_EQ(below.brick({0, 0, 0}), old);
-  EXPECT_EQ(below.painted({0, 0, 0}), material::ice);
+  EXPECT_EQ(below.materials({0, 0, 0}), all_of(material::ice));
   EXPECT_FALSE(below.is_edited({0, 0, 1}));
 
   // Beside what was written, in the same chunk, the layer shows what the field below becomes.
@@ -73,7 +74,7 @@ TEST(Layer, reads_and_hashes_as_one_field_with_the_edits_of_both) {
     const Brick brick = brick_of_noise(random);
     for (MapField* field : {&below, &both}) {
       field->set_brick(at, brick);
-      if (i % 3 == 0) field->paint_brick(at, material::ice);
+      if (i % 3 == 0) field->set_materials(at, all_of(material::ice));
     }
   }
   MapField layer(&below);
@@ -82,8 +83,8 @@ TEST(Layer, reads_and_hashes_as_one_field_with_the_edits_of_both) {
     const Brick brick = brick_of_noise(random);
     const uint32_t act = random.below(4);
     for (MapField* field : {&layer, &both}) {
-      if (act == 0) field->paint_brick(at, material::soil);
-      if (act == 1) field->paint_brick(at, std::nullopt);
+      if (act == 0) field->set_materials(at, all_of(material::soil));
+      if (act == 1) field->set_materials(at, BrickMaterials());
       if (act > 1) field->set_brick(at, brick);
     }
     ASSERT_EQ(layer.hash(), both.hash()) << i;
@@ -97,7 +98,7 @@ TEST(Layer, reads_and_hashes_as_one_field_with_the_edits_of_both) {
     EXPECT_EQ(layer.chunk_bricks(chunk).edited, both.chunk_bricks(chunk).edited);
     for (const BrickCoord brick : both.edited_bricks(chunk)) {
       EXPECT_EQ(layer.brick(brick), both.brick(brick));
-      EXPECT_EQ(layer.painted(brick), both.painted(brick));
+      EXPECT_EQ(layer.materials(brick), both.materials(brick));
     }
   }
   const VoxelBox box{{-40, -40, -40}, {40, 40, 40}};

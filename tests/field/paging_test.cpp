@@ -5,6 +5,7 @@
 #include "shared/base/random.h"
 #include "tests/support/chunk_shelf.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/materials.h"
 
 namespace scree {
 namespace {
@@ -24,7 +25,7 @@ class PagingTest : public ::testing::Test {
         Random random(static_cast<uint32_t>(i));
         const BrickCoord coord{static_cast<int>(random.next() % 24), static_cast<int>(random.next() % 8), 0};
         each->set_brick(coord, i % 5 == 0 ? solid_brick() : scribbled(random));
-        if (i % 7 == 0) each->paint_brick(coord, material::ice);
+        if (i % 7 == 0) each->set_materials(coord, all_of(material::ice));
       }
   }
 
@@ -61,7 +62,7 @@ TEST_F(PagingTest, whoever_reads_or_writes_brings_it_in_once) {
   shelf.page_out_all(FieldPaging(field));
   for (const ChunkCoord chunk : other.edited_chunks())
     for (const BrickCoord brick : other.edited_bricks(chunk)) {
-      ASSERT_EQ(field.painted(brick), other.painted(brick));
+      ASSERT_EQ(field.materials(brick), other.materials(brick));
       ASSERT_EQ(field.brick(brick), other.brick(brick));
     }
   EXPECT_EQ(shelf.reads, other.edited_chunks().size());
@@ -75,7 +76,7 @@ TEST_F(PagingTest, whoever_reads_or_writes_brings_it_in_once) {
     const bool paints = i % 3 == 0;
     for (Field* each : {static_cast<Field*>(&field), static_cast<Field*>(&other)}) {
       if (paints)
-        each->paint_brick(coord, i % 2 == 0 ? std::optional(material::soil) : std::nullopt);
+        each->set_materials(coord, i % 2 == 0 ? all_of(material::soil) : BrickMaterials());
       else
         each->set_brick(coord, brick);
     }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/fuzz/support/memory_transport.h"
+#include "tests/support/materials.h"
 #include "transport/proxied_transport.h"
 
 namespace scree {

@@ -22,7 +22,7 @@ class SlowSupply final : public ChunkSupply {
     for (const ChunkCoord chunk : std::exchange(asked, {})) {
       SuppliedChunk& one = chunks.emplace_back(SuppliedChunk{chunk, {}});
       for (const BrickCoord brick : field_.edited_bricks(chunk))
-        one.bricks.push_back({brick, field_.brick(brick), field_.painted(brick)});
+        one.bricks.push_back({brick, field_.brick(brick), field_.materials(brick)});
       if (lies) one.bricks.pop_back();
       ++read;
     }

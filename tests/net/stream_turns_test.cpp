@@ -128,7 +128,7 @@ class NarrowSupply final : public ChunkSupply {
     for (; chunks.size() < 2 && !asked_.empty(); asked_.pop_front()) {
       SuppliedChunk& one = chunks.emplace_back(SuppliedChunk{asked_.front(), {}});
       for (const BrickCoord brick : field_.edited_bricks(one.chunk))
-        one.bricks.push_back({brick, field_.brick(brick), field_.painted(brick)});
+        one.bricks.push_back({brick, field_.brick(brick), field_.materials(brick)});
     }
     return chunks;
   }

@@ -270,8 +270,8 @@ TEST(operation, what_no_world_can_take_is_refused_by_name) {
   refused(op, "257 authored seeds for a carve of 0");
   op = ball(8, static_cast<SeedPattern>(kind_count<SeedPattern>));
   refused(op, "pattern is not a known one (uniform, radial,");
-  const auto no_material = static_cast<Material>(kind_count<Material>);
-  refused(PaintOperation{sphere({0, 0, 0}, 1.0F), no_material}, "material is not a known one (rock, soil");
+  const auto no_material = static_cast<Material>(materials_max);
+  refused(PaintOperation{sphere({0, 0, 0}, 1.0F), no_material}, "material 255 is over the last");
   const auto no_shape = static_cast<ShapeKind>(kind_count<ShapeKind>);
   refused(FillOperation{{no_shape, {}, {}, 1.0F}}, "kind of shape is not a known one (sphere, box");
   op = ball(8);

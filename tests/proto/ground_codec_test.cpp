@@ -1,6 +1,7 @@
 // Ground messages that contradict themselves are refused.
 #include <gtest/gtest.h>
 
+#include "tests/support/materials.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {
@@ -18,7 +19,7 @@ TEST(GroundCodec, a_brick_that_is_listed_and_rock_or_painted_or_elsewhere_is_ref
   twice.rock = 1;  // (−4, 8, 0) is the chunk's first
   EXPECT_NE(refusal_of(twice).find("wholly rock"), std::string::npos);
   GroundMessage painted = good;
-  painted.bricks[0].paint = material::ice;
+  painted.bricks[0].materials = all_of(material::ice);
   EXPECT_NE(refusal_of(painted).find("painted"), std::string::npos);
   GroundMessage elsewhere = good;
   elsewhere.bricks[0].coord.x += 4;

@@ -9,6 +9,7 @@
 #include "proto/operation_codec.h"
 #include "server/formats/recording_codec.h"
 #include "tests/support/holds.h"
+#include "tests/support/materials.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {
@@ -60,19 +61,19 @@ std::string refusal(const Operation& operation) {
 }
 
 std::string refusal_of_brick(Material material) {
-  const Result<std::vector<BrickPatch>> decoded =
-      decode_bricks(encode_bricks(std::vector<BrickPatch>{{{1, 2, 3}, samples::noisy_brick(1), material}}));
+  const Result<std::vector<BrickPatch>> decoded = decode_bricks(
+      encode_bricks(std::vector<BrickPatch>{{{1, 2, 3}, samples::noisy_brick(1), all_of(material)}}));
   if (!decoded) return decoded.error().message;
-  EXPECT_EQ(decoded->front().paint, material);
+  EXPECT_EQ(decoded->front().materials, all_of(material));
   return "";
 }
 
 std::string refusal_of_volume(Material material) {
   Volume volume = samples::volume();
-  volume.material = material;
+  volume.materials.all = material;
   const Result<Volume> decoded = decode_volume(encode_volume(volume));
   if (!decoded) return decoded.error().message;
-  EXPECT_EQ(decoded->material, material);
+  EXPECT_EQ(main_material(*decoded), material);
   return "";
 }
 
@@ -94,18 +95,23 @@ std::string refusal_of_header(TerrainKind kind) {
   return "";
 }
 
-TEST(Kinds, every_material_goes_through_every_codec_and_an_unknown_one_through_none) {
+TEST(Kinds, every_row_of_a_palette_goes_through_every_codec_and_one_beyond_through_none) {
   const Shape place = shape_of(ShapeKind::sphere);
-  for (const Material material : all_kinds<Material>) {
-    EXPECT_EQ(refusal(PaintMessage{{place, material}, 1}), "") << name_of(material);
-    EXPECT_EQ(refusal(Operation(PaintOperation{place, material})), "") << name_of(material);
-    EXPECT_EQ(refusal_of_brick(material), "") << name_of(material);
-    EXPECT_EQ(refusal_of_volume(material), "") << name_of(material);
+  for (size_t row = 0; row < materials_max; ++row) {
+    const auto material = static_cast<Material>(row);
+    EXPECT_EQ(refusal(PaintMessage{{place, material}, 1}), "") << row;
+    EXPECT_EQ(refusal(FillMessage{{place, material}, 1}), "") << row;
+    for (const bool whole : {false, true})
+      EXPECT_EQ(refusal(Operation(PaintOperation{place, material, whole})), "") << row;
+    EXPECT_EQ(refusal(Operation(FillOperation{place, material})), "") << row;
+    EXPECT_EQ(refusal_of_brick(material), "") << row;
+    EXPECT_EQ(refusal_of_volume(material), "") << row;
   }
-  EXPECT_TRUE(holds(refusal(PaintMessage{{place, unknown<Material>}, 1}), "material"));
-  EXPECT_TRUE(holds(refusal(Operation(PaintOperation{place, unknown<Material>})), "material"));
-  EXPECT_TRUE(holds(refusal_of_brick(unknown<Material>), "material"));
-  EXPECT_TRUE(holds(refusal_of_volume(unknown<Material>), "material"));
+  constexpr auto none = static_cast<Material>(materials_max);
+  EXPECT_TRUE(holds(refusal(PaintMessage{{place, none}, 1}), "material 255"));
+  EXPECT_TRUE(holds(refusal(FillMessage{{place, none}, 1}), "material 255"));
+  EXPECT_TRUE(holds(refusal(Operation(PaintOperation{place, none})), "material"));
+  EXPECT_TRUE(holds(refusal(Operation(FillOperation{place, none})), "material"));
 }
 
 TEST(Kinds, every_shape_goes_through_every_codec_and_an_unknown_one_through_none) {
@@ -185,7 +191,6 @@ std::map<int, std::string> rows() {
 }
 
 TEST(Kinds, are_those_of_the_specification) {
-  EXPECT_EQ(values_of("Material"), rows<Material>());
   EXPECT_EQ(values_of("Role", "access.proto"), rows<Role>());
   EXPECT_EQ(values_of("ShapeKind"), rows<ShapeKind>());
   EXPECT_EQ(values_of("SeedPattern"), rows<SeedPattern>());

@@ -48,14 +48,19 @@ std::string words(const std::vector<Coord<Tag>>& coords) {
   return all.empty() ? "none" : all;
 }
 
+inline std::string words(const BrickMaterials& materials) {
+  if (materials.is_ground()) return "the ground's materials";
+  if (materials.is_uniform()) return fmt::format("material {}", row_number(material_of(materials.uniform())));
+  return fmt::format("voxels of {} kinds", materials.list().size());
+}
+
 inline Lines words(const std::vector<BrickPatch>& bricks) {
   Lines lines;
   for (const BrickPatch& patch : bricks) {
-    const std::string paint =
-        patch.paint ? fmt::format("painted {}", row_of(*patch.paint).name) : "not painted";
+    const std::string paint = words(patch.materials);
     lines.push_back(fmt::format("brick: {}, {}, {}, hash 0x{:016x}", words(patch.coord), paint,
                                 words(std::span<const Code>(patch.brick.codes)),
-                                brick_hash(patch.coord, patch.brick, patch.paint)));
+                                brick_hash(patch.coord, patch.brick, patch.materials)));
   }
   return lines;
 }
@@ -65,7 +70,7 @@ inline Lines words(const Volume& volume) {
   return {
       fmt::format("volume: first voxel {}, sides {}, mass {}", words(box.lo), words(box.size()), volume.mass),
       fmt::format("centre of mass: {} voxels, material {}", words(volume.centre_voxels),
-                  row_of(volume.material).name),
+                  row_number(main_material(volume))),
       words(std::span<const Code>(volume.window.codes))};
 }
 
@@ -124,11 +129,12 @@ inline Lines describe(const CarveMessage& m) {
                       row_of(m.pattern).name, m.seeds, m.random_seed, words(m.impact_m), m.blast_speed_m_s)};
 }
 inline Lines describe(const FillMessage& m) {
-  return {fmt::format("fill: request {}, {}", m.request, words(m.shape))};
+  const std::string of = m.material ? fmt::format(", material {}", row_number(*m.material)) : "";
+  return {fmt::format("fill: request {}, {}{}", m.request, words(m.shape), of)};
 }
 inline Lines describe(const PaintMessage& m) {
   return {
-      fmt::format("paint: request {}, {}, material {}", m.request, words(m.shape), row_of(m.material).name)};
+      fmt::format("paint: request {}, {}, material {}", m.request, words(m.shape), row_number(m.material))};
 }
 inline Lines describe(const RepairMessage& m) {
   Lines lines{fmt::format("repair: tick {}", m.tick)};
@@ -270,7 +276,7 @@ inline Lines describe(const FrameMessage& m) {
   Lines lines{fmt::format("frame: tick {}, {} operations", m.tick, m.operations.size())};
   append(lines, words(m.patches));
   uint64_t sum = 0;
-  for (const BrickPatch& patch : m.patches) sum += brick_hash(patch.coord, patch.brick, patch.paint);
+  for (const BrickPatch& patch : m.patches) sum += brick_hash(patch.coord, patch.brick, patch.materials);
   const auto folded = static_cast<uint32_t>(sum >> 32U) ^ static_cast<uint32_t>(sum);
   if (m.has_check) {
     lines.push_back(fmt::format("check: 0x{:08x}", m.check));
@@ -286,7 +292,7 @@ inline Lines describe(const ChunkMessage& m) {
   Lines lines{fmt::format("chunk: {}, version {}, hash 0x{:016x}", words(m.chunk), m.version, m.hash)};
   if (m.is_part()) lines.push_back(fmt::format("part: edited 0x{:016x}, more: {}", m.edited, m.more));
   uint64_t sum = 0;
-  for (const BrickPatch& patch : m.bricks) sum += brick_hash(patch.coord, patch.brick, patch.paint);
+  for (const BrickPatch& patch : m.bricks) sum += brick_hash(patch.coord, patch.brick, patch.materials);
   if (!m.is_part()) {
     EXPECT_EQ(m.hash, sum);
   }

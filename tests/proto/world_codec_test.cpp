@@ -12,8 +12,9 @@ namespace {
 using FileBytes = std::vector<uint8_t>;
 
 WorldChunk chunk_of_one_brick(MassUnits ground_mass) {
-  const BrickPatch brick{{4, -1, 2}, solid_brick(), std::nullopt};
-  return {chunk_of(brick.coord), 9, brick_hash(brick.coord, brick.brick, brick.paint), {brick}, ground_mass};
+  const BrickPatch brick{{4, -1, 2}, solid_brick(), {}};
+  return {
+      chunk_of(brick.coord), 9, brick_hash(brick.coord, brick.brick, brick.materials), {brick}, ground_mass};
 }
 
 TEST(KeptCodec, a_header_names_its_ground_or_none) {

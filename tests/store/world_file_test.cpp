@@ -101,7 +101,7 @@ Saves saves_of(Tick ticks) {
       WorldChunk& chunk = chunks[chunk_of(patch.coord)];
       chunk.chunk = chunk_of(patch.coord);
       chunk.version = tick;
-      chunk.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+      chunk.hash += brick_hash(patch.coord, patch.brick, patch.materials);
       chunk.bricks.push_back(patch);
     }
     auto& [moment, list] = saves.ticks.emplace_back(world.moment(), std::vector<WorldChunk>());

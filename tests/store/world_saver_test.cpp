@@ -81,7 +81,7 @@ TEST_F(WorldFileTest, rows_without_the_grounds_mass_are_read_and_a_keeper_adds_i
         chunks.push_back({chunk_of(patch.coord), 30, 0, {}, {}});
       }
     }
-    chunks.back().hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    chunks.back().hash += brick_hash(patch.coord, patch.brick, patch.materials);
     chunks.back().bricks.push_back(patch);
   }
   ASSERT_TRUE(file->save(moment, chunks).has_value());
@@ -141,7 +141,7 @@ TEST_F(WorldFileTest, terrain_is_read_with_little_of_it_in_memory_as_of_one_mome
   EXPECT_EQ((*field)->bricks_in(), 0U);
   for (const BrickPatch& patch : before.bricks) {
     ASSERT_EQ((*field)->brick(patch.coord), patch.brick);
-    ASSERT_EQ((*field)->painted(patch.coord), patch.paint);
+    ASSERT_EQ((*field)->materials(patch.coord), patch.materials);
     ASSERT_EQ((*field)->chunks_in().size(), 1U);
   }
   EXPECT_NE(world->field().hash(), before.moment.field_hash);

@@ -23,7 +23,7 @@ class ChunkShelf {
     std::vector<BrickPatch>& bricks = chunks[chunk];
     bricks.clear();
     for (const BrickCoord brick : field.edited_bricks(chunk))
-      bricks.push_back({brick, field.brick(brick), field.painted(brick)});
+      bricks.push_back({brick, field.brick(brick), field.materials(brick)});
   }
   /// All chunks go out.
   void page_out_all(FieldPaging paging) {

@@ -77,7 +77,7 @@ class TickSource {
  private:
   BrickState state_of(BrickCoord coord) const {
     const auto brick = std::make_shared<const Brick>(field_.brick(coord));
-    const auto paint = field_.painted(coord);
+    const auto paint = field_.materials(coord);
     return {coord, brick, brick_hash(coord, *brick, paint), paint};
   }
   void add_piece(PieceId id, TickDelta& delta) {

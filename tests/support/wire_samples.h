@@ -8,6 +8,7 @@
 #include "proto/motion_codec.h"
 #include "proto/transforms.h"
 #include "shared/base/random.h"
+#include "tests/support/materials.h"
 
 namespace scree::samples {
 
@@ -25,7 +26,7 @@ inline Volume volume() {
     volume.window.codes[i] = static_cast<Code>(static_cast<int>(i % 255) - 127);
   volume.mass = 12345;
   volume.centre_voxels = {1.5F, 12.0F, 9.25F};
-  volume.material = material::soil;
+  volume.materials.all = material::soil;
   return volume;
 }
 
@@ -77,7 +78,7 @@ inline FrameMessage frame() {
       ShatterOperation{77792, SeedPattern::uniform, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 80000, Cutter::slice},
       IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005},
       PaintOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), material::ice}};
-  frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2), material::soil}};
+  frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2), all_of(material::soil)}};
   frame.dropped_chunks = {{1, -2, 3}, {-100, 0, 100}};
   frame.removed_pieces = {9, 4000000000U, 12};
   frame.transforms = pack_transforms(
@@ -132,7 +133,7 @@ inline std::vector<ServerMessage> server_messages() {
   ChunkMessage chunk;
   chunk.chunk = {-1, 2, 0};
   chunk.version = 17;
-  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), material::rock}, {{-1, 11, 3}, noisy_brick(4)}};
+  chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), all_of(material::rock)}, {{-1, 11, 3}, noisy_brick(4)}};
   chunk.hash = 0xFEDCBA9876543210ULL;
   WelcomeMessage on_heights = welcome;
   on_heights.spawn = Spawn{{-3.5F, 40.25F, 17.0F}, -120.5F, 12.0F};

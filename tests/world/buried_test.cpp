@@ -168,6 +168,7 @@ TEST_F(CutBalls, take_dust_with_them_when_they_become_terrain) {
   const PieceId piece = put_at({12.0F, 1.0F, 0.0F});
   const MassUnits mass = state.ledger.pieces, dust = 2 * mass;
   state.ledger.dust = dust;
+  state.materials = MaterialLedger(state.ledger, {{material::rock, mass}}, material::rock);
   merge_pieces(state, {piece}, delta);
   EXPECT_EQ(state.ledger.pieces, 0);
   EXPECT_LE(state.ledger.dust, dust - mass / 64);

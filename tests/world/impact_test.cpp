@@ -13,6 +13,7 @@
 #include "server/world/published_state.h"
 #include "server/world/spawn.h"
 #include "tests/support/flat_world.h"
+#include "tests/support/materials.h"
 #include "tests/support/verify_recording.h"
 #include "tests/support/world_steps.h"
 
@@ -66,16 +67,16 @@ TEST(impact, a_hard_fall_breaks_a_piece_where_it_struck) {
 }
 
 TEST(material, soil_lies_on_rock_and_ice_on_the_heights) {
-  EXPECT_EQ(material_at(flat_terrain, {3.0F, -0.5F, 8.0F}), material::soil);
-  EXPECT_EQ(material_at(flat_terrain, {3.0F, -1.5F, 8.0F}), material::rock);
-  EXPECT_EQ(material_at(flat_terrain, {3.0F, 0.5F, 8.0F}), material::rock)
-      << "what is poured above the ground";
-  const TerrainSource canyon{TerrainKind::canyon, 1, 0.25F};
+  MapField flat(flat_terrain);
+  EXPECT_EQ(material_at(flat, {3.0F, -0.5F, 8.0F}), material::soil);
+  EXPECT_EQ(material_at(flat, {3.0F, -1.5F, 8.0F}), material::rock);
+  EXPECT_EQ(material_at(flat, {3.0F, 0.5F, 8.0F}), material::rock) << "what is poured above the ground";
+  MapField canyon(TerrainSource{TerrainKind::canyon, 1, 0.25F});
   uint32_t seen[3] = {0, 0, 0};
   for (int x = -40; x < 40; x += 2)
     for (int z = -40; z < 40; z += 2) {
       const glm::vec3 p(static_cast<float>(x), 0.0F, static_cast<float>(z));
-      const float ground_m = ground_height_m(canyon, p.x, p.z);
+      const float ground_m = ground_height_m(canyon.source(), p.x, p.z);
       ++seen[static_cast<size_t>(material_at(canyon, {p.x, ground_m - 0.3F, p.z}))];
       EXPECT_EQ(material_at(canyon, {p.x, -30.0F, p.z}), material::rock);
     }
@@ -97,14 +98,14 @@ TEST(impact, a_piece_weighs_what_its_material_weighs_and_its_children_do_too) {
     const float size_m3 = static_cast<float>(state.pieces.at(id)->mass) / units_per_voxel / 64.0F;
     return state.bodies.mass_kg(id) / size_m3;
   };
-  EXPECT_NEAR(weighs_as(1), traits_of(material::soil).density_kg_m3, 1.0F);
+  EXPECT_NEAR(weighs_as(1), builtin_row(material::soil).density_kg_m3, 1.0F);
   for (int i = 0; i < 240 && state.pieces.contains(1); ++i) {
     state.bodies.step();
     apply_impacts(state, delta);
   }
   ASSERT_FALSE(state.pieces.contains(1)) << "it did not break";
   for (const auto& [id, volume] : state.pieces)
-    EXPECT_NEAR(weighs_as(id), traits_of(material::soil).density_kg_m3, 1.0F);
+    EXPECT_NEAR(weighs_as(id), builtin_row(material::soil).density_kg_m3, 1.0F);
 }
 
 TEST(impact, a_soft_fall_breaks_nothing) {

@@ -17,6 +17,7 @@
 #include "server/store/recorder.h"
 #include "server/world/world.h"
 #include "tests/support/flat_world.h"
+#include "tests/support/materials.h"
 
 namespace scree {
 namespace {
@@ -55,27 +56,28 @@ TEST(paint, hashes_know_it_only_where_it_is_and_forget_it_with_its_chunk) {
   for (Field* field : fields) {
     const BrickCoord coord{0, -1, 0};
     const Brick codes = field->brick(coord);
-    field->paint_brick(coord, std::nullopt);
+    field->set_materials(coord, BrickMaterials());
     EXPECT_EQ(field->hash(), 0U) << "no paint off what has none";
-    field->paint_brick(coord, material::ice);
+    field->set_materials(coord, all_of(material::ice));
     EXPECT_EQ(field->brick(coord), codes);
-    EXPECT_EQ(field->painted(coord), material::ice);
-    EXPECT_EQ(field->hash(), brick_hash(coord, codes, material::ice));
-    EXPECT_NE(field->hash(), brick_hash(coord, codes, material::soil));
+    EXPECT_EQ(field->materials(coord), all_of(material::ice));
+    EXPECT_EQ(field->hash(), brick_hash(coord, codes, all_of(material::ice)));
+    EXPECT_NE(field->hash(), brick_hash(coord, codes, all_of(material::soil)));
     EXPECT_NE(field->hash(), brick_hash(coord, codes));
     EXPECT_EQ(field->chunk_hash(chunk_of(coord)), field->hash());
     field->set_brick(coord, air_brick());
-    EXPECT_EQ(field->painted(coord), material::ice) << "paint stays";
-    EXPECT_EQ(field->hash(), brick_hash(coord, air_brick(), material::ice));
-    field->paint_brick(coord, std::nullopt);
+    EXPECT_EQ(field->materials(coord), all_of(material::ice)) << "paint stays";
+    EXPECT_EQ(field->hash(), brick_hash(coord, air_brick(), all_of(material::ice)));
+    field->set_materials(coord, BrickMaterials());
     EXPECT_EQ(field->hash(), brick_hash(coord, air_brick()));
-    field->paint_brick(coord, material::rock);
+    field->set_materials(coord, all_of(material::rock));
     field->forget_chunk(chunk_of(coord));
-    EXPECT_EQ(field->painted(coord), std::nullopt);
+    EXPECT_TRUE(field->materials(coord).is_ground());
     EXPECT_EQ(field->hash(), 0U);
-    const std::vector<BrickCoord> painted = paint(*field, in_voxels(patch, voxel_m), material::ice);
+    const std::vector<BrickCoord> painted = paint_bricks(*field, in_voxels(patch, voxel_m), material::ice);
     EXPECT_FALSE(painted.empty());
-    EXPECT_TRUE(paint(*field, in_voxels(patch, voxel_m), material::ice).empty()) << "it was ice before";
+    EXPECT_TRUE(paint_bricks(*field, in_voxels(patch, voxel_m), material::ice).empty())
+        << "it was ice before";
   }
   EXPECT_EQ(map.hash(), vdb.hash());
 }
@@ -93,9 +95,9 @@ TEST(paint, a_piece_is_made_of_what_its_place_was_painted_and_keeps_it) {
   size_t ice = 0, soil = 0;
   for (const SpawnedPiece& piece : spawned) {
     const bool painted = piece.volume->centre_voxels.x < 40.0F;
-    EXPECT_EQ(piece.volume->material == material::ice, painted);
-    ice += piece.volume->material == material::ice ? 1 : 0;
-    soil += piece.volume->material == material::soil ? 1 : 0;
+    EXPECT_EQ(main_material(*piece.volume) == material::ice, painted);
+    ice += main_material(*piece.volume) == material::ice ? 1 : 0;
+    soil += main_material(*piece.volume) == material::soil ? 1 : 0;
   }
   EXPECT_GT(ice, 2U);
   EXPECT_GT(soil, 0U);
@@ -104,10 +106,10 @@ TEST(paint, a_piece_is_made_of_what_its_place_was_painted_and_keeps_it) {
   MapField field(flat_terrain);
   PieceTable pieces{{1, spawned.front().volume}};
   const Volume& parent = *spawned.front().volume;
-  ASSERT_EQ(parent.material, material::ice);
+  ASSERT_EQ(main_material(parent), material::ice);
   apply(ShatterOperation{1, SeedPattern::uniform, 3, 1, parent.centre_voxels, 10}, field, pieces);
   ASSERT_GE(pieces.size(), 2U);
-  for (const auto& [id, child] : pieces) EXPECT_EQ(child->material, material::ice);
+  for (const auto& [id, child] : pieces) EXPECT_EQ(main_material(*child), material::ice);
 }
 
 TEST(paint, an_island_is_made_of_what_its_place_was_painted) {
@@ -117,7 +119,7 @@ TEST(paint, an_island_is_made_of_what_its_place_was_painted) {
   apply(PaintOperation{sphere({0.0F, 5.0F, 0.0F}, 3.0F), material::soil}, field, pieces);
   apply(IslandOperation{{{-4, 16, -4}, {5, 25, 5}}, {0, 20, 0}, 5}, field, pieces);
   ASSERT_TRUE(pieces.contains(5));
-  EXPECT_EQ(pieces.at(5)->material, material::soil);
+  EXPECT_EQ(main_material(*pieces.at(5)), material::soil);
 }
 
 TEST(paint, the_reply_says_how_many_bricks_were_painted) {
@@ -149,19 +151,20 @@ TEST(paint, what_cannot_be_painted_is_refused_by_name_and_changes_nothing) {
     EXPECT_EQ(delta->field_hash, 0U);
     return delta->replies.front().refusal;
   };
-  EXPECT_NE(refusal(static_cast<Material>(kind_count<Material>), patch).find("material"), std::string::npos);
+  EXPECT_NE(refusal(static_cast<Material>(materials_max), patch).find("material"), std::string::npos);
   EXPECT_NE(refusal(material::ice, sphere({}, 9.0F)).find("edit_reach_max_m"), std::string::npos);
   EXPECT_NE(refusal(material::ice, sphere({}, -1.0F)).find("negative"), std::string::npos);
   EXPECT_NE(refusal(material::ice, sphere({1e6F, 0, 0}, 1.0F)).find("outside the world"), std::string::npos);
 }
 
 TEST(paint, bytes_that_paint_what_is_not_there_are_refused) {
-  const std::vector<BrickPatch> bricks{{{0, 0, 0}, air_brick(), material::ice}, {{0, 0, 1}, air_brick(), {}}};
+  const std::vector<BrickPatch> bricks{{{0, 0, 0}, air_brick(), all_of(material::ice)},
+                                       {{0, 0, 1}, air_brick(), {}}};
   const std::vector<uint8_t> bytes = encode_bricks(bricks);
   const auto decoded = decode_bricks(bytes);
   ASSERT_TRUE(decoded) << decoded.error().message;
-  EXPECT_EQ((*decoded)[0].paint, material::ice);
-  EXPECT_EQ((*decoded)[1].paint, std::nullopt);
+  EXPECT_EQ((*decoded)[0].materials, all_of(material::ice));
+  EXPECT_TRUE((*decoded)[1].materials.is_ground());
   // varint 2, two coordinates of three bytes, varint 1, varint 0, u8 2
   const auto refused = [&](size_t at, uint8_t value, const char* word) {
     std::vector<uint8_t> damaged = bytes;
@@ -172,7 +175,7 @@ TEST(paint, bytes_that_paint_what_is_not_there_are_refused) {
   };
   refused(7, 3, "painted bricks");
   refused(8, 2, "beyond the last brick");
-  refused(9, kind_count<Material>, "material");
+  refused(9, materials_max, "material");
 }
 
 /// What a client gets of a world, from the tick at which it joins.
@@ -208,7 +211,7 @@ void expect_same(const Client& client, World& world) {
   for (const ChunkCoord chunk : client.mirror->held_chunks()) {
     EXPECT_EQ(client.mirror->field().chunk_hash(chunk), world.field().chunk_hash(chunk));
     for (const BrickCoord coord : world.field().edited_bricks(chunk))
-      EXPECT_EQ(client.mirror->field().painted(coord), world.field().painted(coord));
+      EXPECT_EQ(client.mirror->field().materials(coord), world.field().materials(coord));
   }
 }
 
@@ -227,7 +230,7 @@ TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   tick({carve_at({3.0F, -0.3F, 0.0F})}, {&live, &beside});
   tick({paint_it(material::ice, box({4.0F, 0.0F, 0.0F}, {8.0F, 3.0F, 5.0F}))}, {&live, &beside});
   EXPECT_EQ(live.mirror->counters().operations.of<PaintOperation>(), 1U);
-  EXPECT_EQ(live.mirror->field().painted({1, -1, 0}), material::ice);
+  EXPECT_EQ(live.mirror->field().materials({1, -1, 0}), all_of(material::ice));
   EXPECT_TRUE(std::ranges::find(live.changed, BrickCoord{1, -1, 0}) != live.changed.end())
       << "meshes of painted bricks must be made anew";
   Client late(publisher, 3, {0.0F, 0.0F, 0.0F}, 64.0F);
@@ -238,8 +241,10 @@ TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   EXPECT_EQ(late.mirror->field().hash(), world.field().hash());
   size_t ice = 0;
   for (const auto& [id, motion] : late.mirror->pieces()) {
-    EXPECT_EQ(motion.volume->material, live.mirror->pieces().at(id).volume->material);
-    ice += motion.volume->material == material::ice || motion.volume->material == material::soil ? 1 : 0;
+    EXPECT_EQ(main_material(*motion.volume), main_material(*live.mirror->pieces().at(id).volume));
+    ice += main_material(*motion.volume) == material::ice || main_material(*motion.volume) == material::soil
+               ? 1
+               : 0;
   }
   EXPECT_EQ(ice, late.mirror->pieces().size());
 }
@@ -273,11 +278,12 @@ TEST(paint, a_recorded_session_verifies_and_plays_from_its_middle) {
     EXPECT_EQ((*whole)->field_hash, world.field().hash());
     size_t painted = 0;
     for (const BrickState& state : (*whole)->bricks) {
-      EXPECT_EQ(state.paint, world.field().painted(state.coord));
-      painted += state.paint == material::soil ? 1 : 0;
+      EXPECT_EQ(state.materials, world.field().materials(state.coord));
+      painted += state.materials == all_of(material::soil) ? 1 : 0;
     }
     EXPECT_GT(painted, 10U);
-    for (const SpawnedPiece& piece : (*whole)->spawned) EXPECT_EQ(piece.volume->material, material::ice);
+    for (const SpawnedPiece& piece : (*whole)->spawned)
+      EXPECT_EQ(main_material(*piece.volume), material::ice);
   }
   std::filesystem::remove_all(folder);
 }

@@ -40,12 +40,29 @@ inline Window any_window(FuzzInput& input, int side_max) {
   return window;
 }
 
+/// What a brick's voxels say: of one, or each its own.
+inline BrickMaterials any_materials(FuzzInput& input) {
+  if (input.flag()) return BrickMaterials(said(any_material(input)));
+  VoxelMaterials voxels;
+  for (VoxelMaterial& voxel : voxels) voxel = static_cast<VoxelMaterial>(input.below(3));
+  return BrickMaterials(voxels);
+}
+
+inline std::optional<Material> any_fill_of_palette(FuzzInput& input) {
+  return input.flag() ? std::optional(any_material(input)) : std::nullopt;
+}
+
 inline Volume any_volume(FuzzInput& input) {
   Volume volume;
   volume.window = any_window(input, 12);
   volume.mass = input.number<uint16_t>();
   volume.centre_voxels = input.place(8.0F);
-  volume.material = any_kind<Material>(input);
+  volume.materials.box = volume.window.box;
+  volume.materials.all = any_material(input);
+  if (volume.mass < 2 || !input.flag()) return volume;
+  volume.materials.each.resize(volume.window.codes.size());
+  for (Material& each : volume.materials.each) each = static_cast<Material>(input.below(3));
+  volume.masses = {{material::rock, 1}, {material::ice, volume.mass - 1}};
   return volume;
 }
 
@@ -63,13 +80,14 @@ inline StampOperation any_stamp(FuzzInput& input) {
                        any_kind<StampMethod>(input)};
   for (uint32_t others = input.below(8) / 5 * input.below(4); others > 0; --others)
     stamp.others.push_back({any_piece(input), any_pose(input)});
+  stamp.brings_materials = input.flag();
   return stamp;
 }
 
 inline Operation any_operation(FuzzInput& input) {
   switch (input.below(8)) {
     case 0:
-      return FillOperation{known(any_shape(input))};
+      return FillOperation{known(any_shape(input)), any_fill_of_palette(input)};
     case 1:
       return any_stamp(input);
     case 2:
@@ -85,7 +103,7 @@ inline Operation any_operation(FuzzInput& input) {
       return IslandOperation{box, input.flag() ? lo : any_voxel(input), any_piece(input)};
     }
     case 5:
-      return PaintOperation{known(any_shape(input)), any_kind<Material>(input)};
+      return PaintOperation{known(any_shape(input)), any_material(input), input.flag()};
     default:
       return any_carve_operation(input);
   }

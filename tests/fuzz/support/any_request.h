@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "content/builtin_palette.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
 #include "shared/operation/request.h"
 #include "tests/fuzz/support/fuzz_input.h"
+#include "tests/support/materials.h"
 
 namespace scree {
 
@@ -103,12 +105,24 @@ inline SettingValues any_settings(FuzzInput& input) {
   return values;
 }
 
+/// A row of the built-in palette, or one beyond it.
+inline Material any_material(FuzzInput& input) {
+  return static_cast<Material>(input.below(static_cast<uint32_t>(builtin_palette().rows.size()) + 1));
+}
+/// The same, or any number.
+inline Material any_number_of_material(FuzzInput& input) {
+  return input.below(32) == 31 ? static_cast<Material>(input.byte()) : any_material(input);
+}
+inline std::optional<Material> any_fill(FuzzInput& input) {
+  return input.flag() ? std::optional(any_number_of_material(input)) : std::nullopt;
+}
+
 inline Request any_request(FuzzInput& input) {
   switch (input.below(7)) {
     case 0:
-      return FillRequest{any_shape(input)};
+      return FillRequest{any_shape(input), any_fill(input)};
     case 1:
-      return PaintRequest{any_shape(input), any_number_as<Material>(input)};
+      return PaintRequest{any_shape(input), any_number_of_material(input)};
     case 2:
       return SettingsRequest{any_settings(input)};
     case 3:

@@ -215,7 +215,7 @@ void write_saved_values(Corpora& corpora) {
   add(0, encode(value));
   add(1, encode(WorldHeader{.world = 1, .config = value.moment.config}));
   const BrickPatch& brick = value.bricks.front();
-  const uint64_t hash = brick_hash(brick.coord, brick.brick, brick.paint);
+  const uint64_t hash = brick_hash(brick.coord, brick.brick, brick.materials);
   add(2, encode(WorldChunk{chunk_of(brick.coord), value.moment.tick, hash, {brick}, 1000}));
   for (const PieceRecord& piece : value.moment.pieces) add(3, encode(piece));
   add(4, encode(value.moment));

@@ -51,7 +51,7 @@ std::vector<BrickPatch> any_bricks(FuzzInput& input) {
     const bool twice = std::ranges::any_of(bricks, [&](const BrickPatch& b) { return b.coord == coord; });
     if (twice) continue;
     BrickPatch patch{coord, any_brick(input)};
-    if (input.flag()) patch.paint = any_kind<Material>(input);
+    if (input.flag()) patch.materials = any_materials(input);
     bricks.push_back(patch);
   }
   return bricks;
@@ -137,7 +137,7 @@ ChunkMessage any_chunk(FuzzInput& input) {
     if (input.below(16) != 15)
       patch.coord =
           first_brick(chunk.chunk) + BrickCoord{static_cast<int>(i % 4), static_cast<int>(i / 4), 0};
-    chunk.hash += brick_hash(patch.coord, patch.brick, patch.paint);
+    chunk.hash += brick_hash(patch.coord, patch.brick, patch.materials);
   }
   if (input.below(16) == 15) ++chunk.hash;
   if (input.flag()) return chunk;

@@ -150,8 +150,8 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
     default: {
       const uint32_t kind = input.below(8);
       const uint32_t number = input.byte();
-      if (kind == 0) return FillMessage{{known(any_shape(input))}, number};
-      if (kind == 1) return PaintMessage{{known(any_shape(input)), any_kind<Material>(input)}, number};
+      if (kind == 0) return FillMessage{{known(any_shape(input)), any_fill(input)}, number};
+      if (kind == 1) return PaintMessage{{known(any_shape(input)), any_material(input)}, number};
       return CarveMessage{known(any_carve(input)), number};
     }
   }
