@@ -45,10 +45,6 @@ inline constexpr size_t ground_chunks_max = 1024;
 /// them; a stored chunk has half of that. Above: refused.
 inline constexpr size_t tile_bytes_max = size_t{72} << 10;
 
-/// Bytes of a palette as it is sent and kept: 255 rows of some 200 bytes, and four times as many. Above:
-/// refused.
-inline constexpr size_t palette_bytes_max = size_t{256} << 10;
-
 /// How deep a layer of the ground may reach, metres. Above: refused.
 inline constexpr float layer_depth_max_m = 50.0F;
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,7 @@
 #include "shared/base/digest.h"
 #include "shared/base/result.h"
 #include "shared/base/spawn.h"
+#include "shared/material/palette.h"
 #include "shared/operation/ledger.h"
 
 namespace scree {
@@ -34,12 +36,11 @@ struct RecordedHeader {
   Digest ground{};        ///< of the file that the terrain's ground is from; zeros: it is generated
   uint32_t tick_rate_hz = 60;
   uint32_t merges_per_tick_max = 0;
-  SettingValues settings;          ///< to start with
-  std::optional<Spawn> spawn{};    ///< as of WorldConfig: it is not among `settings`
-  uint32_t merge_burst_ticks = 0;  ///< of a recording's events: EventDeriver
-  uint32_t rules = 0;              ///< by which the simulation serves (server/world/rules.h)
-  /// The palette to start with (proto/palette_codec.h); empty: the first rows of the built-in one.
-  std::vector<uint8_t> palette{};
+  SettingValues settings;                    ///< to start with
+  std::optional<Spawn> spawn{};              ///< as of WorldConfig: it is not among `settings`
+  uint32_t merge_burst_ticks = 0;            ///< of a recording's events: EventDeriver
+  uint32_t rules = 0;                        ///< by which the simulation serves (server/world/rules.h)
+  std::shared_ptr<const Palette> palette{};  ///< to start with; null: the built-in one
 };
 
 struct RecordedFrame {

@@ -4,7 +4,7 @@
 
 #include "proto/byte_stream.h"
 #include "proto/height_wire.h"
-#include "proto/limits.h"
+#include "proto/palette_codec.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/text.h"
@@ -70,7 +70,7 @@ void write(recorded::Header& to, const RecordedHeader& from) {
   if (from.spawn) to.set_spawn(text_of(*from.spawn));
   to.set_rules(from.rules);
   if (from.terrain.rows != GroundRows{}) write(*to.mutable_rows(), from.terrain.rows);
-  to.set_palette(from.palette.data(), from.palette.size());
+  if (from.palette != nullptr) to.set_palette(to_string(encode_palette(*from.palette)));
 }
 
 RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
@@ -99,8 +99,9 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
   else if (!from.ground().empty())
     check.refuse("the hash of its ground is not of 32 bytes");
   if (from.has_rows()) header.terrain.rows = read_rows(from.rows(), check);
-  const std::string palette = check.bytes(from.palette(), limits::palette_bytes_max, "palette");
-  header.palette.assign(palette.begin(), palette.end());
+  if (!from.palette().empty())
+    header.palette =
+        std::make_shared<const Palette>(check.value_or_refuse(decode_palette(as_span(from.palette()))));
   return header;
 }
 

@@ -1,7 +1,6 @@
 #include "server/world/recorded_values.h"
 
 #include "content/builtin_palette.h"
-#include "proto/palette_codec.h"
 #include "server/world/settings.h"
 
 namespace scree {
@@ -17,7 +16,9 @@ RecordedHeader to_recorded(const WorldConfig& config) {
   std::erase_if(out.settings, [](const SettingValue& value) { return value.name == spawn_setting; });
   out.spawn = config.spawn;
   out.rules = config.rules;
-  if (*config.palette != builtin_palette()) out.palette = encode_palette(*config.palette);
+  const bool builtin =
+      config.palette == shared_builtin_palette() || *config.palette == *shared_builtin_palette();
+  if (!builtin) out.palette = config.palette;
   return out;
 }
 
@@ -28,8 +29,7 @@ Result<WorldConfig> config_of(const RecordedHeader& header) {
   config.tick_rate_hz = header.tick_rate_hz;
   config.merges_per_tick_max = header.merges_per_tick_max;
   config.rules = header.rules;
-  if (!header.palette.empty())
-    config.palette = std::make_shared<const Palette>(TRY(decode_palette(header.palette)));
+  if (header.palette != nullptr) config.palette = header.palette;
   TRY(set_all(config, header.settings));
   config.spawn = header.spawn;
   TRY(validate(config));

@@ -93,10 +93,10 @@ class FlippedBrick {
   void put(TickDelta& delta) {
     Brick brick = known_ ? *known_->brick : MapField(small_world().terrain).brick(coord_);
     flip_(brick);
-    const uint64_t hash = brick_hash(coord_, brick, std::nullopt);
+    const uint64_t hash = brick_hash(coord_, brick);
     hash_gain_ = hash - (known_ ? known_->hash : 0);
     std::erase_if(delta.bricks, [&](const BrickState& state) { return state.coord == coord_; });
-    delta.bricks.push_back({coord_, std::make_shared<const Brick>(brick), hash, std::nullopt});
+    delta.bricks.push_back({coord_, std::make_shared<const Brick>(brick), hash, {}});
     std::ranges::sort(delta.bricks, {}, &BrickState::coord);
   }
 

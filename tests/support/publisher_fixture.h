@@ -73,7 +73,7 @@ class TrustingClient {
     for (const BrickPatch& patch : frame.patches) {
       ++patches;
       field.set_brick(patch.coord, patch.brick);
-      field.paint_brick(patch.coord, patch.materials);
+      field.set_materials(patch.coord, patch.materials);
       changed[chunk_of(patch.coord)] = true;
     }
     for (const ChunkCoord chunk : frame.dropped_chunks) {
@@ -113,7 +113,7 @@ class TrustingClient {
     }
     for (const BrickPatch& patch : message.bricks) {
       field.set_brick(patch.coord, patch.brick);
-      field.paint_brick(patch.coord, patch.materials);
+      field.set_materials(patch.coord, patch.materials);
     }
     if (message.more) return;
     ++chunks;
@@ -127,7 +127,7 @@ class TrustingClient {
       if (before == nullptr) continue;
       for (const BrickCoord brick : before->field.edited_bricks(chunk)) {
         field.set_brick(brick, before->field.brick(brick));
-        field.paint_brick(brick, before->field.materials(brick));
+        field.set_materials(brick, before->field.materials(brick));
       }
       EXPECT_EQ(field.chunk_hash(chunk), message.hashes[i]);
     }

@@ -77,8 +77,8 @@ class TickSource {
  private:
   BrickState state_of(BrickCoord coord) const {
     const auto brick = std::make_shared<const Brick>(field_.brick(coord));
-    const auto paint = field_.materials(coord);
-    return {coord, brick, brick_hash(coord, *brick, paint), paint};
+    const BrickMaterials materials = field_.materials(coord);
+    return {coord, brick, brick_hash(coord, *brick, materials), materials};
   }
   void add_piece(PieceId id, TickDelta& delta) {
     const auto volume = pieces_.at(id);
