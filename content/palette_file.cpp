@@ -352,7 +352,7 @@ Result<PaletteContent> read_palette_file(const std::string& path) {
   const std::string text = TRY(read_text(path));
   ImageFolder images(std::filesystem::path(path).parent_path());
   Palette palette = TRY(PaletteReader(path, &images).run(text));
-  return PaletteContent{std::move(palette), images.files()};
+  return PaletteContent{std::move(palette), std::move(images).files()};
 }
 
 Digest palette_digest(const Palette& palette) {
