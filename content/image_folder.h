@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "shared/base/digest.h"
@@ -25,7 +26,8 @@ class ImageFolder {
   /// path and the limit.
   Result<Digest> read(const std::string& path);
 
-  const ImageFiles& files() const { return files_; }
+  /// All that were read, each once.
+  ImageFiles files() && { return std::move(files_); }
 
  private:
   std::filesystem::path folder_;

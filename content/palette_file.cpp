@@ -6,11 +6,27 @@
 #include <map>
 #include <optional>
 
+namespace scree {
+namespace {
+/// The parser of toml++ breaks preconditions of its own on malformed text such as "[[[" or "[&" (its issues
+/// 294 and 301). It asserts them in debug builds, and elsewhere the compiler may assume them. Here they are
+/// errors.
+struct BrokenPrecondition {};
+[[noreturn]] void break_precondition() {
+  throw BrokenPrecondition{};
+}
+}  // namespace
+}  // namespace scree
+#pragma push_macro("NDEBUG")
+#undef NDEBUG
+#define TOML_ASSERT(holds) ((holds) ? static_cast<void>(0) : ::scree::break_precondition())
 // A palette needs three levels. Each is frames of the stack, and a file may be hostile.
 #define TOML_MAX_NESTED_VALUES 8
 #include <toml++/toml.h>
+#pragma pop_macro("NDEBUG")
 
 #include "content/limits.h"
+#include "content/toml_lines.h"
 #include "crypto/sha256.h"
 #include "proto/palette_codec.h"
 #include "shared/base/near_name.h"
@@ -102,6 +118,27 @@ bool is_known(std::string_view name) {
   return std::ranges::find(row_names(), name) != row_names().end();
 }
 
+bool breaks_parser(std::string_view text) {
+  try {
+    const toml::table parsed = toml::parse(text);
+  } catch (const toml::parse_error&) {
+  } catch (const BrokenPrecondition&) {
+    return true;
+  }
+  return false;
+}
+
+/// The line at which the parser breaks a precondition, of a text on which it does: the parser reads it from
+/// the beginning on.
+size_t line_of_break(std::string_view text) {
+  std::vector<size_t> ends;
+  for (size_t at = 0; at < text.size(); ++at)
+    if (text[at] == '\n') ends.push_back(at + 1);
+  const auto first =
+      std::ranges::partition_point(ends, [&](size_t end) { return !breaks_parser(text.substr(0, end)); });
+  return static_cast<size_t>(first - ends.begin()) + 1;
+}
+
 /// Reads one file. Errors leave it as TRY hands them on.
 class PaletteReader {
  public:
@@ -109,12 +146,18 @@ class PaletteReader {
   PaletteReader(std::string name, ImageFolder* images) : name_(std::move(name)), images_(images) {}
 
   Result<Palette> run(std::string_view text) {
-    TRY(check_lengths(text));
+    if (text.size() > limits::palette_file_bytes_max)
+      return refuse(0, "it has " + std::to_string((text.size() + 1023) >> 10U) + " KiB, over the limit of " +
+                           std::to_string(limits::palette_file_bytes_max >> 10U) + " KiB");
+    const auto ascii = ascii_toml(text);
+    if (!ascii) return refuse(ascii.error().line, ascii.error().words);
     try {
-      const toml::table document = toml::parse(text, name_);
+      const toml::table document = toml::parse(*ascii, name_);
       return read(document);
     } catch (const toml::parse_error& error) {
       return refuse(error.source(), showable(error.description(), 300));
+    } catch (const BrokenPrecondition&) {
+      return refuse(line_of_break(*ascii), "it is no TOML");
     }
   }
 
@@ -142,7 +185,6 @@ class PaletteReader {
     return refuse(key.source(), "there is no " + in_quotes(name) + near_of(name, known));
   }
 
-  Result<void> check_lengths(std::string_view text) const;
   Result<Palette> read(const toml::table& document);
   Result<void> read_materials(const toml::table& document);
   Result<MaterialRow> read_row(const toml::table& table);
@@ -158,21 +200,6 @@ class PaletteReader {
   std::string subject_;  ///< the row that is being read, in words
   Palette palette_;
 };
-
-Result<void> PaletteReader::check_lengths(std::string_view text) const {
-  if (text.size() > limits::palette_file_bytes_max)
-    return refuse(0, "it has " + std::to_string((text.size() + 1023) >> 10U) + " KiB, over the limit of " +
-                         std::to_string(limits::palette_file_bytes_max >> 10U) + " KiB");
-  size_t line = 1;
-  for (size_t begin = 0; begin < text.size(); ++line) {
-    const size_t end = std::min(text.find('\n', begin), text.size());
-    if (end - begin > limits::palette_line_bytes_max)
-      return refuse(line, "the line has " + std::to_string(end - begin) + " bytes, over the limit of " +
-                              std::to_string(limits::palette_line_bytes_max));
-    begin = end + 1;
-  }
-  return {};
-}
 
 Result<Palette> PaletteReader::read(const toml::table& document) {
   for (const auto& [key, node] : document)
@@ -266,8 +293,8 @@ Result<void> PaletteReader::read_ground(const toml::table& document) {
   subject_ = "ground";
   for (const GroundLayer& layer : ground_layers) TRY(read_layer(layer, *node->as_table()));
   for (const auto& [key, value] : *node->as_table()) {
-    const auto is_layer = [&](const GroundLayer& layer) { return layer.name == key; };
-    if (!std::ranges::any_of(ground_layers, is_layer)) TRY(read_depth(key, value));
+    if (std::ranges::find(ground_layers, key.str(), &GroundLayer::name) == ground_layers.end())
+      TRY(read_depth(key, value));
   }
   subject_.clear();
   return {};
@@ -325,7 +352,7 @@ Result<PaletteContent> read_palette_file(const std::string& path) {
   const std::string text = TRY(read_text(path));
   ImageFolder images(std::filesystem::path(path).parent_path());
   Palette palette = TRY(PaletteReader(path, &images).run(text));
-  return PaletteContent{std::move(palette), images.files()};
+  return PaletteContent{std::move(palette), std::move(images).files()};
 }
 
 Digest palette_digest(const Palette& palette) {

@@ -1,6 +1,6 @@
 // The palette: the materials of a world, as a table that comes from a file (content/palette_file.h).
 //
-// A world, a recording and a welcome carry it by its digest (content/palette_codec.h). Rows can be added, but
+// A world, a recording and a welcome carry it by its digest (proto/palette_codec.h). Rows can be added, but
 // never removed or renumbered, because voxels hold their numbers. No kernel that decides bits of the field
 // reads a row's numbers: they drive bodies, breaks, falls, sounds and drawing, and may change in a running
 // world. Only `ground` decides bits, and stays. A value; metres, kilograms, seconds, pascals.

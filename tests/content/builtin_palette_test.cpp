@@ -6,6 +6,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <regex>
 
 #include "content/palette_file.h"
 #include "shared/material/material_members.h"
@@ -41,6 +42,51 @@ TEST(BuiltinPalette, says_every_physical_number_of_every_material) {
       if (at == 0 || text[at - 1] == '\n' || text[at - 1] == ' ') ++count;
     EXPECT_EQ(count, builtin_palette().rows.size()) << name;
   }
+}
+
+std::string text_of_page() {
+  std::ifstream in(std::string(SCREE_SOURCE_DIR) + "/docs/materials.md");
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// The page's row of a member has its bounds, its unit, and its value in a row that leaves it out.
+void expect_on_page(const std::string& page, std::string_view name, std::array<float, 3> numbers,
+                    std::string_view unit) {
+  const size_t begin = page.find("| `" + std::string(name) + "` | ");
+  ASSERT_NE(begin, std::string::npos) << name;
+  const std::string line = page.substr(begin, page.find('\n', begin) - begin);
+  static const std::regex row(R"(\| `[a-z_.]+` \| (\S+) to (\S+)( \S+)? \| (\S+) \| .+ \|)");
+  std::smatch match;
+  ASSERT_TRUE(std::regex_match(line, match, row)) << line;
+  EXPECT_EQ(std::stof(match[1]), numbers[0]) << line;
+  EXPECT_EQ(std::stof(match[2]), numbers[1]) << line;
+  EXPECT_EQ(std::stof(match[4]), numbers[2]) << line;
+  EXPECT_EQ(match[3], unit.empty() ? "" : " " + std::string(unit)) << line;
+}
+
+TEST(MaterialsPage, has_every_member_with_its_bounds) {
+  const std::string page = text_of_page();
+  for (const MaterialNumber& member : material_numbers())
+    expect_on_page(page, member.name, {member.least, member.most, member.get({})}, member.unit);
+  for (const GroundNumber& member : ground_numbers())
+    expect_on_page(page, member.name, {member.least, member.most, member.get({})}, member.unit);
+  for (const MaterialChoice& member : material_choices()) {
+    std::string values;
+    for (const std::string_view value : member.values)
+      values += (values.empty() ? "`" : ", `") + std::string(value) + "`";
+    const std::string usual(member.values[member.get({})]);
+    EXPECT_NE(page.find("| `" + std::string(member.name) + "` | " + values + " | `" + usual + "` | "),
+              std::string::npos)
+        << member.name;
+  }
+}
+
+TEST(MaterialsPage, shows_a_palette_that_can_be_read) {
+  const std::string page = text_of_page(), fence = "```toml\n";
+  const size_t begin = page.find(fence) + fence.size();
+  const Result<Palette> read = read_palette(page.substr(begin, page.find("```", begin) - begin), "page");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->rows.size(), 2U);
 }
 
 struct FormerRow {

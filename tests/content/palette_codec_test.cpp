@@ -1,6 +1,7 @@
 // Palettes as bytes: all that a palette has survives, and nothing else is taken.
 #include "proto/palette_codec.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -151,9 +152,9 @@ TEST(PaletteCodec, a_digest_of_another_length_is_refused) {
   palette.rows[0].look.albedo = Digest{1, 2, 3};
   std::vector<uint8_t> bytes = encode_palette(palette);
   const std::vector<uint8_t> begin{0x42, 32, 1, 2, 3};  // field 8 of 32 bytes
-  const auto found = std::ranges::search(bytes, begin);
-  ASSERT_FALSE(found.empty());
-  *(found.begin() + 1) = 2;
+  const auto found = std::search(bytes.begin(), bytes.end(), begin.begin(), begin.end());
+  ASSERT_NE(found, bytes.end());
+  *(found + 1) = 2;
   // The bytes that follow are no fields then, so the message is damaged or its digest too short.
   EXPECT_FALSE(decode_palette(bytes));
 }

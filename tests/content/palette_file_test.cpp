@@ -173,6 +173,28 @@ TEST(PaletteFile, what_is_no_toml_is_refused_with_its_line) {
         << refusal(text);
 }
 
+TEST(PaletteFile, text_on_which_the_parser_breaks_its_own_rules_is_refused_with_its_line) {
+  for (const char* text : {"[[[material]]]", "[&", "[[=", "[(", "[[[1]]]\n"}) {
+    EXPECT_EQ(refusal(text), "m.toml:1: it is no TOML") << text;
+    EXPECT_EQ(refusal(ground + rock + text), "m.toml:7: it is no TOML") << text;
+    EXPECT_EQ(refusal(ground + rock + text + "\n\n# more\n[x]\n"), "m.toml:7: it is no TOML") << text;
+  }
+}
+
+TEST(PaletteFile, comments_alone_have_other_characters_than_ascii) {
+  EXPECT_EQ(refusal("\xEF\xBB\xBF" + ground + rock + "# \xC3\xA9 \xE2\x80\xA8 \xFF\n"), "");
+  EXPECT_EQ(refusal(ground + rock + "breaks = \"even\" # \xC3\xA9\n"), "");
+  EXPECT_EQ(refusal(ground + rock + "breaks = 'ev#en' # \xC3\xA9\n"),
+            "m.toml:7: rock: breaks 'ev#en' is not even, grain, slabs or shards");
+  const std::string said = "m.toml:7: only comments have other characters than those of ASCII";
+  for (const char* line : {"\xC3\xA9 = 1", "a = \xEF\xBB\xBE", "breaks = \"\xC3\xA9\"", "a = '#' \xC3\xA9",
+                           "a = \"\\\"#\" \xC3\xA9", "a = '\\' \xC3\xA9 # '"})
+    EXPECT_EQ(refusal(ground + rock + line), said) << line;
+  for (const char* line : {"a = \"\"\"", "a = '''x'''", "a = \"\"\"\n# \"\"\" \xC3\xA9"})
+    EXPECT_EQ(refusal(ground + rock + line),
+              "m.toml:7: a text stands in one line, between one quote and another");
+}
+
 TEST(PaletteFile, long_lines_long_files_and_deep_files_are_refused) {
   EXPECT_EQ(refusal("a = 1\n#" + std::string(limits::palette_line_bytes_max, ' ') + "\n"),
             "m.toml:2: the line has 501 bytes, over the limit of 500");
