@@ -44,6 +44,8 @@ class BrickMaterials {
     return all_;
   }
   VoxelMaterial at(int index) const;
+  /// Whether any voxel is of the ground's own.
+  bool says_ground() const { return (plane_ == nullptr ? all_ : *plane_.get()) == ground_own; }
   void unpack(VoxelMaterials& to) const;
   VoxelMaterials unpacked() const;
   /// The values that occur, in order.
@@ -54,15 +56,16 @@ class BrickMaterials {
   bool operator==(const BrickMaterials& other) const;
 
  private:
-  struct Plane {
-    std::vector<VoxelMaterial> list;  ///< in order; at least two
-    std::vector<uint8_t> packed;      ///< indices into it, the first in the lowest bits
+  /// The values that occur, in order, at least two; and the indices into them, the first in the lowest bits.
+  size_t values() const { return size_t{count_less_one_} + 1; }
+  const VoxelMaterial* listed() const { return plane_.get(); }
+  const uint8_t* packed() const { return plane_.get() + values(); }
+  size_t plane_bytes() const;
+  void pack(const VoxelMaterials& voxels);
 
-    bool operator==(const Plane&) const = default;
-  };
-
+  std::shared_ptr<const uint8_t[]> plane_;  ///< list and indices in one; null: all_ of every voxel
   VoxelMaterial all_ = ground_own;
-  std::shared_ptr<const Plane> plane_;  ///< null: all_ of every voxel
+  uint8_t count_less_one_ = 0;  ///< values of the list, less one
 };
 
 /// XXH3 of the coordinate, the codes, and what the voxels say: nothing where all are the ground's own, a

@@ -81,24 +81,27 @@ const Brick& Field::brick(BrickCoord coord) const {
   return edited ? *find_edited(coord) : generated_brick(coord);
 }
 
-void Field::set_brick(BrickCoord coord, const Brick& brick) {
+void Field::set_brick(BrickCoord coord, const Brick& brick, const BrickMaterials& now) {
   CHECK_DEBUG(std::ranges::count(brick.codes, Code{-128}) == 0);
+  const BrickMaterials before = materials(coord);
   EditedChunk& chunk = edited_[chunk_of(coord)];
   if (pages()) {
     use(chunk_of(coord), chunk);
     if (chunk.bricks == 0) residence_.enter(chunk_of(coord), 0);  // its first edit follows
   }
   const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
-  const BrickMaterials said = materials(coord);
   const bool edited = (chunk.bricks & bit) != 0 || find_below(coord) != nullptr;
   CHECK_DEBUG(edited == (find_edited(coord) != nullptr));
-  uint64_t change = brick_hash(coord, brick, said);
-  if (edited) change -= brick_hash(coord, *find_edited(coord), said);
+  uint64_t change = brick_hash(coord, brick, now);
+  if (edited) change -= brick_hash(coord, *find_edited(coord), before);
   store_edited(coord, brick);
   edited_bricks_ += edited ? 0 : 1;
   if (!edited && pages()) residence_.add_brick();
   chunk.bricks |= bit;
-  if (!said.is_ground()) chunk.materials[index_in_chunk(coord)] = said;  // a layer's own from now on
+  if (!now.is_ground())
+    chunk.materials[index_in_chunk(coord)] = now;  // also what a layer's brick said below
+  else if (!before.is_ground())
+    chunk.materials.erase(index_in_chunk(coord));
   if (last_ && last_->coord == chunk_of(coord)) last_->edited = chunk.bricks;
   chunk.hash += change;
   hash_ += change;
@@ -114,25 +117,37 @@ BrickMaterials Field::materials(BrickCoord coord) const {
 }
 
 void Field::set_materials(BrickCoord coord, const BrickMaterials& now) {
-  const BrickMaterials before = materials(coord);
-  if (before == now) return;
-  const bool own = below_ == nullptr && is_edited(coord);
-  if (!own) set_brick(coord, Brick(brick(coord)));
-  EditedChunk& chunk = edited_[chunk_of(coord)];
-  const Brick& codes = *find_edited(coord);
-  const uint64_t change = brick_hash(coord, codes, now) - brick_hash(coord, codes, before);
-  if (now.is_ground())
-    chunk.materials.erase(index_in_chunk(coord));
-  else
-    chunk.materials[index_in_chunk(coord)] = now;
-  chunk.hash += change;
-  hash_ += change;
+  if (!(materials(coord) == now)) set_brick(coord, Brick(brick(coord)), now);
+}
+
+bool Field::may_be_layered(ChunkCoord chunk) const {
+  const int first = first_voxel(chunk).y;
+  return layers_.possible(first, first + chunk_size);
 }
 
 const BrickMaterials& Field::ground_materials(BrickCoord coord) const {
   if (below_ != nullptr) return below_->ground_materials(coord);
-  if (!may_be_layered(source_, coord)) return bulk_;
-  return ground_materials_.of(source_, coord, generated_chunk(chunk_of(coord)));
+  const ChunkCoord chunk = chunk_of(coord);
+  const bool stored = source_.heights != nullptr && source_.heights->bricks().has_value();
+  if (!stored && !may_be_layered(chunk)) return bulk_;
+  const GeneratedChunk& generated = generated_chunk(chunk);
+  const PackedChunkMaterials* materials = generated.stored_materials.get();
+  if (materials != nullptr && !materials->at(index_in_chunk(coord)).says_ground())
+    return materials->at(index_in_chunk(coord));
+  if (!stored || !may_be_layered(chunk)) return bulk_;
+  return ground_materials_.of(source_, coord, generated);
+}
+
+std::optional<Field::ChunkRock> Field::chunk_rock(ChunkCoord chunk) const {
+  const bool stored = source_.heights != nullptr && source_.heights->bricks().has_value();
+  if (below_ != nullptr || stored) return std::nullopt;
+  ChunkRock rock;
+  if (const auto edited = edited_.find(chunk); edited != edited_.end()) {
+    if (edited->second.out) use(chunk, edited->second);
+    if (!edited->second.materials.empty()) rock.said = &edited->second.materials;
+  }
+  if (may_be_layered(chunk)) rock.ground = generated_chunk(chunk).stored_materials.get();
+  return rock;
 }
 
 void Field::forget_chunk(ChunkCoord chunk) {

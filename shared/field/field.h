@@ -12,6 +12,7 @@
 // whose materials were changed are edited ones.
 #pragma once
 
+#include <functional>
 #include <glm/vec3.hpp>
 #include <map>
 #include <memory>
@@ -23,6 +24,7 @@
 #include "shared/field/brick_materials.h"
 #include "shared/field/chunk_residence.h"
 #include "shared/field/generated_cache.h"
+#include "shared/field/ground_layers.h"
 #include "shared/field/ground_materials.h"
 #include "shared/field/paging.h"
 #include "shared/field/terrain.h"
@@ -57,7 +59,9 @@ class Field {
   /// Whether any brick of the chunk is edited.
   bool has_edits(ChunkCoord chunk) const { return edited_bits(chunk) != 0; }
   /// Marks the brick as edited, even when the codes are those generated.
-  void set_brick(BrickCoord coord, const Brick& brick);
+  void set_brick(BrickCoord coord, const Brick& brick) { set_brick(coord, brick, materials(coord)); }
+  /// The same, and changes what its voxels say.
+  void set_brick(BrickCoord coord, const Brick& brick, const BrickMaterials& materials);
   /// What the brick's voxels say of their materials; ground_own of all where nobody changed any.
   BrickMaterials materials(BrickCoord coord) const;
   /// Changes what they say, and marks the brick as edited. Its codes stay.
@@ -65,6 +69,16 @@ class Field {
   /// The ground's own materials there (ground_materials.h): no voxel says ground_own. Same lifetime as
   /// brick().
   const BrickMaterials& ground_materials(BrickCoord coord) const;
+  /// What decides the materials of a chunk's bricks, for those who read many: what bricks say, by their index
+  /// (null: none says anything), and what the ground has (null: its bulk alone). Nothing where it takes more
+  /// than that to tell. Same lifetime as brick().
+  struct ChunkRock {
+    const std::map<int, BrickMaterials>* said = nullptr;
+    const PackedChunkMaterials* ground = nullptr;
+
+    bool is_bulk() const { return said == nullptr && ground == nullptr; }
+  };
+  std::optional<ChunkRock> chunk_rock(ChunkCoord chunk) const;
   /// Forgets the edits of a chunk: it reads as generated again. Not of a layer.
   void forget_chunk(ChunkCoord chunk);
 
@@ -148,6 +162,7 @@ class Field {
   /// The field that keeps the generated chunks.
   const Field& generated_owner() const { return below_ == nullptr ? *this : below_->generated_owner(); }
   uint64_t edited_bits(ChunkCoord chunk) const;
+  bool may_be_layered(ChunkCoord chunk) const;
   const GeneratedChunk& generated_chunk(ChunkCoord chunk) const;
   /// Forgets the last call's chunk if the cache has dropped chunks since.
   void heed_drops() const;
@@ -161,8 +176,9 @@ class Field {
   const Field* below_ = nullptr;                  ///< of a layer
   mutable GeneratedCache generated_;              ///< of a layer empty: the field below keeps them
   mutable GroundMaterialCache ground_materials_;  ///< likewise
-  BrickMaterials bulk_{said(source_.rows.bulk)};  ///< of ground that no layer reaches
-  mutable uint64_t drops_heeded_ = 0;             ///< of generated_
+  GroundLayers layers_{source_};
+  BrickMaterials bulk_ = layers_.bulk();
+  mutable uint64_t drops_heeded_ = 0;  ///< of generated_
   std::unordered_map<ChunkCoord, EditedChunk, CoordHash> edited_;
   mutable std::optional<LastChunk> last_;  ///< none in a layer: the field below changes without its knowledge
   size_t edited_bricks_ = 0;
@@ -193,6 +209,9 @@ Window gather(const Field& field, const VoxelBox& box);
 
 /// Writes a window back. Returns the bricks whose codes changed, in order; the others are left alone.
 std::vector<BrickCoord> scatter(Field& field, const Window& window);
+/// The same, and changes what bricks' voxels say to what `said` returns for them, if it returns something.
+std::vector<BrickCoord> scatter(Field& field, const Window& window,
+                                const std::function<const BrickMaterials*(BrickCoord)>& said);
 
 /// Trilinear distance and gradient at a point (voxels); gradient is not normalised, zero where the codes
 /// saturate.

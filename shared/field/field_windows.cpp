@@ -67,6 +67,11 @@ Window gather(const Field& field, const VoxelBox& box) {
 }
 
 std::vector<BrickCoord> scatter(Field& field, const Window& window) {
+  return scatter(field, window, nullptr);
+}
+
+std::vector<BrickCoord> scatter(Field& field, const Window& window,
+                                const std::function<const BrickMaterials*(BrickCoord)>& said) {
   std::vector<BrickCoord> changed;
   CHECK_EQ(window.codes.size(), Window::count(window.box));
   for_each_brick(window.box, [&](BrickCoord coord) {
@@ -75,8 +80,13 @@ std::vector<BrickCoord> scatter(Field& field, const Window& window) {
     for_each_row(coord, window, [&](size_t to, size_t from, size_t count) {
       copy_row(brick.codes.data() + to, window.codes.data() + from, count);
     });
-    if (brick == old) return;
-    field.set_brick(coord, brick);
+    const BrickMaterials* now = said == nullptr ? nullptr : said(coord);
+    const bool says_other = now != nullptr && !(*now == field.materials(coord));
+    if (brick == old && !says_other) return;
+    if (says_other)
+      field.set_brick(coord, brick, *now);
+    else
+      field.set_brick(coord, brick);
     changed.push_back(coord);
   });
   CHECK_DEBUG(std::ranges::is_sorted(changed));

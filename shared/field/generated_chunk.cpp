@@ -38,17 +38,36 @@ GeneratedChunk chunk_from(F&& brick_at) {
 
 }  // namespace
 
-std::shared_ptr<const ChunkMaterials> stored_materials_of(const ChunkMaterials& materials) {
+PackedChunkMaterials::PackedChunkMaterials(const ChunkMaterials& materials) {
+  for (size_t i = 0; i < materials.size(); ++i) {
+    const auto found = std::ranges::find(distinct_, materials[i]);
+    places_[i] = static_cast<uint8_t>(found - distinct_.begin());
+    if (found == distinct_.end()) distinct_.push_back(materials[i]);
+  }
+  distinct_.shrink_to_fit();
+}
+
+size_t PackedChunkMaterials::bytes() const {
+  size_t sum = sizeof(*this) + distinct_.size() * sizeof(BrickMaterials);
+  for (const BrickMaterials& materials : distinct_) sum += materials.bytes();
+  return sum;
+}
+
+bool PackedChunkMaterials::operator==(const PackedChunkMaterials& other) const {
+  for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i)
+    if (!(at(i) == other.at(i))) return false;
+  return true;
+}
+
+std::shared_ptr<const PackedChunkMaterials> stored_materials_of(const ChunkMaterials& materials) {
   if (std::ranges::all_of(materials, &BrickMaterials::is_ground)) return nullptr;
-  return std::make_shared<const ChunkMaterials>(materials);
+  return std::make_shared<const PackedChunkMaterials>(materials);
 }
 
 size_t GeneratedChunk::bytes() const {
   size_t sum = sizeof(GeneratedChunk) + stored * sizeof(Brick);
   if (stored_materials == nullptr) return sum;
-  sum += sizeof(ChunkMaterials);
-  for (const BrickMaterials& materials : *stored_materials) sum += materials.bytes();
-  return sum;
+  return sum + stored_materials->bytes();
 }
 
 GeneratedChunk uniform_chunk(const Brick& brick) {

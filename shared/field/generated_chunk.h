@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "shared/field/brick_materials.h"
 #include "shared/field/window.h"
@@ -16,21 +17,36 @@ inline constexpr size_t chunk_brick_count = size_t{chunk_bricks} * chunk_bricks 
 /// What the bricks of a chunk say of their materials, in their order.
 using ChunkMaterials = std::array<BrickMaterials, chunk_brick_count>;
 
-/// Those materials as a chunk holds them: null where no brick says anything.
-std::shared_ptr<const ChunkMaterials> stored_materials_of(const ChunkMaterials& materials);
+/// Those materials as a chunk holds them, each that differs once.
+class PackedChunkMaterials {
+ public:
+  explicit PackedChunkMaterials(const ChunkMaterials& materials);
+
+  const BrickMaterials& at(int index) const { return distinct_[places_[static_cast<size_t>(index)]]; }
+  size_t bytes() const;
+  bool operator==(const PackedChunkMaterials& other) const;
+
+ private:
+  std::array<uint8_t, chunk_brick_count> places_{};  ///< by brick, in `distinct_`
+  std::vector<BrickMaterials> distinct_;
+};
+
+/// Null where no brick says anything.
+std::shared_ptr<const PackedChunkMaterials> stored_materials_of(const ChunkMaterials& materials);
 
 /// A chunk of the ground. bricks[i] is never null; uniform bricks point to the shared ones.
 struct GeneratedChunk {
   std::array<const Brick*, chunk_brick_count> bricks;
   std::unique_ptr<Brick[]> storage;
   uint32_t stored = 0;  ///< bricks in storage
-  /// What the ground stores of its bricks' materials; null: their layers decide (ground_materials.h).
-  std::shared_ptr<const ChunkMaterials> stored_materials;
+  /// What its bricks are of. Null: all is the ground's bulk; but where a ground stores chunks, that they lie
+  /// in its layers, as bricks that say nothing do (ground_materials.h).
+  std::shared_ptr<const PackedChunkMaterials> stored_materials;
   /// Whether all that decides it was there. If not, it looks alike, but its codes are not the ground's.
   bool exact = true;
 
   BrickMaterials materials(int index) const {
-    return stored_materials == nullptr ? BrickMaterials() : (*stored_materials)[static_cast<size_t>(index)];
+    return stored_materials == nullptr ? BrickMaterials() : stored_materials->at(index);
   }
   /// What it takes in memory.
   size_t bytes() const;

@@ -1,9 +1,8 @@
-// What unedited ground is made of, voxel by voxel: what a stored chunk says, else layers: soil over the bulk,
-// a cap on the heights (GroundRows, MaterialHeights). A function of the terrain's source and of the place
-// alone, the same bits on both sides, so it never crosses the wire.
+// The materials of stored ground where its bricks say nothing: those of its layers (ground_layers.h), by the
+// codes that are stored. Ground that is generated brings its materials along (GeneratedChunk). Functions of
+// the terrain's source and of the place alone, so none of this crosses the wire.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <unordered_map>
 
@@ -12,12 +11,7 @@
 
 namespace scree {
 
-/// Whether ground at that height may have another material than its bulk.
-bool may_be_layered(const TerrainSource& source, BrickCoord coord);
-
-/// Of a brick of that chunk of ground. Every voxel names a material. Solid voxels with air at the depth of a
-/// layer above them, in whole voxels, are of that layer; all others, also those above the undisturbed ground,
-/// are of the bulk.
+/// Of a brick of that chunk of stored ground. Every voxel names a material.
 BrickMaterials ground_materials_of(const TerrainSource& source, BrickCoord coord,
                                    const GeneratedChunk& generated);
 
@@ -26,7 +20,6 @@ class GroundMaterialCache {
  public:
   /// Valid until the next call.
   const BrickMaterials& of(const TerrainSource& source, BrickCoord coord, const GeneratedChunk& generated);
-  size_t bytes() const { return bytes_; }
 
  private:
   std::unordered_map<BrickCoord, BrickMaterials, CoordHash> bricks_;

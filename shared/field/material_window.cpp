@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <map>
 #include <optional>
 
 #include "shared/base/check.h"
@@ -32,44 +34,41 @@ void for_each_row_of(BrickCoord brick, const VoxelBox& box, F&& f) {
     }
 }
 
-/// What a brick's voxels are of, as one material or each its own.
-struct BrickOf {
-  BrickMaterials said;
-  const BrickMaterials* ground;
-
-  std::optional<Material> uniform() const {
-    if (!said.is_uniform()) return std::nullopt;
-    if (!said.is_ground()) return material_of(said.uniform());
-    return ground->is_uniform() ? std::optional(material_of(ground->uniform())) : std::nullopt;
-  }
-  void resolve(VoxelMaterials& to) const {
-    if (said.is_ground()) return ground->unpack(to);
-    said.unpack(to);
-    if (said.list().front() != ground_own) return;
-    VoxelMaterials own;
-    ground->unpack(own);
-    for (size_t i = 0; i < to.size(); ++i)
-      if (to[i] == ground_own) to[i] = own[i];
-  }
-};
-
-BrickOf brick_of_field(const Field& field, BrickCoord coord) {
-  BrickOf of{field.materials(coord), nullptr};
-  of.ground = &field.ground_materials(coord);
-  return of;
+/// Those of the sums that are not 0.
+MaterialMasses listed(const std::array<MassUnits, 256>& sums) {
+  MaterialMasses masses;
+  for (size_t row = 0; row < sums.size(); ++row)
+    if (sums[row] != 0) masses.push_back({static_cast<Material>(row), sums[row]});
+  return masses;
 }
 
-/// The one material of all bricks of the box, if there is one.
-std::optional<Material> one_material(const Field& field, const VoxelBox& box) {
-  std::optional<Material> one;
-  bool mixed = false;
-  for_each_brick(box, [&](BrickCoord coord) {
-    if (mixed) return;
-    const auto material = brick_of_field(field, coord).uniform();
-    mixed = !material || (one && *one != *material);
-    one = material;
-  });
-  return mixed ? std::nullopt : one;
+/// Places within two voxels, the nearest first; equally far ones in order of x, y and z.
+constexpr auto offsets_by_distance = [] {
+  constexpr int reach = 2;
+  std::array<VoxelCoord, 32> offsets{};
+  size_t count = 0;
+  for (int squared = 1; squared <= reach * reach; ++squared)
+    for (int x = -reach; x <= reach; ++x)
+      for (int y = -reach; y <= reach; ++y)
+        for (int z = -reach; z <= reach; ++z)
+          if (x * x + y * y + z * z == squared) offsets.at(count++) = {x, y, z};
+  if (count != offsets.size()) throw "not as many offsets";  // ends the compilation
+  return offsets;
+}();
+
+/// Calls f(index) for each voxel whose codes differ.
+template <typename F>
+void for_each_difference(const Window& a, const Window& b, F&& f) {
+  const size_t count = a.codes.size();
+  const Code *one = a.codes.data(), *other = b.codes.data();
+  size_t i = 0;
+  for (; i + 8 <= count; i += 8) {
+    if (std::memcmp(one + i, other + i, 8) == 0) continue;
+    for (size_t k = i; k < i + 8; ++k)
+      if (one[k] != other[k]) f(k);
+  }
+  for (; i < count; ++i)
+    if (one[i] != other[i]) f(i);
 }
 
 }  // namespace
@@ -107,38 +106,121 @@ void add(MaterialMasses& to, std::span<const MaterialMass> more) {
   for (const MaterialMass& one : more) add(to, one.material, one.mass);
 }
 
+std::optional<Material> MaterialReader::BrickOf::uniform() const {
+  if (!said->is_uniform()) return std::nullopt;
+  if (!said->is_ground()) return material_of(said->uniform());
+  return ground->is_uniform() ? std::optional(material_of(ground->uniform())) : std::nullopt;
+}
+
+Material MaterialReader::BrickOf::at(int index) const {
+  const VoxelMaterial value = said->at(index);
+  return material_of(value != ground_own ? value : ground->at(index));
+}
+
+void MaterialReader::BrickOf::resolve(VoxelMaterials& to) const {
+  if (said->is_ground()) return ground->unpack(to);
+  said->unpack(to);
+  if (!said->says_ground()) return;
+  VoxelMaterials own;
+  ground->unpack(own);
+  for (size_t i = 0; i < to.size(); ++i)
+    if (to[i] == ground_own) to[i] = own[i];
+}
+
+MaterialReader::MaterialReader(const Field& field, const VoxelBox& box)
+    : box_(box),
+      bulk_(said(field.source().rows.bulk)),
+      lo_(brick_of(box.lo)),
+      size_(brick_of(box.hi - VoxelCoord{1, 1, 1}) + BrickCoord{1, 1, 1} - lo_) {
+  CHECK(!box.empty());
+  static const BrickMaterials silent;
+  bricks_.assign(static_cast<size_t>(size_.x) * static_cast<size_t>(size_.y) * static_cast<size_t>(size_.z),
+                 {&silent, &bulk_});
+  for_each_chunk(box, [&](ChunkCoord chunk) {
+    const VoxelCoord first = first_voxel(chunk);
+    add_chunk(field, chunk, common(box, {first, first + VoxelCoord{chunk_size, chunk_size, chunk_size}}));
+  });
+}
+
+size_t MaterialReader::place_of(BrickCoord coord) const {
+  const BrickCoord at = coord - lo_;
+  CHECK_DEBUG(at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < size_.x && at.y < size_.y && at.z < size_.z);
+  return (static_cast<size_t>(at.x) * static_cast<size_t>(size_.y) + static_cast<size_t>(at.y)) *
+             static_cast<size_t>(size_.z) +
+         static_cast<size_t>(at.z);
+}
+
+void MaterialReader::add_chunk(const Field& field, ChunkCoord chunk, const VoxelBox& part) {
+  const std::optional<Field::ChunkRock> rock = field.chunk_rock(chunk);
+  if (rock && rock->is_bulk()) return;
+  for_each_brick(part, [&](BrickCoord coord) {
+    BrickOf& of = bricks_[place_of(coord)];
+    if (!rock) {
+      of.said = &owned_.emplace_back(field.materials(coord));
+      of.ground = &owned_.emplace_back(field.ground_materials(coord));
+      return;
+    }
+    const int index = index_in_chunk(coord);
+    if (rock->said != nullptr)
+      if (const auto found = rock->said->find(index); found != rock->said->end()) of.said = &found->second;
+    if (rock->ground != nullptr) of.ground = &rock->ground->at(index);
+  });
+}
+
+std::optional<Material> MaterialReader::uniform() const {
+  std::optional<Material> one;
+  for (const BrickOf& of : bricks_) {
+    const auto material = of.uniform();
+    if (!material || (one && *one != *material)) return std::nullopt;
+    one = material;
+  }
+  return one;
+}
+
+Material MaterialReader::at(VoxelCoord voxel) const {
+  return brick(brick_of(voxel)).at(Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7));
+}
+
+MaterialWindow MaterialReader::window() const {
+  MaterialWindow window{box_, {}, {}};
+  if (const auto one = uniform()) {
+    window.all = *one;
+    return window;
+  }
+  window.each.resize(Window::count(box_));
+  VoxelMaterials voxels;
+  for_each_brick(box_, [&](BrickCoord coord) {
+    const BrickOf& of = brick(coord);
+    if (const auto one = of.uniform()) {
+      for_each_row_of(coord, box_, [&](size_t, size_t to, size_t count) {
+        std::fill_n(window.each.begin() + static_cast<ptrdiff_t>(to), count, *one);
+      });
+      return;
+    }
+    of.resolve(voxels);
+    for_each_row_of(coord, box_, [&](size_t from, size_t to, size_t count) {
+      for (size_t i = 0; i < count; ++i) window.each[to + i] = static_cast<Material>(voxels[from + i] - 1);
+    });
+  });
+  return window;
+}
+
 std::optional<Material> one_material_of(const Field& field, BrickCoord coord) {
-  return brick_of_field(field, coord).uniform();
+  const VoxelCoord first = first_voxel(coord);
+  return MaterialReader(field, {first, first + VoxelCoord{1, 1, 1}}).uniform();
 }
 
 BrickRock materials_of(const Field& field, BrickCoord coord) {
-  VoxelMaterials voxels;
-  brick_of_field(field, coord).resolve(voxels);
+  const VoxelCoord first = first_voxel(coord);
+  const MaterialReader reader(field, {first, first + VoxelCoord{brick_size, brick_size, brick_size}});
   BrickRock rock;
-  for (size_t i = 0; i < rock.size(); ++i) rock[i] = material_of(voxels[i]);
+  for (int i = 0; i < brick_voxels; ++i)
+    rock[static_cast<size_t>(i)] = reader.at(first + VoxelCoord{i >> 6, (i >> 3) & 7, i & 7});
   return rock;
 }
 
 MaterialWindow gather_materials(const Field& field, const VoxelBox& box) {
-  CHECK(!box.empty());
-  MaterialWindow window{box, {}, {}};
-  if (const auto one = one_material(field, box)) {
-    window.all = *one;
-    return window;
-  }
-  window.each.resize(Window::count(box));
-  VoxelMaterials voxels;
-  for_each_brick(box, [&](BrickCoord coord) {
-    brick_of_field(field, coord).resolve(voxels);
-    for_each_row_of(coord, box, [&](size_t from, size_t to, size_t count) {
-      for (size_t i = 0; i < count; ++i) window.each[to + i] = material_of(voxels[from + i]);
-    });
-  });
-  const bool uniform = std::ranges::all_of(window.each, [&](Material m) { return m == window.each.front(); });
-  if (!uniform) return window;
-  window.all = window.each.front();
-  window.each.clear();
-  return window;
+  return MaterialReader(field, box).window();
 }
 
 MaterialWindow part_of(const MaterialWindow& window, const VoxelBox& box) {
@@ -164,76 +246,82 @@ MaterialMasses masses_of(const Window& codes, const MaterialWindow& materials) {
   std::array<MassUnits, 256> sums{};
   for (size_t i = 0; i < codes.codes.size(); ++i)
     sums[row_number(materials.each[i])] += occupancy(codes.codes[i]);
-  MaterialMasses masses;
-  for (size_t row = 0; row < sums.size(); ++row)
-    if (sums[row] != 0) masses.push_back({static_cast<Material>(row), sums[row]});
-  return masses;
+  return listed(sums);
 }
 
-void spread(MaterialWindow& materials, const Window& codes) {
-  if (materials.is_uniform()) return;
-  CHECK_EQ(codes.codes.size(), materials.each.size());
-  const VoxelCoord size = codes.box.size();
-  const std::array<size_t, 3> steps{static_cast<size_t>(size.y) * static_cast<size_t>(size.z),
-                                    static_cast<size_t>(size.z), 1};
-  const std::array<size_t, 3> sides{static_cast<size_t>(size.x), static_cast<size_t>(size.y),
-                                    static_cast<size_t>(size.z)};
-  std::vector<uint32_t> ahead;
-  std::vector<uint8_t> known(codes.codes.size());
-  bool one = true;
-  for (size_t i = 0; i < known.size(); ++i) {
-    if (codes.codes[i] >= 0) continue;
-    known[i] = 1;
-    ahead.push_back(static_cast<uint32_t>(i));
-    one = one && materials.each[i] == materials.each[ahead.front()];
-  }
-  if (one) {
-    materials.all = materials.each[ahead.empty() ? known.size() / 2 : ahead.front()];
-    materials.each.clear();
-    return;
-  }
-  for (size_t next = 0; next < ahead.size(); ++next) {
-    const size_t at = ahead[next];
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const size_t place = at / steps[axis] % sides[axis];
-      const auto reach = [&](size_t to) {
-        if (known[to] != 0) return;
-        known[to] = 1;
-        materials.each[to] = materials.each[at];
-        ahead.push_back(static_cast<uint32_t>(to));
-      };
-      if (place > 0) reach(at - steps[axis]);
-      if (place + 1 < sides[axis]) reach(at + steps[axis]);
-    }
-  }
-}
-
-std::vector<BrickCoord> set_materials(Field& field, const VoxelBox& box, std::span<const uint8_t> marks,
-                                      const MaterialWindow& materials) {
-  CHECK_EQ(marks.size(), Window::count(box));
-  std::vector<BrickCoord> changed;
-  for_each_brick(box, [&](BrickCoord coord) {
-    bool any = false;
-    for_each_row_of(coord, box, [&](size_t, size_t from, size_t count) {
-      for (size_t i = 0; i < count; ++i) any = any || marks[from + i] != 0;
+MaterialMasses masses_lost(const Window& before, const Window& after, const MaterialWindow& materials) {
+  CHECK(before.box == after.box);
+  std::array<MassUnits, 256> sums{};
+  if (materials.is_uniform()) {
+    sums[row_number(materials.all)] = mass_of(before) - mass_of(after);
+  } else {
+    CHECK_EQ(before.codes.size(), materials.each.size());
+    for_each_difference(before, after, [&](size_t i) {
+      sums[row_number(materials.each[i])] += occupancy(before.codes[i]) - occupancy(after.codes[i]);
     });
-    if (!any) return;
-    const BrickMaterials before = field.materials(coord);
-    VoxelMaterials voxels = before.unpacked(), own;
-    field.ground_materials(coord).unpack(own);
-    for_each_row_of(coord, box, [&](size_t to, size_t from, size_t count) {
-      for (size_t i = 0; i < count; ++i) {
-        if (marks[from + i] == 0) continue;
-        const VoxelMaterial value = said(materials.at(from + i));
-        voxels[to + i] = value == own[to + i] ? ground_own : value;
+  }
+  return listed(sums);
+}
+
+Material material_near(const Window& codes, const MaterialWindow& materials, VoxelCoord voxel) {
+  if (materials.is_uniform()) return materials.all;
+  if (codes.at(voxel.x, voxel.y, voxel.z) < 0) return materials.at(voxel);
+  for (const VoxelCoord off : offsets_by_distance) {
+    const VoxelCoord at = voxel + off;
+    if (codes.box.holds(at) && codes.at(at.x, at.y, at.z) < 0) return materials.at(at);
+  }
+  return materials.at(voxel);
+}
+
+namespace {
+
+/// What the voxels of bricks say after changes.
+std::map<BrickCoord, BrickMaterials> said_after(const Field& field, std::span<const VoxelOf> voxels) {
+  struct Change {
+    VoxelMaterials now;
+    BrickMaterials ground;
+  };
+  std::map<BrickCoord, Change> bricks;
+  Change* change = nullptr;
+  BrickCoord last;
+  for (const auto& [voxel, material] : voxels) {
+    const BrickCoord coord = brick_of(voxel);
+    if (change == nullptr || coord != last) {
+      const auto [at, is_new] = bricks.try_emplace(coord);
+      change = &at->second;
+      last = coord;
+      if (is_new) {
+        field.materials(coord).unpack(change->now);
+        change->ground = field.ground_materials(coord);
       }
-    });
-    const BrickMaterials now(voxels);
-    if (now == before) return;
+    }
+    const int i = Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7);
+    const bool own = said(material) == change->ground.at(i);
+    change->now[static_cast<size_t>(i)] = own ? ground_own : said(material);
+  }
+  std::map<BrickCoord, BrickMaterials> after;
+  for (const auto& [coord, made] : bricks) after.emplace_hint(after.end(), coord, BrickMaterials(made.now));
+  return after;
+}
+
+}  // namespace
+
+std::vector<BrickCoord> set_materials(Field& field, std::span<const VoxelOf> voxels) {
+  std::vector<BrickCoord> changed;
+  for (const auto& [coord, now] : said_after(field, voxels)) {
+    if (now == field.materials(coord)) continue;
     field.set_materials(coord, now);
     changed.push_back(coord);
-  });
+  }
   return changed;
+}
+
+std::vector<BrickCoord> scatter(Field& field, const Window& window, std::span<const VoxelOf> voxels) {
+  const std::map<BrickCoord, BrickMaterials> says = said_after(field, voxels);
+  return scatter(field, window, [&](BrickCoord coord) {
+    const auto found = says.find(coord);
+    return found == says.end() ? nullptr : &found->second;
+  });
 }
 
 Material material_at(const Field& field, glm::vec3 p_m) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -50,6 +51,41 @@ using BrickRock = std::array<Material, brick_voxels>;
 std::optional<Material> one_material_of(const Field& field, BrickCoord coord);
 BrickRock materials_of(const Field& field, BrickCoord coord);
 
+/// Reads the materials of single voxels of a box, without copying all of them. Of use while the field stays
+/// as it is.
+class MaterialReader {
+ public:
+  MaterialReader(const Field& field, const VoxelBox& box);
+  MaterialReader(const MaterialReader&) = delete;
+  MaterialReader& operator=(const MaterialReader&) = delete;
+
+  const VoxelBox& box() const { return box_; }
+  /// The one material of all bricks of the box, if there is one.
+  std::optional<Material> uniform() const;
+  Material at(VoxelCoord voxel) const;
+  /// Copies them all.
+  MaterialWindow window() const;
+
+ private:
+  struct BrickOf {
+    const BrickMaterials* said;
+    const BrickMaterials* ground;
+
+    std::optional<Material> uniform() const;
+    Material at(int index) const;
+    void resolve(VoxelMaterials& to) const;
+  };
+  size_t place_of(BrickCoord coord) const;
+  const BrickOf& brick(BrickCoord coord) const { return bricks_[place_of(coord)]; }
+  void add_chunk(const Field& field, ChunkCoord chunk, const VoxelBox& part);
+
+  VoxelBox box_;
+  BrickMaterials bulk_;
+  BrickCoord lo_, size_;
+  std::vector<BrickOf> bricks_;
+  std::deque<BrickMaterials> owned_;  ///< where the field hands out no references
+};
+
 /// Copies the materials of a box out of the field.
 MaterialWindow gather_materials(const Field& field, const VoxelBox& box);
 
@@ -59,14 +95,27 @@ MaterialWindow part_of(const MaterialWindow& window, const VoxelBox& box);
 /// Mass of the codes by material. Both windows have the same box.
 MaterialMasses masses_of(const Window& codes, const MaterialWindow& materials);
 
-/// Gives every voxel without rock (code ≥ 0) the material of a nearest solid one, counted in steps along the
-/// axes, and makes the window uniform where it can be. The windows have the same box.
-void spread(MaterialWindow& materials, const Window& codes);
+/// What the terrain lost of each material, in order, none of it 0. `after` has at no voxel more than
+/// `before`; all three have the same box.
+MaterialMasses masses_lost(const Window& before, const Window& after, const MaterialWindow& materials);
 
-/// Gives the marked voxels (a byte each, in a window's order over `box`) a material. Where that is the
-/// ground's own, the field says nothing. Returns the bricks whose materials changed, in order.
-std::vector<BrickCoord> set_materials(Field& field, const VoxelBox& box, std::span<const uint8_t> marks,
-                                      const MaterialWindow& materials);
+/// The material of the solid voxel (code < 0) nearest to one, which is in the box, at most two voxels away;
+/// if there is none, its own. The windows have the same box.
+Material material_near(const Window& codes, const MaterialWindow& materials, VoxelCoord voxel);
+
+/// A voxel, and what it is of.
+struct VoxelOf {
+  VoxelCoord voxel;
+  Material material{};
+};
+
+/// Writes a window of codes back, and gives voxels in it their materials, as set_materials() does. Returns
+/// the bricks that changed, in order.
+std::vector<BrickCoord> scatter(Field& field, const Window& window, std::span<const VoxelOf> voxels);
+
+/// Gives voxels their materials. Where that is the ground's own, the field says nothing. Returns the bricks
+/// whose materials changed, in order.
+std::vector<BrickCoord> set_materials(Field& field, std::span<const VoxelOf> voxels);
 
 /// The terrain's material at a place (metres): of the voxel nearest to it.
 Material material_at(const Field& field, glm::vec3 p_m);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "shared/base/check.h"
+#include "shared/field/ground_layers.h"
 #include "shared/field/redistance.h"
 #include "shared/field/rough_noise.h"
 #include "shared/field/terrain_density.h"
@@ -70,6 +71,87 @@ GeneratedChunk chunk_of_heights(const TerrainSource& source, ChunkCoord coord) {
   return chunk;
 }
 
+/// As possible() of the layers, of a chunk.
+bool may_be_layered(const GroundLayers& layers, ChunkCoord chunk) {
+  const int first = first_voxel(chunk).y;
+  return layers.possible(first, first + chunk_size);
+}
+
+/// The layers under a surface of heights: also of a chunk that is all rock.
+void add_layers_of_heights(const TerrainSource& source, ChunkCoord coord, GeneratedChunk& chunk) {
+  const GroundLayers layers(source);
+  if (!may_be_layered(layers, coord)) return;
+  const VoxelCoord first = first_voxel(coord);
+  const HeightPatch patch = heights_at(*source.heights, first.x, first.z, chunk_size, source.voxel_size_m);
+  const auto y_m = [&](int y) {
+    return static_cast<double>(first.y + y) * static_cast<double>(source.voxel_size_m);
+  };
+  if (y_m(0) >= patch.highest_m || y_m(chunk_size + layers.above()) < patch.lowest_m) return;
+  chunk.stored_materials = layers_of_chunk(layers, coord, [&](int x, int y, int z) {
+    return y_m(y) < patch.heights_m[static_cast<size_t>(z * chunk_size + x)];
+  });
+}
+
+/// Densities in a box of which a window, or a chunk, is a part.
+struct LevelBox {
+  VoxelBox box;
+  Levels levels;
+
+  size_t index(int x, int y, int z) const {
+    const VoxelCoord size = box.size();
+    return (static_cast<size_t>(x - box.lo.x) * static_cast<size_t>(size.y) +
+            static_cast<size_t>(y - box.lo.y)) *
+               static_cast<size_t>(size.z) +
+           static_cast<size_t>(z - box.lo.z);
+  }
+  /// Those of a box that is lower alone.
+  std::vector<float> below(const VoxelBox& part) const {
+    std::vector<float> values;
+    values.reserve(Window::count(part));
+    const auto count = static_cast<ptrdiff_t>(part.size().y) * part.size().z;
+    for (int x = part.lo.x; x < part.hi.x; ++x) {
+      const auto from = levels.values.begin() + static_cast<ptrdiff_t>(index(x, part.lo.y, part.lo.z));
+      values.insert(values.end(), from, from + count);
+    }
+    return values;
+  }
+};
+
+/// Layers are of the ground alone: where something else may stand on it, its densities are computed apart.
+void add_layers(const TerrainSource& source, ChunkCoord coord, const GroundLayers& layers,
+                const LevelBox& with_all, GeneratedChunk& chunk) {
+  const VoxelCoord first = first_voxel(coord);
+  const LevelBox* at = &with_all;
+  LevelBox alone;
+  if (arch_may_reach(source, with_all.box)) {
+    alone.box = with_all.box;
+    alone.levels = levels_of(source, alone.box, Standing::ground_alone);
+    if (alone.levels.values.empty()) return;
+    at = &alone;
+  }
+  chunk.stored_materials = layers_of_chunk(layers, coord, [&](int x, int y, int z) {
+    return at->levels.values[at->index(first.x + x, first.y + y, first.z + z)] < 0.0F;
+  });
+}
+
+GeneratedChunk generated(const TerrainSource& source, ChunkCoord coord) {
+  const VoxelBox box = box_around(coord);
+  const GroundLayers layers(source);
+  LevelBox around{box, {}};
+  const bool layered = may_be_layered(layers, coord);
+  if (layered) around.box.hi.y = std::max(box.hi.y, (box.hi.y - apron + layers.above() + 1) / 2 * 2);
+  if (const Reach reach = reach_of(source, around.box); reach != Reach::surface)
+    return uniform_chunk(reach, true);
+  around.levels = levels_of(source, around.box, Standing::with_arch);
+  const Levels& levels = around.levels;
+  if (levels.values.empty()) return uniform_chunk(levels.sign < 0.0F ? solid_brick() : air_brick());
+  Window window(box);
+  distances_from_levels(around.box == box ? levels.values : around.below(box), window);
+  GeneratedChunk chunk = split_into_bricks(window, coord);
+  if (layered) add_layers(source, coord, layers, around, chunk);
+  return chunk;
+}
+
 /// The code of the voxel nearest to a place, where the ground stores its chunk.
 std::optional<Code> stored_code(const TerrainSource& source, glm::vec3 p_m) {
   if (!source.heights->bricks()) return std::nullopt;
@@ -119,16 +201,11 @@ GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {
     const ChunkLookup stored = stored_chunk(source, chunk);
     if (stored.chunk != nullptr) return copy_of(*stored.chunk);
     GeneratedChunk made = chunk_of_heights(source, chunk);
+    add_layers_of_heights(source, chunk, made);
     made.exact = made.exact && stored.known;
     return made;
   }
-  const VoxelBox box = box_around(chunk);
-  if (const Reach reach = reach_of(source, box); reach != Reach::surface) return uniform_chunk(reach, true);
-  const Levels levels = levels_of(source, box, Standing::with_arch);
-  if (levels.values.empty()) return uniform_chunk(levels.sign < 0.0F ? solid_brick() : air_brick());
-  Window window(box);
-  distances_from_levels(levels.values, window);
-  return split_into_bricks(window, chunk);
+  return generated(source, chunk);
 }
 
 float floor_m(const TerrainSource& source) {

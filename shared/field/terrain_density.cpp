@@ -154,6 +154,12 @@ Reach reach_of(const TerrainSource& source, const VoxelBox& box) {
   return ground_of(source.kind, lo_m, rough.least_m) > 0.0F && !arched ? Reach::air : Reach::surface;
 }
 
+bool arch_may_reach(const TerrainSource& source, const VoxelBox& box) {
+  if (source.kind != TerrainKind::canyon) return false;
+  const auto metres_at = [&](VoxelCoord v) { return glm::vec3(v.x, v.y, v.z) * source.voxel_size_m; };
+  return arch_may_reach(metres_at(box.lo), metres_at(box.hi));
+}
+
 Levels levels_of(const TerrainSource& source, const VoxelBox& box, Standing standing) {
   const Lattice lattice(source, box, standing);
   if (lattice.uniform) return {{}, lattice.values.front()};

@@ -28,6 +28,8 @@ Reach reach_of(const VoxelBox& box, float voxel_size_m, double bottom_m, double 
 Reach reach_of(const TerrainSource& source, const VoxelBox& box);
 
 enum class Standing { with_arch, ground_alone };
+/// Whether something that stands on the ground may reach into the box.
+bool arch_may_reach(const TerrainSource& source, const VoxelBox& box);
 
 /// Densities of generated terrain at the voxels of a box, whose bounds are even, in a window's order; empty
 /// where every second of them has one sign, which `sign` then is. They are sampled at every second voxel and

@@ -134,14 +134,14 @@ Cut cut_by_field(const Window& volume, const Window& before, const Window& after
                  const std::vector<glm::vec3>& seeds_voxels) {
   CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
   Cut cut;
-  const std::vector<uint8_t> lost = lost_units(before, after);
+  std::vector<uint8_t> lost = lost_units(before, after);
   const MassUnits total = std::accumulate(lost.begin(), lost.end(), MassUnits{0});
   if (seeds_voxels.empty() || total < limits::piece_mass_min) {
     cut.dust = total;
     return cut;
   }
   const size_t cells = seeds_voxels.size();
-  const std::vector<Label> labels = label_voxels(volume, seeds_voxels);
+  std::vector<Label> labels = label_voxels(volume, seeds_voxels);
   const auto touching = touching_cells(volume, labels, cells);
   const CellGroups groups(rough_masses(lost, labels, cells), touching);
   const std::vector<VoxelBox> boxes = piece_boxes(volume, labels, groups, cells);
@@ -178,6 +178,9 @@ Cut cut_by_field(const Window& volume, const Window& before, const Window& after
   CHECK_EQ(std::accumulate(masses.begin(), masses.end(), MassUnits{0},
                            [](MassUnits sum, const PartMass& part) { return sum + part.mass; }),
            total);
+  cut.lost = std::move(lost);
+  cut.cell_of_voxel = std::move(labels);
+  cut.piece_of_cell = std::move(piece_of);
   return cut;
 }
 

@@ -1,8 +1,10 @@
 #include "shared/fracture/material_shares.h"
 
 #include <algorithm>
+#include <array>
 
 #include "shared/base/check.h"
+#include "shared/field/eight_bytes.h"
 
 namespace scree {
 
@@ -83,29 +85,59 @@ class ShareTable {
   std::vector<MassUnits> left_;               ///< by material; negative where too much is given
 };
 
+/// The masses of each piece by material: of the voxels nearest to it, where the cutter told, else of its
+/// codes.
+std::vector<MaterialMasses> weights_of(const Cut& cut, const MaterialWindow& materials,
+                                       const MaterialMasses& lost) {
+  std::vector<MaterialMasses> weights(cut.pieces.size());
+  if (cut.lost.empty() || materials.is_uniform()) {
+    for (size_t i = 0; i < weights.size(); ++i) {
+      const Window& window = cut.pieces[i].volume.window;
+      weights[i] = masses_of(window, part_of(materials, window.box));
+    }
+    return weights;
+  }
+  CHECK_EQ(cut.lost.size(), materials.each.size());
+  std::array<uint8_t, 256> column{};
+  for (size_t m = 0; m < lost.size(); ++m) column[row_number(lost[m].material)] = static_cast<uint8_t>(m);
+  std::vector<MassUnits> sums(weights.size() * lost.size());
+  const size_t count = cut.lost.size();
+  for (size_t from = 0; from < count; from += 8) {
+    const size_t to = std::min(from + 8, count);
+    if (to - from == 8 && all_zero(&cut.lost[from])) continue;
+    for (size_t i = from; i < to; ++i)
+      sums[cut.piece_of_cell[cut.cell_of_voxel[i]] * lost.size() + column[row_number(materials.each[i])]] +=
+          cut.lost[i];
+  }
+  for (size_t i = 0; i < weights.size(); ++i)
+    for (size_t m = 0; m < lost.size(); ++m)
+      if (const MassUnits mass = sums[i * lost.size() + m]; mass > 0)
+        weights[i].push_back({lost[m].material, mass});
+  return weights;
+}
+
 }  // namespace
 
 MaterialMasses share_materials(Cut& cut, const MaterialWindow& materials, const MaterialMasses& lost) {
-  if (lost.size() == 1 && materials.is_uniform()) {
+  if (lost.empty()) return {};
+  if (lost.size() == 1) {
     for (CutPiece& piece : cut.pieces) piece.volume.materials.all = lost.front().material;
     if (cut.dust == 0) return {};
     return {{lost.front().material, cut.dust}};
   }
-  if (lost.empty()) return {};
   ShareTable table(cut, lost);
-  for (size_t i = 0; i < cut.pieces.size(); ++i) {
-    Volume& volume = cut.pieces[i].volume;
-    volume.materials = part_of(materials, volume.window.box);
-    spread(volume.materials, volume.window);
-    table.propose(i, masses_of(volume.window, volume.materials));
-  }
+  const std::vector<MaterialMasses> weights = weights_of(cut, materials, lost);
+  for (size_t i = 0; i < weights.size(); ++i) table.propose(i, weights[i]);
   table.balance();
   for (size_t i = 0; i < cut.pieces.size(); ++i) {
     Volume& volume = cut.pieces[i].volume;
     volume.masses = table.row(i);
-    if (volume.materials.is_uniform() && volume.masses.size() == 1 &&
-        volume.masses.front().material == volume.materials.all)
+    if (volume.masses.size() == 1) {
+      volume.materials.all = volume.masses.front().material;
       volume.masses.clear();
+    } else {
+      volume.materials = part_of(materials, volume.window.box);
+    }
   }
   return table.row(cut.pieces.size());
 }

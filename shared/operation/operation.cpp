@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <glm/common.hpp>
-#include <iterator>
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -33,16 +32,6 @@ void enter_terrain(Applied& applied, const MaterialMasses& gains) {
 
 void enter_piece(Applied& applied, const Volume& volume, int sign) {
   for (const MaterialMass& one : masses_of(volume)) flow_of(applied, one.material).pieces += sign * one.mass;
-}
-
-/// The terrain's gain by material.
-MaterialMasses gain_of(const Window& before, const MaterialWindow& were, const Window& after,
-                       const MaterialWindow& are) {
-  if (were.is_uniform() && are.is_uniform() && were.all == are.all)
-    return {{were.all, mass_of(after) - mass_of(before)}};
-  MaterialMasses gains = masses_of(after, are);
-  for (const MaterialMass& one : masses_of(before, were)) add(gains, one.material, -one.mass);
-  return gains;
 }
 
 /// The cut's pieces go into the table, from that id on.
@@ -81,11 +70,9 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   Applied applied;
   applied.seeds_voxels = seeds_of(carve_op, volume, dx);
   const MaterialWindow materials = gather_materials(field, before.box);
-  MaterialMasses lost = gain_of(before, materials, after, materials);
-  enter_terrain(applied, lost);
-  applied.terrain_gain = sum_of(lost);
-  std::erase_if(lost, [](const MaterialMass& one) { return one.mass == 0; });
-  for (MaterialMass& one : lost) one.mass = -one.mass;
+  const MaterialMasses lost = masses_lost(before, after, materials);
+  for (const MaterialMass& one : lost) flow_of(applied, one.material).terrain -= one.mass;
+  applied.terrain_gain = -sum_of(lost);
   Cut cut = cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels);
   share_materials(cut, materials, lost);
   enter(std::move(cut), carve_op.first_piece, pieces, applied);
@@ -94,15 +81,10 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   return applied;
 }
 
-/// Puts codes and the marked voxels' materials into the field, and notes the bricks that changed.
-void write(Field& field, const Window& codes, const std::vector<uint8_t>& marks,
-           const MaterialWindow& materials, Applied& applied) {
-  applied.changed = scatter(field, codes);
-  if (marks.empty()) return;
-  std::vector<BrickCoord> both;
-  std::ranges::set_union(applied.changed, set_materials(field, codes.box, marks, materials),
-                         std::back_inserter(both));
-  applied.changed = std::move(both);
+/// Puts codes and materials into the field, and notes the bricks that changed.
+void write(Field& field, const Window& codes, const AddedMaterials& added, Applied& applied) {
+  enter_terrain(applied, added.gains);
+  applied.changed = added.changes.empty() ? scatter(field, codes) : scatter(field, codes, added.changes);
 }
 
 Applied apply_fill(const FillOperation& fill_op, Field& field) {
@@ -110,19 +92,15 @@ Applied apply_fill(const FillOperation& fill_op, Field& field) {
   const Window before = gather(field, band_box(shape));
   Window after = before;
   fill(after, codes_of(shape, after.box));
-  const MaterialWindow were = gather_materials(field, before.box);
-  MaterialWindow are = were;
-  std::vector<uint8_t> marks;
-  if (fill_op.material) marks = fill_materials(are, before, after, *fill_op.material);
+  const AddedMaterials added =
+      fill_materials(MaterialReader(field, before.box), before, after, fill_op.material);
   Applied applied;
-  const MaterialMasses gains = gain_of(before, were, after, are);
-  applied.terrain_gain = sum_of(gains);
-  enter_terrain(applied, gains);
+  applied.terrain_gain = sum_of(added.gains);
   if (fill_op.material)
     flow_of(applied, *fill_op.material).poured += applied.terrain_gain;
   else
-    for (const MaterialMass& gain : gains) flow_of(applied, gain.material).poured += gain.mass;
-  write(field, after, marks, are, applied);
+    for (const MaterialMass& gain : added.gains) flow_of(applied, gain.material).poured += gain.mass;
+  write(field, after, added, applied);
   return applied;
 }
 
@@ -182,20 +160,18 @@ Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
   } else {
     computed = stamped(op, field, volumes, applied.terrain_gain);
   }
-  MaterialWindow materials = gather_materials(field, after->box);
+  const MaterialReader were(field, after->box);
   const std::vector<MergedPiece> merged = merged_pieces(op, volumes);
-  if (materials.is_uniform() && (!op.brings_materials || are_all_of(merged, materials.all))) {
-    flow_of(applied, materials.all).terrain += applied.terrain_gain;
+  const auto one = were.uniform();
+  if (one && (!op.brings_materials || are_all_of(merged, *one))) {
+    flow_of(applied, *one).terrain += applied.terrain_gain;
     applied.changed = scatter(field, *after);
     return applied;
   }
   const Window before = gather(field, after->box);
-  const MaterialWindow were = materials;
-  std::vector<uint8_t> marks;
-  if (op.brings_materials)
-    marks = merge_materials(materials, before, *after, merged, field.source().voxel_size_m);
-  enter_terrain(applied, gain_of(before, were, *after, materials));
-  write(field, *after, marks, materials, applied);
+  write(field, *after,
+        merge_materials(were, before, *after, merged, op.brings_materials, field.source().voxel_size_m),
+        applied);
   return applied;
 }
 
@@ -223,14 +199,22 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
 /// The materials of an island, and its mass by material: what the terrain lost.
 void give_materials(Volume& volume, const Window& before, const Window& after,
                     const MaterialWindow& materials, Applied& applied) {
+  MaterialMasses lost = masses_lost(before, after, materials);
+  for (const MaterialMass& one : lost) flow_of(applied, one.material).terrain -= one.mass;
+  // Redistancing may add a little to what stays. The piece has no less than nothing of any material.
+  const auto most = std::ranges::max_element(lost, {}, &MaterialMass::mass);
+  for (MaterialMass& one : lost) {
+    if (one.mass >= 0) continue;
+    most->mass += one.mass;
+    one.mass = 0;
+  }
+  std::erase_if(lost, [](const MaterialMass& one) { return one.mass == 0; });
+  if (lost.size() == 1) {
+    volume.materials.all = lost.front().material;
+    return;
+  }
   volume.materials = part_of(materials, volume.window.box);
-  spread(volume.materials, volume.window);
-  const MaterialMasses gains = gain_of(before, materials, after, materials);
-  enter_terrain(applied, gains);
-  for (const MaterialMass& gain : gains)
-    if (gain.mass != 0) add(volume.masses, gain.material, -gain.mass);
-  const bool of_one = volume.masses.size() == 1 && volume.materials.is_uniform();
-  if (of_one && volume.masses.front().material == volume.materials.all) volume.masses.clear();
+  volume.masses = std::move(lost);
 }
 
 Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces) {
@@ -256,30 +240,37 @@ Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces
   return applied;
 }
 
-/// A byte for each voxel of the box: 1 where it has rock, and its centre lies in the shape.
-std::vector<uint8_t> rock_within(const Shape& shape_voxels, const Window& codes) {
-  std::vector<uint8_t> marks(codes.codes.size());
+/// What paint makes of the voxels with rock that `within` holds: changes, and what they weigh by material.
+template <typename F>
+AddedMaterials paint_of(const MaterialReader& were, const Window& codes, Material material, F&& within) {
+  AddedMaterials added;
   size_t at = 0;
   for (int x = codes.box.lo.x; x < codes.box.hi.x; ++x)
     for (int y = codes.box.lo.y; y < codes.box.hi.y; ++y)
-      for (int z = codes.box.lo.z; z < codes.box.hi.z; ++z, ++at)
-        if (occupancy(codes.codes[at]) > 0 && distance(shape_voxels, glm::vec3(x, y, z)) <= 0.0F)
-          marks[at] = 1;
-  return marks;
+      for (int z = codes.box.lo.z; z < codes.box.hi.z; ++z) {
+        const MassUnits mass = occupancy(codes.codes[at++]);
+        const VoxelCoord voxel{x, y, z};
+        if (mass == 0 || !within(voxel) || were.at(voxel) == material) continue;
+        add(added.gains, were.at(voxel), -mass);
+        add(added.gains, material, mass);
+        added.changes.push_back({voxel, material});
+      }
+  return added;
 }
 
 Applied apply_paint(const PaintOperation& op, Field& field) {
   const Shape shape = in_voxels(op.shape, field.source().voxel_size_m);
   const Window codes = gather(field, op.whole_bricks ? paint_box(shape) : band_box(shape));
-  const MaterialWindow were = gather_materials(field, codes.box);
+  const std::vector<BrickCoord> bricks = op.whole_bricks ? bricks_of(shape) : std::vector<BrickCoord>();
+  const AddedMaterials added =
+      paint_of(MaterialReader(field, codes.box), codes, op.material, [&](VoxelCoord voxel) {
+        if (op.whole_bricks) return std::ranges::binary_search(bricks, brick_of(voxel));
+        return distance(shape, glm::vec3(voxel.x, voxel.y, voxel.z)) <= 0.0F;
+      });
   Applied applied;
-  if (op.whole_bricks)
-    applied.changed = paint_bricks(field, shape, op.material);
-  else
-    applied.changed =
-        set_materials(field, codes.box, rock_within(shape, codes), {codes.box, op.material, {}});
-  if (applied.changed.empty()) return applied;
-  for (const MaterialMass& gain : gain_of(codes, were, codes, gather_materials(field, codes.box))) {
+  applied.changed =
+      op.whole_bricks ? paint_bricks(field, shape, op.material) : set_materials(field, added.changes);
+  for (const MaterialMass& gain : added.gains) {
     MaterialFlow& flow = flow_of(applied, gain.material);
     flow.terrain += gain.mass;
     flow.converted += gain.mass;

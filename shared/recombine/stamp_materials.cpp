@@ -1,6 +1,8 @@
 #include "shared/recombine/stamp_materials.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 #include "shared/base/check.h"
 
@@ -13,48 +15,61 @@ class PieceFrame {
  public:
   PieceFrame(const MergedPiece& piece, float voxel_size_m) : volume_(piece.volume) {
     const Pose pose = dequantise(piece.pose);
-    position_voxels_ = pose.position_m / voxel_size_m;
-    inverse_ = glm::conjugate(pose.rotation);
+    inverse_ = glm::mat3_cast(glm::conjugate(pose.rotation));
+    origin_ = volume_.centre_voxels + 0.5F - inverse_ * (pose.position_m / voxel_size_m);
   }
 
   /// The voxel of the piece's window nearest to a voxel of the terrain.
   VoxelCoord nearest(VoxelCoord voxel) const {
-    const glm::vec3 p =
-        inverse_ * (glm::vec3(voxel.x, voxel.y, voxel.z) - position_voxels_) + volume_.centre_voxels + 0.5F;
+    const glm::vec3 p = origin_ + inverse_ * glm::vec3(voxel.x, voxel.y, voxel.z);
     const VoxelBox& box = volume_.window.box;
     return {std::clamp(floor_to_int(p.x), box.lo.x, box.hi.x - 1),
             std::clamp(floor_to_int(p.y), box.lo.y, box.hi.y - 1),
             std::clamp(floor_to_int(p.z), box.lo.z, box.hi.z - 1)};
   }
   Code code(VoxelCoord own) const { return volume_.window.at(own.x, own.y, own.z); }
-  Material material(VoxelCoord own) const { return volume_.materials.at(own); }
+  Material material(VoxelCoord own) const { return material_near(volume_.window, volume_.materials, own); }
 
  private:
   const Volume& volume_;
-  glm::vec3 position_voxels_{};
-  glm::quat inverse_{};
+  glm::mat3 inverse_{1.0F};
+  glm::vec3 origin_{};
 };
 
-/// `material_of(voxel)`: of what fills it.
+/// `material_of(voxel, was)`: of what fills it more than by half.
 template <typename F>
-std::vector<uint8_t> take_over(MaterialWindow& materials, const Window& before, const Window& after,
-                               F&& material_of_voxel) {
-  CHECK(before.box == after.box && before.box == materials.box);
-  std::vector<uint8_t> marks;
-  size_t at = 0;
-  for (int x = before.box.lo.x; x < before.box.hi.x; ++x)
-    for (int y = before.box.lo.y; y < before.box.hi.y; ++y)
-      for (int z = before.box.lo.z; z < before.box.hi.z; ++z, ++at) {
-        if (before.codes[at] == after.codes[at]) continue;
-        if (occupancy(after.codes[at]) <= 2 * occupancy(before.codes[at])) continue;
-        const Material material = material_of_voxel(VoxelCoord{x, y, z});
-        if (material == materials.at(at)) continue;
-        if (materials.is_uniform()) materials.each.assign(before.codes.size(), materials.all);
-        if (marks.empty()) marks.resize(before.codes.size());
-        materials.each[at] = material;
-        marks[at] = 1;
+AddedMaterials add_materials(const MaterialReader& were, const Window& before, const Window& after,
+                             F&& material_of) {
+  CHECK(before.box == after.box && before.box == were.box());
+  AddedMaterials added;
+  std::array<MassUnits, 256> gains{};
+  const auto at = [&](VoxelCoord voxel, int had, int has) {
+    const Material was = were.at(voxel);
+    const Material is = has > 2 * had ? material_of(voxel, was) : was;
+    gains[row_number(was)] -= had;
+    gains[row_number(is)] += has;
+    if (is != was) added.changes.push_back({voxel, is});
+  };
+  constexpr int step = 8;
+  constexpr Code code_without_mass = 22;
+  static_assert(occupancy(code_without_mass) == 0 && occupancy(code_without_mass - 1) > 0);
+  const VoxelBox& box = before.box;
+  const Code *from = before.codes.data(), *to = after.codes.data();
+  const int count = box.size().z;
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y, from += count, to += count)
+      for (int k = 0; k < count; k += step) {
+        const int end = std::min(k + step, count);
+        if (std::memcmp(from + k, to + k, static_cast<size_t>(end - k)) == 0) continue;
+        for (int i = k; i < end; ++i) {
+          if (from[i] == to[i] || std::min(from[i], to[i]) >= code_without_mass) continue;
+          const int had = occupancy(from[i]), has = occupancy(to[i]);
+          if (had != has) at({x, y, box.lo.z + i}, had, has);
+        }
       }
-  return marks;
+  for (size_t row = 0; row < gains.size(); ++row)
+    if (gains[row] != 0) added.gains.push_back({static_cast<Material>(row), gains[row]});
+  return added;
 }
 
 }  // namespace
@@ -65,14 +80,15 @@ bool are_all_of(std::span<const MergedPiece> pieces, Material material) {
   });
 }
 
-std::vector<uint8_t> merge_materials(MaterialWindow& materials, const Window& before, const Window& after,
-                                     std::span<const MergedPiece> pieces, float voxel_size_m) {
+AddedMaterials merge_materials(const MaterialReader& were, const Window& before, const Window& after,
+                               std::span<const MergedPiece> pieces, bool bring, float voxel_size_m) {
   CHECK(!pieces.empty());
   const Material first = pieces.front().volume.materials.all;
-  if (are_all_of(pieces, first)) return fill_materials(materials, before, after, first);
+  if (!bring) return fill_materials(were, before, after, std::nullopt);
+  if (are_all_of(pieces, first)) return fill_materials(were, before, after, first);
   std::vector<PieceFrame> frames;
   for (const MergedPiece& piece : pieces) frames.emplace_back(piece, voxel_size_m);
-  return take_over(materials, before, after, [&](VoxelCoord voxel) {
+  return add_materials(were, before, after, [&](VoxelCoord voxel, Material) {
     const PieceFrame* nearest = nullptr;
     VoxelCoord place{};
     Code least = code_air;
@@ -88,10 +104,10 @@ std::vector<uint8_t> merge_materials(MaterialWindow& materials, const Window& be
   });
 }
 
-std::vector<uint8_t> fill_materials(MaterialWindow& materials, const Window& before, const Window& after,
-                                    Material material) {
-  if (materials.is_uniform() && materials.all == material) return {};
-  return take_over(materials, before, after, [material](VoxelCoord) { return material; });
+AddedMaterials fill_materials(const MaterialReader& were, const Window& before, const Window& after,
+                              std::optional<Material> material) {
+  return add_materials(were, before, after,
+                       [material](VoxelCoord, Material was) { return material.value_or(was); });
 }
 
 }  // namespace scree

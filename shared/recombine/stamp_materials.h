@@ -1,9 +1,10 @@
-// Which material the voxels of a merge are of. It is decided after the codes, by one rule for every method:
-// a voxel takes the merged piece's material where more than half of its mass is new, that of the piece's
-// nearest solid voxel. Pure; deterministic.
+// Which material the voxels of a merge or a fill are of. It is decided after the codes, by one rule for every
+// method: a voxel takes the new material where more than half of its mass is new; of a merged piece, that of
+// the piece's nearest solid voxel. Pure; deterministic.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,13 +22,18 @@ struct MergedPiece {
 /// Whether all of the pieces are of that one material.
 bool are_all_of(std::span<const MergedPiece> pieces, Material material);
 
-/// Changes `materials`, those of the terrain before the merge, to those after it, and marks the voxels that
-/// changed (a byte each; empty: none). All windows have the same box.
-std::vector<uint8_t> merge_materials(MaterialWindow& materials, const Window& before, const Window& after,
-                                     std::span<const MergedPiece> pieces, float voxel_size_m);
+struct AddedMaterials {
+  MaterialMasses gains;          ///< of the terrain, by material
+  std::vector<VoxelOf> changes;  ///< voxels that are of another material now, in a window's order
+};
 
-/// The same for voxels that a solid of one material filled.
-std::vector<uint8_t> fill_materials(MaterialWindow& materials, const Window& before, const Window& after,
-                                    Material material);
+/// Of a merge that turned `before` into `after`, both over the reader's box. `bring`: the voxels take the
+/// pieces' materials; else they stay what they were.
+AddedMaterials merge_materials(const MaterialReader& were, const Window& before, const Window& after,
+                               std::span<const MergedPiece> pieces, bool bring, float voxel_size_m);
+
+/// The same of a fill; of no material: the voxels stay what they were.
+AddedMaterials fill_materials(const MaterialReader& were, const Window& before, const Window& after,
+                              std::optional<Material> material);
 
 }  // namespace scree
