@@ -38,11 +38,15 @@ Material struck_material(const World::State& state, const Volume& volume, const 
                                         std::clamp(floor_to_int(at.z), box.lo.z, box.hi.z - 1)});
 }
 
+const MaterialRow& struck_row(const World::State& state, const BodyImpact& impact) {
+  return state.palette->row_or_first(struck_material(state, *state.pieces.at(impact.id), impact));
+}
+
 /// The change of speed above which the piece breaks, by what it is of where the blow fell.
 float strength_m_s(const World::State& state, const BodyImpact& impact) {
   const float dx = state.config.terrain.voxel_size_m;
   const Volume& volume = *state.pieces.at(impact.id);
-  const MaterialRow& row = state.palette->row_or_first(struck_material(state, volume, impact));
+  const MaterialRow& row = struck_row(state, impact);
   const float size_m3 = static_cast<float>(volume.mass) / units_per_voxel * dx * dx * dx;
   return row.strength_m_s / power(std::max(size_m3, 0.001F), row.strength_by_size);
 }
@@ -64,8 +68,7 @@ uint32_t seeds_for(const World::State& state, const Blow& blow) {
   if (state.traits_of(blow.impact.id).generation >= limits::break_generations_max ||
       mass < limits::break_mass_min)
     return 0;
-  const float wanted =
-      (1.0F + 2.0F * blow.excess) * state.palette->row_or_first(main_material(volume)).seed_density;
+  const float wanted = (1.0F + 2.0F * blow.excess) * struck_row(state, blow.impact).seed_density;
   const auto seeds = static_cast<uint32_t>(std::clamp(wanted, 2.0F, limits::break_seeds_max));
   const auto heavy_enough = static_cast<uint32_t>(mass / limits::break_child_mass_min);
   const size_t others = state.pieces.size() - 1;
@@ -160,11 +163,13 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   const auto voxels = static_cast<float>(state.pieces.at(id)->window.codes.size());
   const Cutter cutter = cutter_for(state.config.methods.cutter, voxels);
   if (!quota.try_afford(cut_price_us(cutter, voxels, seeds), state.work, delta.work.breaks_left_out)) return;
+  const MaterialRow& row = struck_row(state, blow.impact);
+  const SeedPattern pattern = pattern_of(row.breaks, row.axis);
   Breakup breakup(state, blow);
   const PieceTraits parent = state.traits_of(id);
   state.bodies.remove(id);
   const Applied applied = state.apply_and_record(ShatterOperation{.piece = id,
-                                                                  .pattern = SeedPattern::radial,
+                                                                  .pattern = pattern,
                                                                   .seeds = seeds,
                                                                   .random_seed = random_seed(state, id),
                                                                   .impact_voxels = breakup.impact_voxels(),

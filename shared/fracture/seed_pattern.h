@@ -8,6 +8,7 @@
 
 #include "shared/base/kind_table.h"
 #include "shared/field/coord.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -19,7 +20,23 @@ class Random;
 ///   at most.
 /// - authored: at the points that come with the request.
 /// - even: far from each other, so that the pieces are of like size (server/fracture/even_seeds.h).
-enum class SeedPattern : uint8_t { uniform = 0, radial = 1, clustered = 2, authored = 3, even = 4 };
+/// - grain_x, …: radial, but all in one plane across the axis, so that cells are splinters along it.
+/// - slabs_x, …: radial, but all on one line along the axis, so that cells are plates across it.
+/// - shards: radial, but all in one plane across the volume's shortest side, so that cells go through it.
+enum class SeedPattern : uint8_t {
+  uniform = 0,
+  radial = 1,
+  clustered = 2,
+  authored = 3,
+  even = 4,
+  grain_x = 5,
+  grain_y = 6,
+  grain_z = 7,
+  slabs_x = 8,
+  slabs_y = 9,
+  slabs_z = 10,
+  shards = 11
+};
 
 /// drawn: by everyone who applies the operation, from its random seed. given: points that come with the
 /// request. relaxed: points that the server computes. Points travel in the operation, as many as seeds.
@@ -31,11 +48,19 @@ using DensePlaces = std::vector<glm::vec3>(uint32_t count, glm::vec3 impact_voxe
 DensePlaces at_impact;
 DensePlaces at_clusters;
 
+/// Along which axes all seeds of a drawn pattern lie at one place: x, y, z as bits 0 to 2.
+enum class Flattened : uint8_t { none = 0, x = 1, y = 2, xy = 3, z = 4, xz = 5, yz = 6, shortest = 7 };
+
 struct SeedPatternRow {
   std::string_view name;
   SeedSource source;
   DensePlaces* places = nullptr;  ///< of a drawn pattern; null: seeds lie anywhere
+  Flattened flattened = Flattened::none;
 };
+
+constexpr SeedPatternRow drawn_flat(std::string_view name, Flattened flattened) {
+  return {.name = name, .source = SeedSource::drawn, .places = at_impact, .flattened = flattened};
+}
 
 constexpr SeedPatternRow row_of(SeedPattern pattern) {
   switch (pattern) {
@@ -49,6 +74,20 @@ constexpr SeedPatternRow row_of(SeedPattern pattern) {
       return {.name = "authored", .source = SeedSource::given, .places = nullptr};
     case SeedPattern::even:
       return {.name = "even", .source = SeedSource::relaxed, .places = nullptr};
+    case SeedPattern::grain_x:
+      return drawn_flat("grain_x", Flattened::x);
+    case SeedPattern::grain_y:
+      return drawn_flat("grain_y", Flattened::y);
+    case SeedPattern::grain_z:
+      return drawn_flat("grain_z", Flattened::z);
+    case SeedPattern::slabs_x:
+      return drawn_flat("slabs_x", Flattened::yz);
+    case SeedPattern::slabs_y:
+      return drawn_flat("slabs_y", Flattened::xz);
+    case SeedPattern::slabs_z:
+      return drawn_flat("slabs_z", Flattened::xy);
+    case SeedPattern::shards:
+      return drawn_flat("shards", Flattened::shortest);
   }
   return {};
 }
@@ -73,6 +112,9 @@ inline constexpr auto pointless_patterns = kinds_that<SeedPattern, asks_no_point
 
 /// Takes the place of a pattern whose points are missing, in later cuts and in predictions.
 inline constexpr SeedPattern plain_pattern = SeedPattern::uniform;
+
+/// How a body of a material breaks, by its row of the palette.
+SeedPattern pattern_of(BreakLook look, GrainAxis axis);
 
 /// Whether a carve, or a shatter, may have this pattern. Codecs and validate() ask the same function, so that
 /// no client refuses an operation that its server applies.

@@ -1,6 +1,7 @@
 #include "shared/fracture/seeds.h"
 
 #include <algorithm>
+#include <array>
 #include <glm/geometric.hpp>
 
 #include "shared/base/check.h"
@@ -100,6 +101,36 @@ class Density {
   float nearest2_ = 0.0F;
 };
 
+/// Puts seeds to one place along the axes of a pattern: the middle of the solid voxels.
+class Flattening {
+ public:
+  Flattening(Flattened flattened, const std::vector<VoxelCoord>& solid) {
+    if (flattened == Flattened::none) return;
+    VoxelBox box{solid.front(), solid.front()};
+    for (const VoxelCoord& v : solid) {
+      box.lo = {std::min(box.lo.x, v.x), std::min(box.lo.y, v.y), std::min(box.lo.z, v.z)};
+      box.hi = {std::max(box.hi.x, v.x), std::max(box.hi.y, v.y), std::max(box.hi.z, v.z)};
+    }
+    middle_ = 0.5F * (as_vector(box.lo) + as_vector(box.hi));
+    const VoxelCoord side = box.size();
+    if (flattened == Flattened::shortest) {
+      const int least = std::min({side.x, side.y, side.z});
+      flattened = side.x == least ? Flattened::x : side.y == least ? Flattened::y : Flattened::z;
+    }
+    for (int axis = 0; axis < 3; ++axis) flat_[axis] = ((static_cast<unsigned>(flattened) >> axis) & 1U) != 0;
+  }
+
+  glm::vec3 operator()(glm::vec3 p) const {
+    for (int axis = 0; axis < 3; ++axis)
+      if (flat_[axis]) p[axis] = middle_[axis];
+    return p;
+  }
+
+ private:
+  glm::vec3 middle_{0.0F};
+  std::array<bool, 3> flat_{};
+};
+
 bool all_apart(const std::vector<glm::vec3>& seeds) {
   for (size_t i = 0; i < seeds.size(); ++i)
     for (size_t j = 0; j < i; ++j)
@@ -140,6 +171,7 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
   DensePlaces* const places = traits_of(pattern).places;
   const Density density(
       places == nullptr ? std::vector<glm::vec3>() : places(count, impact_voxels, solid, random), solid);
+  const Flattening flattened(traits_of(pattern).flattened, solid);
   SpacedSeeds out(volume.box);
   const uint64_t tries_max = static_cast<uint64_t>(count) * tries_per_seed;
   for (uint64_t tries = 0; tries < tries_max && out.seeds.size() < count; ++tries) {
@@ -148,7 +180,7 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
     const glm::vec3 p = as_vector(voxel) + glm::vec3(dx, dy, dz);
     const float draw = random.unit();
     // In the last quarter of the tries every pattern becomes uniform.
-    if (density.wants(p, draw) || tries > tries_max - tries_max / 4) out.add(p);
+    if (density.wants(p, draw) || tries > tries_max - tries_max / 4) out.add(flattened(p));
   }
   CHECK_DEBUG(all_apart(out.seeds));
   return std::move(out.seeds);

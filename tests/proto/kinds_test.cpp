@@ -169,16 +169,19 @@ std::map<int, std::string> values_of(const std::string& name, const std::string&
   std::map<int, std::string> values;
   bool inside = false;
   for (std::string line; std::getline(file, line);) {
-    std::istringstream words(line.substr(0, line.find("//")));
-    std::string first, second;
-    int number = 0;
-    words >> first >> second;
-    if (inside && first == "}") break;
-    if (inside && second == "=" && words >> number) {
-      for (char& c : first) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-      values[number] = first;
+    std::istringstream statements(line.substr(0, line.find("//")));
+    for (std::string statement; std::getline(statements, statement, ';');) {
+      std::istringstream words(statement);
+      std::string first, second;
+      int number = 0;
+      words >> first >> second;
+      if (inside && first == "}") return values;
+      if (inside && second == "=" && words >> number) {
+        for (char& c : first) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        values[number] = first;
+      }
+      inside = inside || (first == "enum" && second == name);
     }
-    inside = inside || (first == "enum" && second == name);
   }
   return values;
 }
