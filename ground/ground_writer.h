@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "content/builtin_palette.h"
 #include "ground/ground_header.h"
 
 namespace scree {
@@ -18,8 +19,10 @@ namespace scree {
 class GroundWriter {
  public:
   /// `layout`: a valid one, whose lowest and highest are of no account; they are those of the rows.
+  /// `palette`: what its materials are rows of.
   static Result<std::unique_ptr<GroundWriter>> create(const std::string& path, const HeightLayout& layout,
-                                                      float zero_m);
+                                                      float zero_m,
+                                                      const Palette& palette = builtin_palette());
   /// Without finish(), nothing is left behind.
   ~GroundWriter();
   GroundWriter(const GroundWriter&) = delete;
@@ -58,6 +61,7 @@ class GroundWriter {
   void write(std::span<const uint8_t> bytes);
   void end_heights();
   void put_tile(TileKey key, std::span<const uint8_t> bytes);
+  void put_palette(const Palette& palette);
   void put_chunk(TileKey key, const GeneratedChunk* chunk);
   void write_index();
   void write_chunk_index();

@@ -8,6 +8,7 @@
 
 #include "shared/field/field.h"
 #include "shared/field/mass.h"
+#include "shared/field/material_window.h"
 #include "tests/support/box_solid.h"
 #include "tests/support/test_folder.h"
 
@@ -52,8 +53,9 @@ TEST_F(StoredBricks, stand_on_the_ground_with_air_below_them) {
 
 TEST_F(StoredBricks, have_materials_that_pieces_and_layers_are_of) {
   const float y_m = 0.25F * (static_cast<float>(static_cast<int>(top_m(bare()) * 4.0F)) + 12.0F);
-  EXPECT_EQ(material_at(source(), {7.0F, y_m, 7.0F}), material::soil);
-  EXPECT_EQ(material_at(bare(), {7.0F, y_m, 7.0F}), material::rock);
+  MapField field(source()), hills(bare());
+  EXPECT_EQ(material_at(field, {7.0F, y_m, 7.0F}), material::soil);
+  EXPECT_EQ(material_at(hills, {7.0F, y_m, 7.0F}), material::rock);
 }
 
 TEST_F(StoredBricks, are_seen_from_afar_with_a_volume_alike) {

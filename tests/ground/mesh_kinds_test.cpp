@@ -8,6 +8,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include "shared/field/material_window.h"
 #include "tests/support/test_folder.h"
 #include "tools/import/file_forms.h"
 #include "tools/import/files/solid_files.h"
@@ -96,9 +97,9 @@ TEST_F(MeshKinds, materials_go_by_the_nearest_triangle) {
   imported(obj(house_points, faces));
   const auto file = GroundFile::open(folder_ / "made.ground");
   ASSERT_TRUE(file);
-  const TerrainSource source{.heights = *file};
-  EXPECT_EQ(material_at(source, {0.5F, 5.5F, 0.5F}), material::ice);
-  EXPECT_EQ(material_at(source, {4.5F, 3.0F, 0.5F}), material::rock);
+  MapField field({.heights = *file});
+  EXPECT_EQ(material_at(field, {0.5F, 5.5F, 0.5F}), material::ice);
+  EXPECT_EQ(material_at(field, {4.5F, 3.0F, 0.5F}), material::rock);
 }
 
 TEST_F(MeshKinds, open_sheets_are_filled_down_or_refused) {

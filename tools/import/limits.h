@@ -80,6 +80,12 @@ inline constexpr size_t polygon_corners_max = 10'000;
 /// The squares of the polygons' corners, in all. Above: refused.
 inline constexpr uint64_t polygon_work_max = uint64_t{4} * polygon_corners_max * polygon_corners_max;
 
+/// Bytes of a --material-map: some thousand lines. Above: refused.
+inline constexpr size_t material_map_bytes_max = size_t{1} << 18;
+
+/// Materials of a scene that are none of the palette's, and may become rows of it. More have no colour.
+inline constexpr size_t scene_materials_max = 4096;
+
 /// Pixels along a side of a preview.
 inline constexpr int preview_side_max = 1024;
 

@@ -10,13 +10,11 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <string_view>
 
-#include "shared/base/kind_table.h"
-#include "shared/material/material.h"
 #include "tools/import/assimp/folder_files.h"
 #include "tools/import/assimp/nesting.h"
 #include "tools/import/assimp/ply_header.h"
@@ -35,15 +33,18 @@ constexpr double metres_a_centimetre = 0.01;
 /// Axes of FBX files.
 constexpr int32_t fbx_up_x = 0, fbx_up_z = 2;
 
-uint8_t number_of(const std::string& material) {
-  const auto kind = kind_named<Material>(material);
-  return kind ? static_cast<uint8_t>(1 + static_cast<int>(*kind)) : material_unnamed;
+/// The base colour of glTF, or else what an older form calls diffuse.
+SceneColour colour_of(const aiMaterial& material) {
+  aiColor4D colour;
+  const bool is_known = material.Get(AI_MATKEY_BASE_COLOR, colour) == AI_SUCCESS ||
+                        material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == AI_SUCCESS;
+  return {{colour.r, colour.g, colour.b}, static_cast<uint8_t>(is_known ? 1 : 0)};
 }
 
 /// All meshes of a scene, in the order of its nodes.
 class SceneTriangles {
  public:
-  explicit SceneTriangles(const aiScene& scene) : scene_(scene) {}
+  SceneTriangles(const aiScene& scene, const MaterialMap& named) : scene_(scene), named_(named) {}
 
   Result<void> collect(const aiNode& node, const aiMatrix4x4& above) {
     const aiMatrix4x4 transform = above * node.mTransformation;
@@ -58,19 +59,29 @@ class SceneTriangles {
 
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<uint8_t> materials;
-  std::set<std::string> foreign_materials;
+  std::vector<SceneMaterial> materials;
+  std::vector<std::string> foreign_names;
+  std::vector<SceneColour> foreign_colours;
   uint64_t meshes = 0;
 
  private:
-  uint8_t material_of(const aiMesh& mesh, const std::string& name) {
+  /// By the material's name, or else by the mesh's.
+  SceneMaterial material_of(const aiMesh& mesh, const std::string& name) {
     std::string material;
     if (mesh.mMaterialIndex < scene_.mNumMaterials)
       material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
-    const uint8_t number = number_of(material) != material_unnamed ? number_of(material) : number_of(name);
-    if (number == material_unnamed && !material.empty() && material != AI_DEFAULT_MATERIAL_NAME)
-      foreign_materials.insert(material);
-    return number;
+    for (const std::string& one : {material, name})
+      if (const auto found = named_.find(one); found != named_.end()) return said(found->second);
+    if (material.empty() || material == AI_DEFAULT_MATERIAL_NAME) return 0;
+    const auto [found, is_new] = foreign_.try_emplace(material, foreign_names.size());
+    if (!is_new) return static_cast<SceneMaterial>(scene_own_first + found->second);
+    if (foreign_names.size() >= limits::scene_materials_max) {
+      foreign_.erase(found);
+      return 0;
+    }
+    foreign_names.push_back(material);
+    foreign_colours.push_back(colour_of(*scene_.mMaterials[mesh.mMaterialIndex]));
+    return static_cast<SceneMaterial>(scene_own_first + found->second);
   }
 
   Result<void> add(const aiMesh& mesh, const aiMatrix4x4& transform, const std::string& name) {
@@ -101,6 +112,8 @@ class SceneTriangles {
   }
 
   const aiScene& scene_;
+  const MaterialMap& named_;
+  std::map<std::string, size_t> foreign_;
 };
 
 /// assimp would also try its readers of other forms, by what a file begins with.
@@ -221,29 +234,25 @@ aiMatrix4x4 read_unit(const aiScene& scene, const std::string& ending, SceneHead
 
 }  // namespace
 
-Result<void> send_scene(ReaderChannel& channel, const std::string& path, const std::string& ending) {
+Result<void> send_scene(ReaderChannel& channel, const std::string& path, const std::string& ending,
+                        const MaterialMap& named) {
   const SceneWarnings warnings;
   Assimp::Importer importer;
   const aiScene* const scene = TRY(opened(importer, path, ending));
   SceneHead head;
   const aiMatrix4x4 transform = read_unit(*scene, ending, head);
-  SceneTriangles all(*scene);
+  SceneTriangles all(*scene, named);
   TRY(all.collect(*scene->mRootNode, transform));
   head.meshes = all.meshes;
-  head.foreign_materials = all.foreign_materials.size();
-  head.names = std::min(head.foreign_materials, scene_names_max);
+  head.foreign_materials = all.foreign_names.size();
   head.warnings = warnings.lines().size();
   if (all.triangles.empty()) TRY(check_letters(path));
   TRY(channel.put(head));
   TRY(channel.put_list(all.points));
   TRY(channel.put_list(all.triangles));
   TRY(channel.put_list(all.materials));
-  uint64_t names = head.names;
-  for (const std::string& name : all.foreign_materials)
-    if (names > 0) {
-      --names;
-      TRY(channel.put_text(name));
-    }
+  TRY(channel.put_list(all.foreign_colours));
+  for (const std::string& name : all.foreign_names) TRY(channel.put_text(name));
   for (const std::string& line : warnings.lines()) TRY(channel.put_text(line));
   return {};
 }

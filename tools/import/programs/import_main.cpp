@@ -15,6 +15,7 @@
 #include "shared/base/program_output.h"
 #include "shared/base/text.h"
 #include "tools/import/file_forms.h"
+#include "tools/import/files/material_choice.h"
 #include "tools/import/files/solid_files.h"
 #include "tools/import/gdal/gdal_raster.h"
 #include "tools/import/gdal/raster_reader.h"
@@ -38,7 +39,7 @@ struct Options {
   std::string out;
   std::string preview;
   std::string on;
-  std::string material;
+  MaterialOptions materials;
   std::string sheet = std::string(row_of(SheetRule::refuse).name);
   std::optional<double> level_m;
   std::optional<float> voxel_size_m;
@@ -48,6 +49,7 @@ struct Options {
   RasterChoice raster;
   std::vector<std::string> nodata;
   SolidsImport solids;
+  bool has_scale = false;
 };
 
 /// Where the file of an elevation model says it wrong or not at all.
@@ -98,7 +100,9 @@ void declare_solids(CLI::App& app, Options& options) {
       "height of the level rock, y in metres; default: a voxel above the lowest point of the solids");
   app.add_option("--at", how.place.at_m, "x,y,z of the files' origin in the world, metres; default: 0,0,0")
       ->delimiter(',');
-  app.add_option("--scale", how.place.scale, "length of the files' unit, metres")
+  app.add_option(
+         "--scale", how.place.scale,
+         "length of the files' unit, metres; of a .vox, of its voxels, by default as those of the world")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   app.add_flag("--z-up", how.place.z_up, "says that z points up in the files, not y");
@@ -114,18 +118,29 @@ void declare_solids(CLI::App& app, Options& options) {
       ->check(
           CLI::IsMember(std::vector<std::string>(kind_names<SheetRule>.begin(), kind_names<SheetRule>.end())))
       ->capture_default_str();
-  app.add_option("--material", options.material,
-                 "default material where the file names none: " + listed(kind_names<Material>));
+  app.add_option("--material", options.materials.material,
+                 "default material, a row of the palette, where the file names none");
+  app.add_option("--material-map", options.materials.map,
+                 "file with a line NAME-or-NUMBER = material for each material of the files that is to be a "
+                 "row of the palette");
+  app.add_option("--palette", how.colour_rows_max,
+                 "limit of a file's colours that become rows of the palette, where its materials are none of "
+                 "it; 0: none do")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str();
 }
 
 void declare(CLI::App& app, Options& options) {
   app.add_option("file", options.files,
                  "an elevation model (GeoTIFF, ESRI ASCII, 16-bit PNG, or another format of GDAL); or "
-                 "solids: OpenVDB (.vdb) and meshes (.obj, .ply, .stl, .gltf, .glb, .off, .dae, .3ds, .fbx)")
+                 "solids: OpenVDB (.vdb), MagicaVoxel (.vox) and meshes (.obj, .ply, .stl, .gltf, .glb, "
+                 ".off, .dae, .3ds, .fbx)")
       ->required();
   app.add_option("-o,--out", options.out, "the ground file to write")
       ->required()
       ->check(check_replaceable, "FILE");
+  app.add_option("--materials", options.materials.palette,
+                 "palette (TOML) that materials are rows of; default: that of --on, or the built-in one");
   app.add_option("--soil-below", options.how.soil_below_m,
                  "a metre of soil covers ground below this y, metres; default: all of an elevation model");
   app.add_option("--ice-above", options.how.ice_above_m,
@@ -221,9 +236,12 @@ Result<void> run_heights(const Options& options) {
   if (options.files.size() > 1) return fail("only one elevation model can be imported at a time");
   if (!options.on.empty()) return fail(file + ": an elevation model cannot stand on another ground (--on)");
   const auto choice = TRY(raster_choice_of(options));
+  const auto materials = TRY(read_choice(options.materials, nullptr));
+  HeightsImport how = options.how;
+  how.palette = materials.palette;
   auto raster = TRY(open_raster_apart(file, choice, reader_limits(options)));
-  const auto imported = with_bar(
-      [&](const auto& progress) { return import_heights(*raster, options.out, options.how, progress); });
+  const auto imported =
+      with_bar([&](const auto& progress) { return import_heights(*raster, options.out, how, progress); });
   say(file, raster->said());
   if (!imported) return fail(file + ": " + imported.error().message);
   if (!options.preview.empty()) {
@@ -250,18 +268,19 @@ void print(const Options& options, const BricksImported& imported, const SolidsR
             {"chunks", imported.chunks},      {"voxel_size_m", layout.voxel_size_m},
             {"from_m", metres(layout.lo)},    {"to_m", metres(layout.hi)},
             {"volume_m3", imported.volume_m3}};
+  line["materials"] = read.palette->rows.size();
   if (read.meshes_volume_m3 != 0.0) line["meshes_volume_m3"] = read.meshes_volume_m3;
   line["seconds"] = seconds;
   print(line);
 }
 
-Result<BricksImport> bricks_import_of(const Options& options, float voxel_size_m,
-                                      std::shared_ptr<const GroundFile> on, const SolidsRead& read) {
-  BricksImport how{.on = std::move(on), .level_m = options.level_m, .voxel_size_m = voxel_size_m};
-  if (!options.material.empty()) {
-    how.material = kind_named<Material>(options.material);
-    if (!how.material) return fail("--material: '" + options.material + "' is none");
-  }
+BricksImport bricks_import_of(const Options& options, float voxel_size_m, std::optional<Material> material,
+                              std::shared_ptr<const GroundFile> on, const SolidsRead& read) {
+  BricksImport how{.on = std::move(on),
+                   .level_m = options.level_m,
+                   .voxel_size_m = voxel_size_m,
+                   .palette = read.palette,
+                   .material = material};
   if (options.how.soil_below_m || options.how.ice_above_m) {
     constexpr auto far_m = static_cast<double>(limits::world_half_height_m);
     how.layers = MaterialHeights{static_cast<float>(options.how.soil_below_m.value_or(-far_m)),
@@ -285,6 +304,7 @@ Result<void> run_solids(const Options& options) {
   }
   SolidsImport solids = options.solids;
   solids.reader = reader_limits(options);
+  solids.has_scale = options.has_scale;
   const TimeLimit time_limit(solids.reader.time,
                              fmt::format("scree-import: {}: the import did not finish within {:.6g} s "
                                          "(--time-max): bad places of a mesh may "
@@ -293,14 +313,18 @@ Result<void> run_solids(const Options& options) {
                              unfinished_name(options.out));
   solids.sheet = kind_named<SheetRule>(options.sheet).value_or(SheetRule::refuse);
   solids.level_m = options.level_m;
-  solids.material = kind_named<Material>(options.material);
+  const auto materials = TRY(read_choice(options.materials, on.get()));
+  for (const std::string& said : materials.said) std::fprintf(stderr, "scree-import: %s\n", said.c_str());
+  solids.palette = materials.palette;
+  solids.material_map = materials.map;
+  solids.material = materials.material;
   if (options.voxel_size_m)
     solids.voxel_size_m = *options.voxel_size_m;
   else if (on != nullptr && on->bricks())
     solids.voxel_size_m = on->bricks()->voxel_size_m;
   const auto read = TRY(read_solids(options.files, solids));
   for (const std::string& said : read.said) std::fprintf(stderr, "scree-import: %s\n", said.c_str());
-  auto how = TRY(bricks_import_of(options, solids.voxel_size_m, on, read));
+  auto how = bricks_import_of(options, solids.voxel_size_m, materials.material, on, read);
   how.least_m3 = least_volume_m3(read);
   const auto imported =
       with_bar([&](const auto& progress) { return import_bricks(read.solids, options.out, how, progress); });
@@ -313,8 +337,11 @@ Result<void> run_solids(const Options& options) {
 
 /// Writing over a file that is read would lose it.
 Result<void> check_outputs(const Options& options) {
-  std::vector<NamedFile> files{
-      {"--out", options.out, true}, {"--preview", options.preview, true}, {"--on", options.on}};
+  std::vector<NamedFile> files{{"--out", options.out, true},
+                               {"--preview", options.preview, true},
+                               {"--on", options.on},
+                               {"--materials", options.materials.palette},
+                               {"--material-map", options.materials.map}};
   for (const std::string& file : options.files) files.push_back({"the imported file", file});
   return check_distinct(files);
 }
@@ -350,6 +377,7 @@ int main(int argc, char** argv) {
   scree::Options options;
   scree::declare(app, options);
   if (const auto ended = scree::parse(app, argc, argv)) return *ended;
+  options.has_scale = app.count("--scale") > 0;
   const auto done = scree::run(options);
   return done ? 0 : scree::refuse(app, done.error());
 }
