@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-#include "tests/support/box_solid.h"
 #include "shared/field/material_window.h"
+#include "tests/support/box_solid.h"
 #include "tests/support/test_folder.h"
 #include "tools/export/mesh_export.h"
 #include "tools/export/vdb/vdb_export.h"

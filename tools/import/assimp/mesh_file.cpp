@@ -77,6 +77,7 @@ Result<MeshFile> meshes_in(const std::string& path, const Placement& place, cons
     return fail("its form is unknown");
   MeshFile file;
   file.meshes = head.meshes;
+  file.unread_textures = head.unread_textures;
   file.metres_a_unit = head.metres_a_unit;
   file.says_up = head.says_up != 0;
   file.mesh.name = std::filesystem::path(path).filename();

@@ -22,6 +22,7 @@ struct MeshFile {
   std::vector<Foreign> foreign{};
   /// For each triangle 1 + the number of its foreign material; 0: it has none, or one of the palette's.
   std::vector<uint16_t> foreign_of{};
+  uint64_t unread_textures = 0;         ///< pictures of materials that are not there, or are none
   std::vector<std::string> warnings{};  ///< of assimp, on faces and points
   double metres_a_unit = 0.0;           ///< by the file; 0: it does not say
   bool says_up = false;                 ///< the file's form, or the file, says which axis is up

@@ -18,6 +18,7 @@
 #include "tools/import/assimp/folder_files.h"
 #include "tools/import/assimp/nesting.h"
 #include "tools/import/assimp/ply_header.h"
+#include "tools/import/assimp/scene_textures.h"
 #include "tools/import/assimp/scene_warnings.h"
 #include "tools/import/limits.h"
 
@@ -44,7 +45,8 @@ SceneColour colour_of(const aiMaterial& material) {
 /// All meshes of a scene, in the order of its nodes.
 class SceneTriangles {
  public:
-  SceneTriangles(const aiScene& scene, const MaterialMap& named) : scene_(scene), named_(named) {}
+  SceneTriangles(const aiScene& scene, const MaterialMap& named, SceneTextures& textures)
+      : scene_(scene), named_(named), textures_(textures) {}
 
   Result<void> collect(const aiNode& node, const aiMatrix4x4& above) {
     const aiMatrix4x4 transform = above * node.mTransformation;
@@ -73,15 +75,42 @@ class SceneTriangles {
     for (const std::string& one : {material, name})
       if (const auto found = named_.find(one); found != named_.end()) return said(found->second);
     if (material.empty() || material == AI_DEFAULT_MATERIAL_NAME) return 0;
-    const auto [found, is_new] = foreign_.try_emplace(material, foreign_names.size());
-    if (!is_new) return static_cast<SceneMaterial>(scene_own_first + found->second);
-    if (foreign_names.size() >= limits::scene_materials_max) {
-      foreign_.erase(found);
-      return 0;
+    return own_material(material, colour_of(*scene_.mMaterials[mesh.mMaterialIndex]));
+  }
+
+  /// Of a material that is none of the palette's, one for each of its colours.
+  SceneMaterial own_material(const std::string& name, const SceneColour& colour) {
+    std::array<int, 3> key{};
+    for (size_t i = 0; i < 3; ++i) key[i] = srgb_of_linear(colour.linear[i]);
+    const auto found = foreign_.find({name, key});
+    if (found != foreign_.end()) return static_cast<SceneMaterial>(scene_own_first + found->second);
+    if (foreign_names.size() >= limits::scene_materials_max) return 0;
+    foreign_.emplace(std::pair(name, key), foreign_names.size());
+    foreign_names.push_back(name);
+    foreign_colours.push_back(colour);
+    return static_cast<SceneMaterial>(scene_own_first + foreign_names.size() - 1);
+  }
+
+  /// Those of the mesh's triangles from `first` on: one for all, or by the picture of the material.
+  void add_materials(const aiMesh& mesh, const std::string& name, const std::vector<const aiFace*>& faces) {
+    const SceneMaterial one = material_of(mesh, name);
+    if (one < scene_own_first || textures_.of(mesh.mMaterialIndex) == nullptr) {
+      materials.resize(triangles.size(), one);
+      return;
     }
-    foreign_names.push_back(material);
-    foreign_colours.push_back(colour_of(*scene_.mMaterials[mesh.mMaterialIndex]));
-    return static_cast<SceneMaterial>(scene_own_first + found->second);
+    const std::string material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+    const SceneColour factor = colour_of(*scene_.mMaterials[mesh.mMaterialIndex]);
+    for (const aiFace* const face : faces) {
+      const auto texel = textures_.colour(mesh, *face);
+      SceneColour colour{{}, 1};
+      for (size_t i = 0; texel && i < 3; ++i)
+        colour.linear[i] = coarse((*texel)[i] * (factor.is_known != 0 ? factor.linear[i] : 1.0F));
+      materials.push_back(texel ? own_material(material, colour) : one);
+    }
+  }
+  /// Of 32 steps of brightness as it is seen.
+  static float coarse(float linear) {
+    return linear_of_srgb(static_cast<uint8_t>((srgb_of_linear(linear) & 0xF8) | 4));
   }
 
   Result<void> add(const aiMesh& mesh, const aiMatrix4x4& transform, const std::string& name) {
@@ -92,6 +121,7 @@ class SceneTriangles {
     const auto first = static_cast<uint32_t>(points.size());
     const size_t had = triangles.size();
     const bool mirrored = transform.Determinant() < 0.0F;
+    std::vector<const aiFace*> faces;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       if (face.mNumIndices != 3) continue;  // points and lines bound nothing
@@ -100,10 +130,11 @@ class SceneTriangles {
           return fail(fmt::format("mesh '{}' has a triangle without its points", name));
       triangles.push_back({first + face.mIndices[0], first + face.mIndices[mirrored ? 2 : 1],
                            first + face.mIndices[mirrored ? 1 : 2]});
+      faces.push_back(&face);
     }
     if (triangles.size() == had) return {};
     ++meshes;
-    materials.resize(triangles.size(), material_of(mesh, name));
+    add_materials(mesh, name, faces);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D p = transform * mesh.mVertices[i];
       points.push_back({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
@@ -113,7 +144,8 @@ class SceneTriangles {
 
   const aiScene& scene_;
   const MaterialMap& named_;
-  std::map<std::string, size_t> foreign_;
+  SceneTextures& textures_;
+  std::map<std::pair<std::string, std::array<int, 3>>, size_t> foreign_;
 };
 
 /// assimp would also try its readers of other forms, by what a file begins with.
@@ -241,10 +273,12 @@ Result<void> send_scene(ReaderChannel& channel, const std::string& path, const s
   const aiScene* const scene = TRY(opened(importer, path, ending));
   SceneHead head;
   const aiMatrix4x4 transform = read_unit(*scene, ending, head);
-  SceneTriangles all(*scene, named);
+  SceneTextures textures(*scene, path);
+  SceneTriangles all(*scene, named, textures);
   TRY(all.collect(*scene->mRootNode, transform));
   head.meshes = all.meshes;
   head.foreign_materials = all.foreign_names.size();
+  head.unread_textures = textures.unread();
   head.warnings = warnings.lines().size();
   if (all.triangles.empty()) TRY(check_letters(path));
   TRY(channel.put(head));

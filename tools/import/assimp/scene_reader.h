@@ -22,6 +22,7 @@ struct SceneColour {
 struct SceneHead {
   uint64_t meshes = 0;
   uint64_t foreign_materials = 0;  ///< at most limits::scene_materials_max
+  uint64_t unread_textures = 0;    ///< pictures of materials that are not there, or are none
   uint64_t warnings = 0;           ///< at most scene_warnings_max
   double metres_a_unit = 0.0;
   uint8_t says_up = 0;

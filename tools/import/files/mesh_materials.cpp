@@ -30,6 +30,7 @@ std::string words_on(const MeshFile& file, const std::set<VoxelMaterial>& named,
   NameList own, coloured, others;
   for (const VoxelMaterial one : named) own.add(std::string(palette.name(material_of(one))));
   for (size_t i = 0; i < rows.size(); ++i) {
+    if (file.foreign[i].colour.weight == 0) continue;
     const std::string name = "'" + file.foreign[i].colour.name + "'";
     if (rows[i] != ground_own)
       coloured.add(fmt::format("{} as {}", name, palette.name(material_of(rows[i]))));
@@ -42,6 +43,10 @@ std::string words_on(const MeshFile& file, const std::set<VoxelMaterial>& named,
     words += fmt::format("; {} became rows of the palette by their colours: {} (--palette, --material-map)",
                          coloured.count() == 1 ? "a material of another name" : "materials of other names",
                          coloured.text());
+  if (file.unread_textures > 0)
+    words +=
+        fmt::format("; {} picture{} of materials could not be read: PNG and JPEG in the file's folder can",
+                    file.unread_textures, file.unread_textures == 1 ? "" : "s");
   if (others.count() == 0) return words;
   return words + fmt::format("; {} material{} of other names, {}: {} (--material)", others.count(),
                              others.count() == 1 ? "" : "s", others.text(),
