@@ -26,6 +26,14 @@ bool is_of_format_1(const GeneratedChunk& chunk) {
   });
 }
 
+/// The greatest that a voxel says.
+VoxelMaterial last_material(const GeneratedChunk& chunk) {
+  VoxelMaterial last = ground_own;
+  if (chunk.stored_materials != nullptr)
+    for (const BrickMaterials& brick : *chunk.stored_materials) last = std::max(last, brick.list().back());
+  return last;
+}
+
 }  // namespace
 
 GroundWriter::GroundWriter(std::string path, const HeightLayout& layout, float zero_m)
@@ -61,6 +69,7 @@ void GroundWriter::write(std::span<const uint8_t> bytes) {
 
 /// The built-in one is in every program.
 void GroundWriter::put_palette(const Palette& palette) {
+  palette_rows_ = palette.rows.size();
   if (palette == builtin_palette()) return;
   const std::vector<uint8_t> bytes = encode_palette(palette);
   header_.format = 2;
@@ -171,6 +180,7 @@ void GroundWriter::begin_chunks(const BrickLayout& layout) {
 }
 
 void GroundWriter::add_chunk(TileKey key, const GeneratedChunk& chunk) {
+  CHECK(last_material(chunk) <= palette_rows_);
   if (!is_of_format_1(chunk)) header_.format = 2;
   put_chunk(key, &chunk);
 }

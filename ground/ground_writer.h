@@ -34,7 +34,8 @@ class GroundWriter {
   void copy_heights(const GroundModel& ground);
   /// After the heights, and before the first chunk.
   void begin_chunks(const BrickLayout& layout);
-  /// Chunks of a level come after all of the level below; those below it are then the last ones added there.
+  /// Its materials are rows of the palette. Chunks of a level come after all of the level below; those below
+  /// it are then the last ones added there.
   void add_chunk(TileKey key, const GeneratedChunk& chunk);
   /// After all heights and chunks. The error says why the file cannot be written, or what is wrong with the
   /// heights.
@@ -80,6 +81,7 @@ class GroundWriter {
   std::map<TileKey, Digest> orphans_;  ///< tiles whose parent is not written yet
   bool heights_done_ = false;
   uint64_t written_ = 0;
+  size_t palette_rows_ = 0;
   bool failed_ = false;
 };
 

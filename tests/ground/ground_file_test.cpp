@@ -109,7 +109,7 @@ TEST(GroundFiles, foreign_files_other_versions_and_folders_are_named) {
   std::vector<char> bytes = bytes_in(path);
   bytes[8] = 9;
   put_bytes(path, bytes);
-  EXPECT_NE(refusal_of(path).find("version 9"), std::string::npos);
+  EXPECT_NE(refusal_of(path).find("format 9"), std::string::npos);
   put_bytes(path, std::vector<char>(5000, 'x'));
   EXPECT_NE(refusal_of(path).find("not a ground file"), std::string::npos);
   EXPECT_FALSE(refusal_of(folder / "").empty());

@@ -246,7 +246,7 @@ TEST_F(ImportMaterials, rows_of_files_have_names_that_may_be_and_no_two_the_same
     const auto row = palette.add(row_of_colour(name, {0.1F, 0.2F, 0.3F}));
     return row ? palette.palette().row(*row).name : row.error().message;
   };
-  EXPECT_EQ(added("Übel & Söhne #3"), "m_bel_s_hne_3");
+  EXPECT_EQ(added("Übel & Söhne #3"), "bel_s_hne_3");
   EXPECT_EQ(added("Rock"), "rock_2");
   EXPECT_EQ(added("rock"), "rock_3");
   EXPECT_EQ(added(""), "m");

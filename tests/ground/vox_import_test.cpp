@@ -2,6 +2,7 @@
 // nodes put them, and what is exported comes back the same.
 #include <fstream>
 #include <gtest/gtest.h>
+#include <set>
 
 #include "content/builtin_palette.h"
 #include "shared/field/material_window.h"
@@ -154,7 +155,9 @@ TEST_F(VoxImportTest, an_export_comes_back_with_equal_voxels_and_colours) {
   const auto exported = export_vox(field, *file_->palette(), box, folder_ / "out.vox", unseen);
   ASSERT_TRUE(exported) << exported.error().message;
   EXPECT_EQ(exported->voxels, voxels.size());
-  EXPECT_EQ(exported->materials, 60U);
+  std::set<int> used;
+  for (const auto& voxel : voxels) used.insert(voxel[3]);
+  EXPECT_EQ(exported->materials, used.size());
   std::ifstream in(folder_ / "out.vox", std::ios::binary);
   const std::string back((std::istreambuf_iterator<char>(in)), {});
   const Colours before = colours_in(vox.file()), after = colours_in(back);

@@ -45,7 +45,7 @@ void sample_levels(ChunkCoord at, const GeneratedChunk& fine, const VoxelBox& bo
 }
 
 /// Of a brick, by the eight finer ones that it shows: each voxel is of what the one of them is that it has
-/// the code of.
+/// the code of, or if that says nothing, the one above: so a thin layer is not lost from afar.
 BrickMaterials sampled_materials(const std::array<const BrickMaterials*, 8>& finer) {
   const BrickMaterials& one = *finer.front();
   const auto is_same = [&](const BrickMaterials* other) { return *other == one; };
@@ -55,8 +55,10 @@ BrickMaterials sampled_materials(const std::array<const BrickMaterials*, 8>& fin
     for (int y = 0; y < brick_size; ++y)
       for (int z = 0; z < brick_size; ++z) {
         const BrickMaterials& from = *finer[static_cast<size_t>((x >> 2) * 4 + (y >> 2) * 2 + (z >> 2))];
+        const int fx = (2 * x) & 7, fy = (2 * y) & 7, fz = (2 * z) & 7;
+        const VoxelMaterial own = from.at(Brick::index(fx, fy, fz));
         voxels[static_cast<size_t>(Brick::index(x, y, z))] =
-            from.at(Brick::index((2 * x) & 7, (2 * y) & 7, (2 * z) & 7));
+            own != ground_own ? own : from.at(Brick::index(fx, fy + 1, fz));
       }
   return BrickMaterials(voxels);
 }
