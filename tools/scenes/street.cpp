@@ -1,6 +1,6 @@
 #include "tools/scenes/street.h"
 
-#include <algorithm>
+#include <vector>
 
 #include "content/builtin_palette.h"
 #include "tools/scenes/structures.h"
@@ -11,8 +11,8 @@ namespace {
 
 constexpr float voxel_m = 0.25F, level_m = 3.0F, floor_slab_m = 0.5F, thick_m = 0.5F;
 
-/// A fill gives its material to what it adds, not to what is there: so what lies in a wall is built before
-/// it.
+/// A fill gives its material to what it adds, not to what is there: so a lintel is built before the
+/// wall above it.
 class Site {
  public:
   explicit Site(SceneSetup& setup) : setup_(setup) {}
@@ -37,25 +37,24 @@ struct Plan {
   glm::vec3 hi_m;  ///< of the top of the uppermost storey
 };
 
-/// Windows of a wall along x, with a lintel above each.
-void windows_along_x(Site& site, const Plan& plan, float floor_m, float z_m) {
-  for (float x = plan.lo_m.x + 1.5F; x + 1.5F < plan.hi_m.x; x += 2.75F) {
-    site.put("glass", {x, floor_m + 1.0F, z_m + 0.25F}, {x + 1.25F, floor_m + 2.25F, z_m + 0.5F});
-    site.put("concrete", {x - 0.5F, floor_m + 2.25F, z_m}, {x + 1.75F, floor_m + 2.75F, z_m + thick_m});
-  }
-}
-
-/// A wall along x, with holes where the windows are.
+/// A wall along x: up to its windows' tops, then lintels and panes, so that nothing hangs in the air
+/// meanwhile.
 void wall_along_x(Site& site, std::string_view material, const Plan& plan, float floor_m, float z_m) {
-  const float near_m = z_m, far_m = z_m + thick_m;
-  site.put(material, {plan.lo_m.x, floor_m, near_m}, {plan.hi_m.x, floor_m + 1.0F, far_m});
+  const float far_m = z_m + thick_m;
+  site.put(material, {plan.lo_m.x, floor_m, z_m}, {plan.hi_m.x, floor_m + 1.0F, far_m});
+  std::vector<float> windows;
+  for (float x = plan.lo_m.x + 1.5F; x + 1.5F < plan.hi_m.x; x += 2.75F) windows.push_back(x);
   float from_m = plan.lo_m.x;
-  for (float x = plan.lo_m.x + 1.5F; x + 1.5F < plan.hi_m.x; x += 2.75F) {
-    site.put(material, {from_m, floor_m + 1.0F, near_m}, {x, floor_m + 2.25F, far_m});
+  for (const float x : windows) {
+    site.put(material, {from_m, floor_m + 1.0F, z_m}, {x, floor_m + 2.25F, far_m});
     from_m = x + 1.25F;
   }
-  site.put(material, {from_m, floor_m + 1.0F, near_m}, {plan.hi_m.x, floor_m + 2.25F, far_m});
-  site.put(material, {plan.lo_m.x, floor_m + 2.25F, near_m}, {plan.hi_m.x, floor_m + level_m, far_m});
+  site.put(material, {from_m, floor_m + 1.0F, z_m}, {plan.hi_m.x, floor_m + 2.25F, far_m});
+  for (const float x : windows) {
+    site.put("concrete", {x - 0.5F, floor_m + 2.25F, z_m}, {x + 1.75F, floor_m + 2.75F, far_m});
+    site.put("glass", {x, floor_m + 1.0F, z_m + 0.25F}, {x + 1.25F, floor_m + 2.25F, z_m + 0.5F});
+  }
+  site.put(material, {plan.lo_m.x, floor_m + 2.25F, z_m}, {plan.hi_m.x, floor_m + level_m, far_m});
 }
 
 void wall_along_z(Site& site, std::string_view material, const Plan& plan, float floor_m, float x_m) {
@@ -63,13 +62,10 @@ void wall_along_z(Site& site, std::string_view material, const Plan& plan, float
 }
 
 void one_storey(Site& site, std::string_view walls, const Plan& plan, float floor_m) {
+  for (const float x : {plan.lo_m.x, plan.hi_m.x - thick_m}) wall_along_z(site, walls, plan, floor_m, x);
+  for (const float z : {plan.lo_m.z, plan.hi_m.z - thick_m}) wall_along_x(site, walls, plan, floor_m, z);
   site.put("concrete", {plan.lo_m.x, floor_m + level_m - floor_slab_m, plan.lo_m.z},
            {plan.hi_m.x, floor_m + level_m, plan.hi_m.z});
-  for (const float z : {plan.lo_m.z, plan.hi_m.z - thick_m}) {
-    windows_along_x(site, plan, floor_m, z);
-    wall_along_x(site, walls, plan, floor_m, z);
-  }
-  for (const float x : {plan.lo_m.x, plan.hi_m.x - thick_m}) wall_along_z(site, walls, plan, floor_m, x);
 }
 
 /// Steps of a gable whose ridge runs along x; snow lies on it.
@@ -87,7 +83,6 @@ void timber_roof(Site& site, const Plan& plan) {
 
 void brick_house(Site& site) {
   const Plan plan{{-24.0F, 0.0F, -9.0F}, {-13.0F, 2.0F * level_m, -1.0F}};
-  site.put("concrete", {plan.lo_m.x, -1.0F, plan.lo_m.z}, {plan.hi_m.x, 0.0F, plan.hi_m.z});
   for (const float floor_m : {0.0F, level_m}) one_storey(site, "brick", plan, floor_m);
   timber_roof(site, plan);
 }
