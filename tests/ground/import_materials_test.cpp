@@ -191,6 +191,10 @@ TEST_F(ImportMaterials, of_a_vdb_go_by_name_to_rows_of_another_palette) {
   make(*read);
   EXPECT_EQ(at({2.0F, 4.0F, 0.25F}), "glass");
   EXPECT_EQ(at({-2.0F, 4.0F, 0.25F}), "red_tiles");
+  const auto mapped = read_solids({folder_ / "two.vdb"}, {.material_map = {{"red_tiles", named("clay")}}});
+  ASSERT_TRUE(mapped) << mapped.error().message;
+  make(*mapped);
+  EXPECT_EQ(at({-2.0F, 4.0F, 0.25F}), "clay");
 }
 
 TEST_F(ImportMaterials, come_back_from_a_mesh_that_was_exported) {

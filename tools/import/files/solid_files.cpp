@@ -25,13 +25,18 @@ constexpr double nothing_share = 1.0e-6;
 
 Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, bool alone,
                            ImportPalette& palette, SolidsRead& read) {
-  auto vdb = read_vdb(file, {how.grid, how.density, how.place, how.voxel_size_m, how.reader, &palette});
+  const size_t had = palette.added();
+  auto vdb = read_vdb(
+      file, {how.grid, how.density, how.place, how.voxel_size_m, how.reader, &palette, how.material_map});
   TRY(vdb);
   std::string words = fmt::format(
       "{}: taken: grid '{}', {}, in metres, {} up", file, vdb->grid,
       vdb->is_level_set ? "a level set" : fmt::format("a fog volume, rock above {} (--density)", how.density),
       how.place.z_up ? "z" : "y");
   if (!vdb->all_grids.empty()) words += "; the file holds " + vdb->all_grids + " (--grid)";
+  if (palette.added() > had)
+    words += fmt::format("; {} of its materials became rows of the palette (--material-map)",
+                         palette.added() - had);
   read.said.push_back(std::move(words));
   read.solids.push_back(std::move(vdb->solid));
   ++read.volumes;

@@ -74,7 +74,8 @@ Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
     ImportPalette builtin(shared_builtin_palette());
     const auto names = TRY(reader->get_list<uint8_t>(palette_bytes_max));
     const auto packed = TRY(reader->get_list<uint8_t>(2 * palette_bytes_max));
-    materials.rows = TRY(rows_of_numbers(names, packed, how.palette != nullptr ? *how.palette : builtin));
+    materials.rows =
+        TRY(rows_of_numbers(names, packed, how.map, how.palette != nullptr ? *how.palette : builtin));
     materials.grid = TRY(
         receive_grid<openvdb::Int32Grid>(*reader, limits::import_leaves_max, [](int32_t) { return true; }));
     materials.grid->setTransform(TRY(transform_of(head.materials_to_world)));

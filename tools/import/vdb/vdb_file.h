@@ -18,6 +18,7 @@ struct VdbImport {
   ReaderLimits reader{};       ///< of the process that reads the file
   /// Gets the rows of the file that it has no row of the same name for; null: the built-in palette's alone.
   ImportPalette* palette = nullptr;
+  MaterialMap map{};  ///< names or numbers of materials in the file that stand for rows of it
 };
 
 struct VdbSolid {

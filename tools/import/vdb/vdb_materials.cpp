@@ -44,21 +44,30 @@ Palette packed_palette(std::span<const uint8_t> digits) {
 }  // namespace
 
 Result<std::vector<VoxelMaterial>> rows_of_numbers(std::span<const uint8_t> names,
-                                                   std::span<const uint8_t> packed, ImportPalette& palette) {
+                                                   std::span<const uint8_t> packed, const MaterialMap& map,
+                                                   ImportPalette& palette) {
   std::vector<VoxelMaterial> rows;
   const std::vector<std::string> lines = lines_of(names);
   if (lines.size() > materials_max)
     return fail(
         fmt::format("its grid of materials names {} of them, more than {}", lines.size(), materials_max));
   const Palette of_file = packed_palette(packed);
-  for (const std::string& name : lines) {
-    const auto own = of_file.named(name);
-    const Material row =
-        TRY(palette.add_if_new(own ? of_file.row(*own) : row_of_colour(name, {0.5F, 0.5F, 0.5F})));
-    rows.push_back(said(row));
+  for (size_t i = 0; i < (lines.empty() ? materials_max : lines.size()); ++i) {
+    const std::string name = lines.empty() ? std::string() : lines[i];
+    auto mapped = map.find(std::to_string(i));
+    if (mapped == map.end()) mapped = map.find(name);
+    if (mapped != map.end()) {
+      rows.push_back(said(mapped->second));
+    } else if (lines.empty()) {
+      const bool is_row = i < palette.palette().rows.size();
+      rows.push_back(is_row ? said(static_cast<Material>(i)) : ground_own);
+    } else {
+      const auto own = of_file.named(name);
+      const Material row =
+          TRY(palette.add_if_new(own ? of_file.row(*own) : row_of_colour(name, {0.5F, 0.5F, 0.5F})));
+      rows.push_back(said(row));
+    }
   }
-  for (size_t i = 0; lines.empty() && i < palette.palette().rows.size(); ++i)
-    rows.push_back(said(static_cast<Material>(i)));
   return rows;
 }
 
