@@ -17,9 +17,13 @@ class BrickSayings {
   BrickSayings(const SolidRock& rock, BrickCoord brick) : rock_(rock), brick_(brick) {}
 
   VoxelMaterial at(uint32_t owner, int index) {
-    auto found = said_.find(owner);
-    if (found == said_.end()) found = said_.emplace(owner, rock_.solids[owner]->materials(brick_)).first;
-    const VoxelMaterial own = found->second.at(index);
+    if (last_ == nullptr || owner != last_owner_) {
+      const auto [found, is_new] = said_.try_emplace(owner);
+      if (is_new) found->second = rock_.solids[owner]->materials(brick_);
+      last_ = &found->second;
+      last_owner_ = owner;
+    }
+    const VoxelMaterial own = last_->at(index);
     return own == ground_own && rock_.otherwise ? said(*rock_.otherwise) : own;
   }
 
@@ -27,6 +31,8 @@ class BrickSayings {
   const SolidRock& rock_;
   BrickCoord brick_;
   std::map<uint32_t, BrickMaterials> said_;
+  const BrickMaterials* last_ = nullptr;
+  uint32_t last_owner_ = 0;
 };
 
 VoxelMaterial most_frequent(const std::array<int, 256>& votes) {
