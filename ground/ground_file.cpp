@@ -8,11 +8,13 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "content/builtin_palette.h"
 #include "crypto/sha256.h"
 #include "ground/limits.h"
 #include "proto/byte_stream.h"
 #include "proto/height_codec.h"
 #include "proto/limits.h"
+#include "proto/palette_codec.h"
 #include "proto/stored_codec.h"
 #include "shared/base/check.h"
 #include "shared/base/regular_file.h"
@@ -34,6 +36,16 @@ Result<std::vector<uint8_t>> read_at(int file, uint64_t begins, size_t count) {
   return bytes;
 }
 
+/// Each is a row of the palette.
+Result<void> check_materials(const GeneratedChunk& chunk, const Palette& palette) {
+  if (chunk.stored_materials == nullptr) return {};
+  for (const BrickMaterials& brick : *chunk.stored_materials)
+    if (const VoxelMaterial last = brick.list().back(); last > palette.rows.size())
+      return fail(fmt::format("a stored chunk has material {}, and its palette has {} (0 to {})", last - 1,
+                              palette.rows.size(), palette.rows.size() - 1));
+  return {};
+}
+
 }  // namespace
 
 Result<std::shared_ptr<const GroundFile>> GroundFile::open(const std::string& path) {
@@ -51,6 +63,7 @@ Result<std::shared_ptr<const GroundFile>> GroundFile::open(const std::string& pa
     return wrong(header.error().message);
   }
   const std::shared_ptr<GroundFile> ground(new GroundFile(file, *header));
+  if (auto read = ground->read_palette(size); !read) return wrong(read.error().message);
   if (auto index = ground->read_index(size); !index) return wrong(index.error().message);
   if (auto index = ground->read_chunk_index(size); !index) return wrong(index.error().message);
   if (auto checked = ground->check(); !checked) return wrong(checked.error().message);
@@ -60,6 +73,23 @@ Result<std::shared_ptr<const GroundFile>> GroundFile::open(const std::string& pa
 
 GroundFile::~GroundFile() {
   close(file_);
+}
+
+TerrainSource GroundFile::source_of(std::shared_ptr<const GroundFile> file) {
+  TerrainSource source{.rows = file->palette()->ground};
+  if (const auto& bricks = file->bricks()) source.voxel_size_m = bricks->voxel_size_m;
+  source.heights = std::move(file);
+  return source;
+}
+
+Result<void> GroundFile::read_palette(uint64_t file_bytes) {
+  palette_ = shared_builtin_palette();
+  if (header_.palette_bytes == 0) return {};
+  if (file_bytes < header_bytes + header_.palette_bytes) return fail("it is cut short");
+  const auto bytes = TRY(read_at(file_, header_bytes, header_.palette_bytes));
+  if (sha256(bytes) != header_.palette) return fail("it is damaged: its palette does not have its hash");
+  palette_ = std::make_shared<const Palette>(TRY(decode_palette(bytes)));
+  return {};
 }
 
 Result<void> GroundFile::read_index(uint64_t file_bytes) {
@@ -118,6 +148,7 @@ Result<void> GroundFile::check_chunks() {
     const TileKey key = each->first;
     const auto bytes = TRY(read(key));
     const auto unpacked = TRY(unpack_chunk(bytes, key, *bricks()));
+    TRY(check_materials(unpacked.chunk, *palette_));
     for (size_t i = 0; i < unpacked.children.size(); ++i) {
       if (!unpacked.children[i]) continue;
       const auto child = chunks_.find(bricks()->children(key)[i]);

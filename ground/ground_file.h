@@ -12,6 +12,8 @@
 #include "ground/ground_header.h"
 #include "ground/limits.h"
 #include "ground/tile_cache.h"
+#include "shared/field/terrain.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -23,6 +25,10 @@ class GroundFile final : public GroundModel {
 
   const GroundHeader& header() const { return header_; }
   Digest name() const { return name_of(header_); }
+  /// What its materials are rows of, and what its layers are of. Not null.
+  std::shared_ptr<const Palette> palette() const { return palette_; }
+  /// The ground as terrain of its own rows, with voxels of the size of its stored bricks, if there are any.
+  static TerrainSource source_of(std::shared_ptr<const GroundFile> file);
   std::shared_ptr<const HeightTile> tile(TileKey key) const override;
   ChunkLookup chunk(TileKey key) const override;
   std::vector<uint8_t> packed(TileKey key) const override;
@@ -41,6 +47,7 @@ class GroundFile final : public GroundModel {
                     header.ground.bricks ? std::optional(header.ground.bricks->layout) : std::nullopt),
         file_(file),
         header_(header) {}
+  Result<void> read_palette(uint64_t file_bytes);
   Result<void> read_index(uint64_t file_bytes);
   Result<void> read_chunk_index(uint64_t file_bytes);
   Result<void> check();
@@ -50,6 +57,7 @@ class GroundFile final : public GroundModel {
 
   const int file_;
   const GroundHeader header_;
+  std::shared_ptr<const Palette> palette_;
   std::vector<Entry> index_;
   std::map<TileKey, Entry> chunks_;  ///< with the root
   mutable std::mutex mutex_;         ///< guards the members below

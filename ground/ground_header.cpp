@@ -6,6 +6,7 @@
 
 #include "crypto/sha256.h"
 #include "proto/byte_stream.h"
+#include "proto/palette_codec.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -13,7 +14,7 @@ namespace scree {
 namespace {
 
 constexpr uint64_t file_kind = 0x444E'4745'4552'4353ULL;  // "SCREEGND"
-constexpr uint32_t version = 1;
+constexpr uint32_t newest_format = 2;
 
 /// All that makes the ground what it is.
 std::vector<uint8_t> fields_of(const GroundHeader& header) {
@@ -21,7 +22,7 @@ std::vector<uint8_t> fields_of(const GroundHeader& header) {
   ByteWriter writer(bytes);
   const HeightLayout& layout = header.ground.layout;
   writer.u64(file_kind);
-  writer.u32(version);
+  writer.u32(header.format);
   writer.u32(static_cast<uint32_t>(layout.columns));
   writer.u32(static_cast<uint32_t>(layout.rows));
   writer.f32(layout.cell_m);
@@ -37,6 +38,9 @@ std::vector<uint8_t> fields_of(const GroundHeader& header) {
   for (const ChunkCoord corner : {bricks.layout.lo, bricks.layout.hi})
     for (const int32_t number : {corner.x, corner.y, corner.z}) writer.u32(static_cast<uint32_t>(number));
   bytes.insert(bytes.end(), bricks.root.begin(), bricks.root.end());
+  if (header.format == 1) return bytes;
+  writer.u32(header.palette_bytes);
+  bytes.insert(bytes.end(), header.palette.begin(), header.palette.end());
   return bytes;
 }
 
@@ -61,6 +65,15 @@ std::optional<BrickGround> read_bricks(ByteReader& reader) {
   return any ? std::optional(bricks) : std::nullopt;
 }
 
+Result<void> read_palette_name(ByteReader& reader, GroundHeader& header) {
+  header.palette_bytes = reader.u32("bytes of the palette");
+  header.palette = read_digest(reader, "hash of the palette");
+  if (header.palette_bytes > palette_bytes_max)
+    return fail(fmt::format("its palette has {} bytes, more than {} (palette_bytes_max)",
+                            header.palette_bytes, palette_bytes_max));
+  return {};
+}
+
 }  // namespace
 
 std::vector<uint8_t> encode(const GroundHeader& header) {
@@ -78,10 +91,11 @@ Result<GroundHeader> decode_header(std::span<const uint8_t> bytes) {
   if (bytes.size() < header_bytes) return fail("it is too short for a ground file");
   ByteReader reader(bytes.first(header_bytes), "the header");
   if (reader.u64("kind") != file_kind) return fail("it is not a ground file: scree import makes one");
-  if (const uint32_t found = reader.u32("version"); found != version)
-    return fail(
-        fmt::format("it is a ground file of version {}, this program reads version {}", found, version));
   GroundHeader header;
+  header.format = reader.u32("format");
+  if (header.format < 1 || header.format > newest_format)
+    return fail(fmt::format("it is a ground file of format {}, this program reads formats 1 to {}",
+                            header.format, newest_format));
   HeightLayout& layout = header.ground.layout;
   layout.columns = std::bit_cast<int32_t>(reader.u32("columns"));
   layout.rows = std::bit_cast<int32_t>(reader.u32("rows"));
@@ -93,6 +107,7 @@ Result<GroundHeader> decode_header(std::span<const uint8_t> bytes) {
   header.zero_m = reader.f32("zero");
   header.ground.top = read_digest(reader, "hash");
   header.ground.bricks = read_bricks(reader);
+  if (header.format > 1) TRY(read_palette_name(reader, header));
   const Digest name = read_digest(reader, "name");
   header.index_begins = reader.u64("index");
   header.chunk_index_begins = reader.u64("index of stored chunks");

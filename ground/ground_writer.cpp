@@ -10,10 +10,31 @@
 #include "ground/whole_file.h"
 #include "proto/byte_stream.h"
 #include "proto/height_codec.h"
+#include "proto/palette_codec.h"
 #include "proto/stored_codec.h"
 #include "shared/base/check.h"
 
 namespace scree {
+
+namespace {
+
+/// Format 1 has one material a brick, and the first rows of the built-in palette: rock, soil and ice.
+bool is_of_format_1(const GeneratedChunk& chunk) {
+  if (chunk.stored_materials == nullptr) return true;
+  return std::ranges::all_of(*chunk.stored_materials, [](const BrickMaterials& brick) {
+    return brick.is_uniform() && brick.uniform() <= said(material::ice);
+  });
+}
+
+/// The greatest that a voxel says.
+VoxelMaterial last_material(const GeneratedChunk& chunk) {
+  VoxelMaterial last = ground_own;
+  if (chunk.stored_materials != nullptr)
+    for (const BrickMaterials& brick : *chunk.stored_materials) last = std::max(last, brick.list().back());
+  return last;
+}
+
+}  // namespace
 
 GroundWriter::GroundWriter(std::string path, const HeightLayout& layout, float zero_m)
     : path_(std::move(path)),
@@ -27,11 +48,13 @@ GroundWriter::GroundWriter(std::string path, const HeightLayout& layout, float z
 }
 
 Result<std::unique_ptr<GroundWriter>> GroundWriter::create(const std::string& path,
-                                                           const HeightLayout& layout, float zero_m) {
+                                                           const HeightLayout& layout, float zero_m,
+                                                           const Palette& palette) {
   std::unique_ptr<GroundWriter> writer(new GroundWriter(path, layout, zero_m));
   writer->file_.reset(std::fopen(writer->unfinished_.c_str(), "wbxe"));
   if (!writer->file_) return fail(path + ": " + std::strerror(errno));
   writer->write(std::vector<uint8_t>(header_bytes));
+  writer->put_palette(palette);
   return writer;
 }
 
@@ -42,6 +65,17 @@ GroundWriter::~GroundWriter() {
 void GroundWriter::write(std::span<const uint8_t> bytes) {
   failed_ = failed_ || std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size();
   written_ += bytes.size();
+}
+
+/// The built-in one is in every program.
+void GroundWriter::put_palette(const Palette& palette) {
+  palette_rows_ = palette.rows.size();
+  if (palette == builtin_palette()) return;
+  const std::vector<uint8_t> bytes = encode_palette(palette);
+  header_.format = 2;
+  header_.palette_bytes = static_cast<uint32_t>(bytes.size());
+  header_.palette = sha256(bytes);
+  write(bytes);
 }
 
 void GroundWriter::add_row(std::span<const int32_t> heights) {
@@ -146,6 +180,8 @@ void GroundWriter::begin_chunks(const BrickLayout& layout) {
 }
 
 void GroundWriter::add_chunk(TileKey key, const GeneratedChunk& chunk) {
+  CHECK(last_material(chunk) <= palette_rows_);
+  if (!is_of_format_1(chunk)) header_.format = 2;
   put_chunk(key, &chunk);
 }
 

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 
+#include "content/builtin_palette.h"
 #include "ground/ground_header.h"
 
 namespace scree {
@@ -18,8 +19,10 @@ namespace scree {
 class GroundWriter {
  public:
   /// `layout`: a valid one, whose lowest and highest are of no account; they are those of the rows.
+  /// `palette`: what its materials are rows of.
   static Result<std::unique_ptr<GroundWriter>> create(const std::string& path, const HeightLayout& layout,
-                                                      float zero_m);
+                                                      float zero_m,
+                                                      const Palette& palette = builtin_palette());
   /// Without finish(), nothing is left behind.
   ~GroundWriter();
   GroundWriter(const GroundWriter&) = delete;
@@ -31,7 +34,8 @@ class GroundWriter {
   void copy_heights(const GroundModel& ground);
   /// After the heights, and before the first chunk.
   void begin_chunks(const BrickLayout& layout);
-  /// Chunks of a level come after all of the level below; those below it are then the last ones added there.
+  /// Its materials are rows of the palette. Chunks of a level come after all of the level below; those below
+  /// it are then the last ones added there.
   void add_chunk(TileKey key, const GeneratedChunk& chunk);
   /// After all heights and chunks. The error says why the file cannot be written, or what is wrong with the
   /// heights.
@@ -58,6 +62,7 @@ class GroundWriter {
   void write(std::span<const uint8_t> bytes);
   void end_heights();
   void put_tile(TileKey key, std::span<const uint8_t> bytes);
+  void put_palette(const Palette& palette);
   void put_chunk(TileKey key, const GeneratedChunk* chunk);
   void write_index();
   void write_chunk_index();
@@ -76,6 +81,7 @@ class GroundWriter {
   std::map<TileKey, Digest> orphans_;  ///< tiles whose parent is not written yet
   bool heights_done_ = false;
   uint64_t written_ = 0;
+  size_t palette_rows_ = 0;
   bool failed_ = false;
 };
 

@@ -38,6 +38,8 @@ Result<void> set_ground(const std::string& ground_path, WorldConfig& config) {
     return fail(fmt::format("{}: its stored bricks have voxels of {} m, not of {} m (--voxel-size)",
                             ground_path, bricks->voxel_size_m, voxel_size_m));
   config.ground = file->name();
+  config.palette = file->palette();
+  config.terrain.rows = config.palette->ground;
   config.terrain.heights = std::move(file);
   return {};
 }

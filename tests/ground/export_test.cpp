@@ -103,8 +103,8 @@ class ExportTest : public ::testing::Test {
 };
 
 TEST_F(ExportTest, a_glb_is_one_closed_mesh_with_the_colours_of_its_materials) {
-  field_.paint_brick(brick_of(VoxelCoord{12, 20, 12}), material::ice);
-  const auto exported = export_mesh(field_, box_, folder_ / "rock.glb", quiet);
+  field_.set_materials(brick_of(VoxelCoord{12, 20, 12}), BrickMaterials(said(material::ice)));
+  const auto exported = export_mesh(field_, builtin_palette(), box_, folder_ / "rock.glb", quiet);
   ASSERT_TRUE(exported) << exported.error().message;
   const std::string bytes = read(folder_ / "rock.glb");
   EXPECT_EQ(bytes.size(), exported->bytes);
@@ -218,7 +218,7 @@ TEST_F(ExportTest, a_vdb_that_finds_no_room_is_an_error_and_leaves_the_file_befo
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
   const rlimit little{4096, before.rlim_max};
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &little), 0);
-  const auto exported = export_vdb(field_, box_, path, quiet);
+  const auto exported = export_vdb(field_, builtin_palette(), box_, path, quiet);
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &before), 0);
   std::signal(SIGXFSZ, handler);
   ASSERT_FALSE(exported.has_value());
@@ -227,7 +227,7 @@ TEST_F(ExportTest, a_vdb_that_finds_no_room_is_an_error_and_leaves_the_file_befo
 }
 
 TEST_F(ExportTest, a_carved_field_comes_back_by_vdb_the_same_and_resampled_with_its_volume) {
-  ASSERT_TRUE(export_vdb(field_, box_, folder_ / "world.vdb", quiet));
+  ASSERT_TRUE(export_vdb(field_, builtin_palette(), box_, folder_ / "world.vdb", quiet));
   const auto volume_of = [&](const SolidsImport& how, bool exact) {
     const auto read = read_solids({folder_ / "world.vdb"}, how);
     EXPECT_TRUE(read) << read.error().message;

@@ -109,7 +109,7 @@ TEST(GroundFiles, foreign_files_other_versions_and_folders_are_named) {
   std::vector<char> bytes = bytes_in(path);
   bytes[8] = 9;
   put_bytes(path, bytes);
-  EXPECT_NE(refusal_of(path).find("version 9"), std::string::npos);
+  EXPECT_NE(refusal_of(path).find("format 9"), std::string::npos);
   put_bytes(path, std::vector<char>(5000, 'x'));
   EXPECT_NE(refusal_of(path).find("not a ground file"), std::string::npos);
   EXPECT_FALSE(refusal_of(folder / "").empty());
@@ -128,6 +128,40 @@ TEST(GroundFiles, a_writer_that_is_not_finished_leaves_nothing_behind) {
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
   EXPECT_FALSE(GroundWriter::create(folder / "no/such/folder.ground", {10, 10, 1.0F, 0, 0, {}}, 0.0F));
+}
+
+TEST(GroundFiles, have_a_palette_that_is_a_part_of_their_name) {
+  const TestFolder folder;
+  Palette palette = builtin_palette();
+  palette.rows.back().name = "fresh_snow";
+  palette.ground.soil = *palette.named("sand");
+  const auto written = [&](const std::string& name, const Palette& of) {
+    auto writer = GroundWriter::create(folder / name, {4, 4, 1.0F, 0, 0, {5.0F, 60.0F}}, 0.0F, of);
+    EXPECT_TRUE(writer);
+    for (int z = 0; z < 4; ++z) (*writer)->add_row(std::vector<int32_t>(4, 0));
+    EXPECT_TRUE((*writer)->finish());
+    const auto file = GroundFile::open(folder / name);
+    EXPECT_TRUE(file) << file.error().message;
+    return *file;
+  };
+  const auto plain = written("plain.ground", builtin_palette()), own = written("own.ground", palette);
+  EXPECT_EQ(plain->palette(), shared_builtin_palette());
+  EXPECT_EQ(plain->header().format, 1U) << "as before palettes";
+  EXPECT_EQ(*own->palette(), palette);
+  EXPECT_EQ(own->header().format, 2U);
+  EXPECT_NE(own->name(), plain->name());
+  EXPECT_EQ(GroundFile::source_of(own).rows.soil, *palette.named("sand"));
+  std::vector<char> bytes = bytes_in(folder / "own.ground");
+  for (size_t at = 0; at < bytes.size(); at += 37) {
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+    put_bytes(folder / "bad.ground", bytes);
+    const bool is_padding = at >= 224 && at < header_bytes;
+    EXPECT_TRUE(is_padding || !refusal_of(folder / "bad.ground").empty()) << at;
+    bytes[at] = static_cast<char>(bytes[at] ^ 1);
+  }
+  bytes.resize(header_bytes + 40);
+  put_bytes(folder / "bad.ground", bytes);
+  EXPECT_FALSE(refusal_of(folder / "bad.ground").empty());
 }
 
 }  // namespace

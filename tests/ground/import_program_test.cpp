@@ -3,8 +3,10 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include "ground/ground_file.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_folder.h"
+#include "tests/support/vox_bytes.h"
 
 namespace scree {
 namespace {
@@ -39,6 +41,28 @@ TEST_F(ImportProgram, never_writes_over_what_it_reads) {
   EXPECT_EQ(std::filesystem::file_size(hill_), bytes_);
   EXPECT_EQ(run(hill_ + " -o " + ground).first, 0);
   expect_one_file(house + " -o " + ground + " --on " + ground);
+}
+
+TEST_F(ImportProgram, takes_a_palette_a_map_and_voxels) {
+  VoxBytes vox;
+  vox.model({2, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}});
+  std::ofstream(folder_ / "a.vox", std::ios::binary) << vox.file();
+  std::ofstream(folder_ / "p.toml") << "[ground]\nbulk = \"chalk\"\nsoil = \"chalk\"\ncap = \"chalk\"\n"
+                                       "[[material]]\nname = \"chalk\"\n[[material]]\nname = \"flint\"\n";
+  std::ofstream(folder_ / "m") << "1 = flint\n";
+  const std::string ground = folder_ / "a.ground",
+                    from = (folder_ / "a.vox") + " -o " + ground + " --level -9";
+  const auto [code, said] =
+      run(from + " --materials " + (folder_ / "p.toml") + " --material-map " + (folder_ / "m"));
+  EXPECT_EQ(code, 0) << said;
+  const auto file = GroundFile::open(ground);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ((*file)->palette()->names(), (std::vector<std::string_view>{"chalk", "flint", "vox_2"}));
+  const auto [refused, why] = run(from + " --material marble");
+  EXPECT_EQ(refused, 1);
+  EXPECT_NE(why.find("'marble' is no material of the palette; it has rock, soil, ice"), std::string::npos)
+      << why;
+  EXPECT_EQ(run(hill_ + " -o " + ground + " --cover " + hill_).first, 2) << "a cover needs a map";
 }
 
 /// A box of 400 m, whose surface is 42 million voxels: a second is not enough for it, and enough to read it.

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 
+#include "shared/field/material_window.h"
 #include "tests/support/test_folder.h"
 #include "tools/import/file_forms.h"
 #include "tools/import/files/solid_files.h"
@@ -58,6 +59,7 @@ class MeshKinds : public ::testing::Test {
     for (const std::string& line : read->said) done.said += line + "\n";
     const BricksImport bricks{.level_m = how.level_m.value_or(0.0),
                               .voxel_size_m = how.voxel_size_m,
+                              .palette = read->palette,
                               .least_m3 = least_volume_m3(*read)};
     const auto made = import_bricks(read->solids, folder_ / "made.ground", bricks, [](double) {});
     EXPECT_TRUE(made) << made.error().message;
@@ -78,11 +80,13 @@ void expect_words(const std::string& words, const char* part) {
   EXPECT_NE(words.find(part), std::string::npos) << words;
 }
 
+const SolidsImport no_colours{.colour_rows_max = 0};
+
 TEST_F(MeshKinds, one_house_in_one_two_or_six_materials_is_the_same_rock) {
-  const Imported one = imported(data + std::string("house_one.obj"));
+  const Imported one = imported(data + std::string("house_one.obj"), no_colours);
   EXPECT_NEAR(one.volume_m3, house_m3, 0.01 * house_m3);
   for (const char* name : {"house_walls_roof.obj", "house_six.obj"}) {
-    const Imported other = imported(data + std::string(name));
+    const Imported other = imported(data + std::string(name), no_colours);
     EXPECT_EQ(other.name, one.name) << name;
     expect_words(other.said, "1 part, closed, 480 m³");
     expect_words(other.said, "a unit as a metre");
@@ -96,9 +100,9 @@ TEST_F(MeshKinds, materials_go_by_the_nearest_triangle) {
   imported(obj(house_points, faces));
   const auto file = GroundFile::open(folder_ / "made.ground");
   ASSERT_TRUE(file);
-  const TerrainSource source{.heights = *file};
-  EXPECT_EQ(material_at(source, {0.5F, 5.5F, 0.5F}), material::ice);
-  EXPECT_EQ(material_at(source, {4.5F, 3.0F, 0.5F}), material::rock);
+  MapField field({.heights = *file});
+  EXPECT_EQ(material_at(field, {0.5F, 5.5F, 0.5F}), material::ice);
+  EXPECT_EQ(material_at(field, {4.5F, 3.0F, 0.5F}), material::rock);
 }
 
 TEST_F(MeshKinds, open_sheets_are_filled_down_or_refused) {

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
+#include "shared/field/material_window.h"
 #include "tests/support/box_solid.h"
 #include "tests/support/test_folder.h"
 #include "tools/export/mesh_export.h"
@@ -143,7 +144,7 @@ TEST_F(SolidFiles, what_is_exported_comes_back_as_the_same_ground) {
   MapField field({.heights = *file});
   const auto box = whole_of(field);
   ASSERT_TRUE(box);
-  const auto exported = export_vdb(field, *box, folder_ / "world.vdb", [](double) {});
+  const auto exported = export_vdb(field, builtin_palette(), *box, folder_ / "world.vdb", [](double) {});
   ASSERT_TRUE(exported) << exported.error().message;
   EXPECT_GT(exported->active_voxels, 10'000U);
   const auto back = read_solids({folder_ / "world.vdb"}, {});
@@ -166,8 +167,8 @@ TEST_F(SolidFiles, edits_and_paint_are_exported_with_the_ground) {
   MapField field({.heights = *file});
   const BrickCoord hole{0, 3, 0}, painted{-1, 3, 0};
   field.set_brick(hole, air_brick());
-  field.paint_brick(painted, material::ice);
-  ASSERT_TRUE(export_vdb(field, *whole_of(field), folder_ / "edited.vdb", [](double) {}));
+  field.set_materials(painted, BrickMaterials(said(material::ice)));
+  ASSERT_TRUE(export_vdb(field, builtin_palette(), *whole_of(field), folder_ / "edited.vdb", [](double) {}));
   const auto back = read_solids({folder_ / "edited.vdb"}, {});
   ASSERT_TRUE(back) << back.error().message;
   import(*back, "edited.ground");
@@ -180,7 +181,7 @@ TEST_F(SolidFiles, edits_and_paint_are_exported_with_the_ground) {
     for (int i = 0; i < 64; ++i)
       ASSERT_EQ(again.brick(brick_in_chunk(chunk, i)), field.brick(brick_in_chunk(chunk, i)));
   });
-  EXPECT_EQ(material_at(source, {-0.5F, 6.5F, 0.5F}), material::ice);
+  EXPECT_EQ(material_at(again, {-0.5F, 6.5F, 0.5F}), material::ice);
 }
 
 TEST_F(SolidFiles, exported_meshes_are_closed_and_have_the_rock_s_volume) {
@@ -192,7 +193,7 @@ TEST_F(SolidFiles, exported_meshes_are_closed_and_have_the_rock_s_volume) {
   MapField field({.heights = *file});
   const ChunkBox box = chunks_of({-15.9F, 0.1F, -15.9F}, {15.9F, 15.9F, 15.9F}, 0.25F);
   for (const char* name : {"out.ply", "out.obj"}) {
-    const auto exported = export_mesh(field, box, folder_ / name, [](double) {});
+    const auto exported = export_mesh(field, builtin_palette(), box, folder_ / name, [](double) {});
     ASSERT_TRUE(exported) << exported.error().message;
     const auto back = read_solids({folder_ / name}, {});
     ASSERT_TRUE(back) << back.error().message;
@@ -227,7 +228,7 @@ TEST_F(SolidFiles, vdb_files_cut_short_anywhere_are_refused) {
   const auto file = GroundFile::open(folder_ / "block.ground");
   ASSERT_TRUE(file);
   MapField field({.heights = *file});
-  ASSERT_TRUE(export_vdb(field, *whole_of(field), folder_ / "whole.vdb", [](double) {}));
+  ASSERT_TRUE(export_vdb(field, builtin_palette(), *whole_of(field), folder_ / "whole.vdb", [](double) {}));
   const uintmax_t size = std::filesystem::file_size(folder_ / "whole.vdb");
   for (uintmax_t cut = 0; cut < size; cut += size / 12) {
     std::filesystem::copy_file(folder_ / "whole.vdb", folder_ / "cut.vdb",

@@ -6,6 +6,7 @@
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
+#include "shared/field/material_window.h"
 #include "tests/support/test_folder.h"
 #include "tools/import/files/solid_files.h"
 
@@ -155,9 +156,9 @@ TEST_F(VdbChoices, materials_of_single_voxels_are_read_and_silent_ones_are_not) 
   ASSERT_TRUE(imported) << imported.error().message;
   const auto file = GroundFile::open(folder_ / "ball.ground");
   ASSERT_TRUE(file);
-  const TerrainSource source{.heights = *file};
-  EXPECT_EQ(material_at(source, {0.5F, 12.0F, -2.0F}), material::ice);
-  EXPECT_EQ(material_at(source, {5.5F, 12.0F, -2.0F}), material::rock);
+  MapField field({.heights = *file});
+  EXPECT_EQ(material_at(field, {0.5F, 12.0F, -2.0F}), material::ice);
+  EXPECT_EQ(material_at(field, {5.5F, 12.0F, -2.0F}), material::rock);
 }
 
 TEST_F(VdbChoices, volumes_without_an_inside_are_refused_in_their_own_words) {

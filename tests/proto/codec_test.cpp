@@ -179,7 +179,7 @@ TEST(Codec, unknown_enum_values_are_refused_by_name) {
     return decoded ? std::get<UnknownMessage>(*decoded).value : "";
   };
   EXPECT_EQ(unknown_value(FillMessage{{{static_cast<ShapeKind>(99), {}, {}, 1.0F}}, 1}), "kind of shape 99");
-  EXPECT_EQ(unknown_value(carve_message({}, static_cast<SeedPattern>(9))), "pattern 9");
+  EXPECT_EQ(unknown_value(carve_message({}, static_cast<SeedPattern>(99))), "pattern 99");
   WelcomeMessage welcome;
   welcome.terrain.kind = static_cast<TerrainKind>(77);
   EXPECT_TRUE(holds(server_refusal(welcome), "kind of terrain 77"));

@@ -1,9 +1,12 @@
 // Every scene: it is built and stands, its strikes break it, all of it comes to rest, mass is exact at every
 // tick, and the hashes do not depend on the number of threads.
 #include <gtest/gtest.h>
+#include <set>
 
+#include "content/builtin_palette.h"
 #include "server/app/ground_giver.h"
 #include "server/app/saved_world.h"
+#include "shared/field/material_window.h"
 #include "tests/support/test_folder.h"
 #include "tools/scenes/build.h"
 
@@ -122,8 +125,25 @@ TEST(SceneTableTest, the_arch_the_tower_and_the_bridge_fall_when_they_are_struck
   for (const char* name : {"arch", "tower", "bridge"}) EXPECT_GE(islands_of(name), 1U) << name;
 }
 
-TEST(SceneTableTest, eight_scenes_have_names_of_their_own) {
-  EXPECT_EQ(all_scenes().size(), 8U);
+TEST(SceneTableTest, the_street_is_of_all_materials_of_the_built_in_palette) {
+  const TestFolder folder;
+  const auto scene = scene_named("street")->set_up(folder / "");
+  ASSERT_TRUE(scene);
+  MapField field(scene->config.terrain);
+  build_scene(field, *scene);
+  std::set<Material> found;
+  for (const ChunkCoord chunk : field.edited_chunks())
+    for (const BrickCoord brick : field.edited_bricks(chunk)) {
+      const BrickRock rock = materials_of(field, brick);
+      const Brick codes = field.brick(brick);
+      for (size_t i = 0; i < rock.size(); ++i)
+        if (codes.codes[i] < 0) found.insert(rock[i]);
+    }
+  EXPECT_EQ(found.size(), builtin_palette().rows.size());
+}
+
+TEST(SceneTableTest, nine_scenes_have_names_of_their_own) {
+  EXPECT_EQ(all_scenes().size(), 9U);
   for (const SceneRow& row : all_scenes()) EXPECT_EQ(scene_named(row.name), &row) << row.name;
   EXPECT_EQ(scene_named("nowhere"), nullptr);
   EXPECT_NE(scene_names().find("maunga-whau"), std::string::npos);

@@ -19,7 +19,9 @@ class BoxSolid final : public Solid {
   VoxelBox box() const override { return box_; }
   double lowest_m() const override { return 0.25 * box_.lo.y; }
   bool is_inside(VoxelCoord voxel) const override { return box_.holds(voxel); }
-  std::optional<Material> material(BrickCoord) const override { return material_; }
+  BrickMaterials materials(BrickCoord) const override {
+    return BrickMaterials(material_ ? said(*material_) : ground_own);
+  }
   /// Its faces lie half a voxel outside of its outermost voxels.
   void read_levels(const VoxelBox& box, std::span<float> levels) const override {
     size_t i = 0;

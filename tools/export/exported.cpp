@@ -63,9 +63,15 @@ Result<ChunkBox> whole_of(const Field& field) {
   return *box;
 }
 
-std::optional<Material> said_material(Field& field, BrickCoord brick) {
-  if (const auto painted = field.painted(brick)) return painted;
-  return stored_material(field.chunk_bricks(chunk_of(brick)).generated, index_in_chunk(brick));
+BrickMaterials said_materials(const Field& field, BrickCoord brick) {
+  const BrickMaterials painted = field.materials(brick);
+  const BrickMaterials stored =
+      field.chunk_bricks(chunk_of(brick)).generated.materials(index_in_chunk(brick));
+  if (painted.is_ground() || stored.is_ground()) return painted.is_ground() ? stored : painted;
+  VoxelMaterials voxels = painted.unpacked();
+  for (int i = 0; i < brick_voxels; ++i)
+    if (VoxelMaterial& own = voxels[static_cast<size_t>(i)]; own == ground_own) own = stored.at(i);
+  return BrickMaterials(voxels);
 }
 
 }  // namespace scree

@@ -24,7 +24,7 @@ Result<void> check_count(const ChunkBox& box);
 /// elevation model, with rock below it. The error says that the ground has no end, and what to do.
 Result<ChunkBox> whole_of(const Field& field);
 
-/// The material that a brick was painted with, or that the ground stores for it, if any.
-std::optional<Material> said_material(Field& field, BrickCoord brick);
+/// What paint and the ground's stored chunks say of a brick's voxels, without the ground's layers.
+BrickMaterials said_materials(const Field& field, BrickCoord brick);
 
 }  // namespace scree

@@ -10,6 +10,9 @@ namespace scree::limits {
 /// refused.
 inline constexpr size_t export_triangles_max = size_t{1} << 26;
 
+/// Voxels of rock in one MagicaVoxel file, 1.5 GiB of memory. Above: refused.
+inline constexpr size_t export_voxels_max = size_t{1} << 26;
+
 /// Chunks of one export: an hour or so. Above: refused.
 inline constexpr size_t export_chunks_max = size_t{1} << 22;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unordered_map>
 
+#include "shared/field/material_window.h"
 #include "shared/surface/surface_nets.h"
 #include "tools/export/limits.h"
 #include "tools/export/pinches.h"
@@ -51,10 +52,7 @@ class Welder {
   Material material_beneath(const Point& point, const SurfaceVertex& vertex) const {
     const glm::vec3 out = glm::vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / 127.0F;
     const glm::vec3 at = glm::vec3(point[0], point[1], point[2]) / surface_steps_per_voxel - 0.5F * out;
-    const BrickCoord brick =
-        brick_of(VoxelCoord{floor_to_int(at.x + 0.5F), floor_to_int(at.y + 0.5F), floor_to_int(at.z + 0.5F)});
-    if (const auto said = said_material(field_, brick)) return *said;
-    return material_at(field_.source(), at * field_.source().voxel_size_m);
+    return material_at(field_, at * field_.source().voxel_size_m);
   }
 
   Field& field_;
@@ -85,8 +83,8 @@ double volume_of(const WeldedSurface& mesh, float voxel_size_m) {
 
 }  // namespace
 
-Result<MeshExported> export_mesh(Field& field, const ChunkBox& box, const std::string& path,
-                                 const std::function<void(double)>& progress) {
+Result<MeshExported> export_mesh(Field& field, const Palette& palette, const ChunkBox& box,
+                                 const std::string& path, const std::function<void(double)>& progress) {
   const VoxelBox voxels = box.voxels();
   Welder welder(field);
   size_t done = 0;
@@ -105,8 +103,9 @@ Result<MeshExported> export_mesh(Field& field, const ChunkBox& box, const std::s
                             limits::export_triangles_max));
   if (mesh.triangles.empty()) return fail("there is no rock in the box, or nothing else");
   split_pinches(mesh);
+  order_by_material(mesh);
   const float voxel_m = field.source().voxel_size_m;
-  const auto bytes = TRY(write_surface(mesh, path, voxel_m / surface_steps_per_voxel));
+  const auto bytes = TRY(write_surface(mesh, palette, path, voxel_m / surface_steps_per_voxel));
   return MeshExported{mesh.points.size(), mesh.triangles.size(), bytes, volume_of(mesh, voxel_m)};
 }
 

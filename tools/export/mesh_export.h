@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "shared/material/palette.h"
 #include "tools/export/exported.h"
 
 namespace scree {
@@ -16,7 +17,7 @@ struct MeshExported {
 };
 
 /// `path`: an is_surface_name(). All of the mesh lies in memory. `progress(part)`: from 0 to 1.
-Result<MeshExported> export_mesh(Field& field, const ChunkBox& box, const std::string& path,
-                                 const std::function<void(double)>& progress);
+Result<MeshExported> export_mesh(Field& field, const Palette& palette, const ChunkBox& box,
+                                 const std::string& path, const std::function<void(double)>& progress);
 
 }  // namespace scree

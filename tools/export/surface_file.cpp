@@ -7,6 +7,7 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "ground/whole_file.h"
 #include "shared/base/check.h"
@@ -32,7 +33,7 @@ void write_points(std::ostream& out, const WeldedSurface& surface, float step_m)
   for (const Point& point : surface.points) put_bytes(out, metres_of(point, step_m));
 }
 
-void write_ply(std::ostream& out, const WeldedSurface& surface, float step_m) {
+void write_ply(std::ostream& out, const WeldedSurface& surface, const Palette& /*palette*/, float step_m) {
   out << fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment metres, y up\nelement vertex {}\nproperty float x\n"
       "property float y\nproperty float z\nelement face {}\nproperty list uchar int "
@@ -45,13 +46,20 @@ void write_ply(std::ostream& out, const WeldedSurface& surface, float step_m) {
   }
 }
 
-void write_obj(std::ostream& out, const WeldedSurface& surface, float step_m) {
-  out << "# metres, y up\no rock\n";
+void write_obj(std::ostream& out, const WeldedSurface& surface, const Palette& palette, float step_m) {
+  out << "# metres, y up\no terrain\n";
   for (const Point& point : surface.points) {
     const Metres p = metres_of(point, step_m);
     out << fmt::format("v {} {} {}\n", p[0], p[1], p[2]);
   }
-  for (const auto& t : surface.triangles) out << fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  std::optional<Material> last;
+  for (const auto& t : surface.triangles) {
+    if (const Material own = surface.materials[t[0]]; own != last) {
+      out << "usemtl " << palette.row_or_first(own).name << "\n";
+      last = own;
+    }
+    out << fmt::format("f {} {} {}\n", t[0] + 1, t[1] + 1, t[2] + 1);
+  }
 }
 
 // glTF 2.0 (Khronos, ISO/IEC 12113), "GLB File Format Specification": a header and two chunks, each as long
@@ -77,58 +85,96 @@ Bounds bounds_of(const WeldedSurface& surface, float step_m) {
   return bounds;
 }
 
-std::string glb_json(const WeldedSurface& surface, float step_m) {
-  using Json = nlohmann::json;
+using Json = nlohmann::json;
+
+Json material_json(const MaterialRow& row) {
+  return {{"name", row.name},
+          {"pbrMetallicRoughness",
+           {{"baseColorFactor", {1.0, 1.0, 1.0, 1.0}},
+            {"metallicFactor", 0.0},
+            {"roughnessFactor", row.look.roughness}}}};
+}
+
+/// The triangles of a material, and where their corners begin among all.
+struct GlbPart {
+  Material material{};
+  size_t triangles = 0;
+  size_t first = 0;
+};
+
+std::vector<GlbPart> parts_of(const WeldedSurface& surface) {
+  std::vector<GlbPart> parts;
+  for (size_t i = 0; i < surface.triangles.size(); ++i) {
+    const Material own = surface.materials[surface.triangles[i][0]];
+    if (parts.empty() || parts.back().material != own) parts.push_back({own, 0, i});
+    ++parts.back().triangles;
+  }
+  return parts;
+}
+
+Json glb_accessors(const WeldedSurface& surface, const std::vector<GlbPart>& parts, float step_m) {
+  const size_t points = surface.points.size();
+  const auto [lo, hi] = bounds_of(surface, step_m);
+  Json accessors = Json::array({{{"bufferView", 0},
+                                 {"componentType", type_f32},
+                                 {"count", points},
+                                 {"type", "VEC3"},
+                                 {"min", lo},
+                                 {"max", hi}},
+                                {{"bufferView", 1},
+                                 {"componentType", type_u8},
+                                 {"normalized", true},
+                                 {"count", points},
+                                 {"type", "VEC4"}}});
+  for (const GlbPart& part : parts)
+    accessors.push_back({{"bufferView", 2},
+                         {"byteOffset", 12 * part.first},
+                         {"componentType", type_u32},
+                         {"count", 3 * part.triangles},
+                         {"type", "SCALAR"}});
+  return accessors;
+}
+
+std::string glb_json(const WeldedSurface& surface, const Palette& palette, const std::vector<GlbPart>& parts,
+                     float step_m) {
   const size_t points = surface.points.size(), corners = 3 * surface.triangles.size();
   const size_t colours_at = 12 * points, indices_at = 16 * points;
-  const auto [lo, hi] = bounds_of(surface, step_m);
   const auto view = [](size_t at, size_t bytes, int target) {
     return Json{{"buffer", 0}, {"byteOffset", at}, {"byteLength", bytes}, {"target", target}};
   };
-  const Json json{
-      {"asset", {{"version", "2.0"}, {"generator", "scree-export"}}},
-      {"scene", 0},
-      {"scenes", Json::array({{{"nodes", {0}}}})},
-      {"nodes", Json::array({{{"mesh", 0}, {"name", "rock"}}})},
-      {"materials",
-       Json::array({{{"name", "terrain"},
-                     {"pbrMetallicRoughness", {{"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}}})},
-      {"meshes", Json::array({{{"name", "rock"},
-                               {"primitives", Json::array({{{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}},
-                                                            {"indices", 2},
-                                                            {"material", 0}}})}}})},
-      {"accessors",
-       Json::array(
-           {{{"bufferView", 0},
-             {"componentType", type_f32},
-             {"count", points},
-             {"type", "VEC3"},
-             {"min", lo},
-             {"max", hi}},
-            {{"bufferView", 1},
-             {"componentType", type_u8},
-             {"normalized", true},
-             {"count", points},
-             {"type", "VEC4"}},
-            {{"bufferView", 2}, {"componentType", type_u32}, {"count", corners}, {"type", "SCALAR"}}})},
-      {"bufferViews",
-       Json::array({view(0, 12 * points, target_vertices), view(colours_at, 4 * points, target_vertices),
-                    view(indices_at, 4 * corners, target_indices)})},
-      {"buffers", Json::array({{{"byteLength", indices_at + 4 * corners}}})}};
+  Json materials = Json::array(), primitives = Json::array();
+  for (const GlbPart& part : parts) {
+    primitives.push_back({{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}},
+                          {"indices", 2 + materials.size()},
+                          {"material", materials.size()}});
+    materials.push_back(material_json(palette.row_or_first(part.material)));
+  }
+  const Json json{{"asset", {{"version", "2.0"}, {"generator", "scree-export"}}},
+                  {"scene", 0},
+                  {"scenes", Json::array({{{"nodes", {0}}}})},
+                  {"nodes", Json::array({{{"mesh", 0}, {"name", "terrain"}}})},
+                  {"materials", materials},
+                  {"meshes", Json::array({{{"name", "terrain"}, {"primitives", primitives}}})},
+                  {"accessors", glb_accessors(surface, parts, step_m)},
+                  {"bufferViews", Json::array({view(0, 12 * points, target_vertices),
+                                               view(colours_at, 4 * points, target_vertices),
+                                               view(indices_at, 4 * corners, target_indices)})},
+                  {"buffers", Json::array({{{"byteLength", indices_at + 4 * corners}}})}};
   std::string text = json.dump();
   text.resize((text.size() + 3) / 4 * 4, ' ');
   return text;
 }
 
 /// Linear, as glTF's colours of points are.
-std::array<uint8_t, 4> colour_of(Material material) {
+std::array<uint8_t, 4> colour_of(const MaterialRow& row) {
   const auto byte = [](float part) { return static_cast<uint8_t>(std::lround(255.0F * part)); };
-  const auto& albedo = row_of(material).albedo;
-  return {byte(albedo[0]), byte(albedo[1]), byte(albedo[2]), 255};
+  const auto& colour = row.look.colour;
+  return {byte(colour[0]), byte(colour[1]), byte(colour[2]), 255};
 }
 
-void write_glb(std::ostream& out, const WeldedSurface& surface, float step_m) {
-  const std::string json = glb_json(surface, step_m);
+void write_glb(std::ostream& out, const WeldedSurface& surface, const Palette& palette, float step_m) {
+  const std::vector<GlbPart> parts = parts_of(surface);
+  const std::string json = glb_json(surface, palette, parts, step_m);
   const size_t data = 16 * surface.points.size() + 12 * surface.triangles.size();
   const size_t all = 12 + 8 + json.size() + 8 + data;
   CHECK(all <= std::numeric_limits<uint32_t>::max());  // limits::export_triangles_max
@@ -138,13 +184,13 @@ void write_glb(std::ostream& out, const WeldedSurface& surface, float step_m) {
   put_bytes(out, static_cast<uint32_t>(data));
   put_bytes(out, chunk_bin);
   write_points(out, surface, step_m);
-  for (const Material material : surface.materials) put_bytes(out, colour_of(material));
+  for (const Material material : surface.materials) put_bytes(out, colour_of(palette.row_or_first(material)));
   for (const auto& t : surface.triangles) put_bytes(out, t);
 }
 
 struct SurfaceFormat {
   std::string_view ending;
-  void (*write)(std::ostream& out, const WeldedSurface& surface, float step_m);
+  void (*write)(std::ostream& out, const WeldedSurface& surface, const Palette& palette, float step_m);
 };
 constexpr std::array<SurfaceFormat, 3> formats{
     {{".ply", write_ply}, {".obj", write_obj}, {".glb", write_glb}}};
@@ -157,16 +203,23 @@ const SurfaceFormat* format_of(const std::string& path) {
 
 }  // namespace
 
+void order_by_material(WeldedSurface& surface) {
+  std::ranges::sort(surface.triangles, [&](const auto& a, const auto& b) {
+    return std::pair(surface.materials[a[0]], a) < std::pair(surface.materials[b[0]], b);
+  });
+}
+
 bool is_surface_name(const std::string& path) {
   return format_of(path) != nullptr;
 }
 
-Result<uint64_t> write_surface(const WeldedSurface& surface, const std::string& path, float step_m) {
+Result<uint64_t> write_surface(const WeldedSurface& surface, const Palette& palette, const std::string& path,
+                               float step_m) {
   const SurfaceFormat* const format = format_of(path);
   CHECK(format != nullptr && !surface.points.empty() && surface.materials.size() == surface.points.size());
   return write_whole(path, [&](const std::string& unfinished) -> Result<void> {
     std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
-    format->write(out, surface, step_m);
+    format->write(out, surface, palette, step_m);
     out.close();
     if (!out) return fail(std::strerror(errno));
     return {};

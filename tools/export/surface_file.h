@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "shared/base/result.h"
-#include "shared/material/material.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -21,11 +21,17 @@ struct WeldedSurface {
   std::vector<std::array<uint32_t, 3>> triangles;  ///< counterclockwise from the air
 };
 
+/// Puts the triangles in order of the materials of their first corners.
+void order_by_material(WeldedSurface& surface);
+
 /// Whether a file of that name can be written: .ply, .obj or .glb.
 bool is_surface_name(const std::string& path);
 
-/// Metres, y up. In glTF points have the colours of their materials, as they look when painted, so that it is
-/// one closed mesh; PLY and OBJ have none. Returns the file's bytes. `step_m`: metres a unit of the points.
-Result<uint64_t> write_surface(const WeldedSurface& surface, const std::string& path, float step_m);
+/// Metres, y up. glTF and OBJ have a material for each row of the palette that is used, of the same name, and
+/// each triangle is of that of its first corner; in glTF points have the colours of theirs, and all materials
+/// share them, so that it is one closed mesh. PLY has none. `surface` is in order
+/// of materials. Returns the file's bytes. `step_m`: metres a unit of the points.
+Result<uint64_t> write_surface(const WeldedSurface& surface, const Palette& palette, const std::string& path,
+                               float step_m);
 
 }  // namespace scree

@@ -6,13 +6,16 @@
 #include <limits>
 #include <set>
 
+#include "content/builtin_palette.h"
 #include "ground/ground_writer.h"
 #include "shared/base/limits.h"
 #include "shared/field/mass.h"
 #include "shared/field/redistance.h"
+#include "shared/material/palette.h"
 #include "tools/import/chunk_pyramid.h"
 #include "tools/import/level_ground.h"
 #include "tools/import/limits.h"
+#include "tools/import/solid_materials.h"
 
 namespace scree {
 
@@ -20,9 +23,6 @@ namespace {
 
 /// Where two solids touch, their common face is inside, however it is rounded. Voxels.
 constexpr float seam_voxels = 0.001F;
-
-/// A brick with a voxel of the solids below this code shows their surface: half a voxel, rounded up.
-constexpr Code surface_code = 22;
 
 constexpr float voxel_default_m = 0.25F;
 
@@ -53,6 +53,7 @@ Result<Grounds> grounds_of(const BricksImport& how, const std::vector<std::uniqu
                            const VoxelBox& box, float voxel_size_m) {
   Grounds grounds;
   grounds.under.voxel_size_m = grounds.bare.voxel_size_m = voxel_size_m;
+  grounds.under.rows = grounds.bare.rows = how.palette->ground;
   if (how.on != nullptr) {
     grounds.under.heights = how.on;
     grounds.bare.heights = std::make_shared<BareGround>(how.on);
@@ -170,45 +171,53 @@ class Importer {
     std::ranges::transform(levels, window.codes.begin(), [](float level) { return encode(level); });
     mass_ += mass_of(window);
     GeneratedChunk made = split_into_bricks(window, chunk);
+    ChunkMaterials materials;
     for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i)
-      if (const auto material = solids_.front()->material(brick_in_chunk(chunk, i)))
-        made.materials[static_cast<size_t>(i)] = static_cast<uint8_t>(1 + static_cast<int>(*material));
+      materials[static_cast<size_t>(i)] = solids_.front()->materials(brick_in_chunk(chunk, i));
+    made.stored_materials = stored_materials_of(materials);
     return made;
   }
 
   GeneratedChunk chunk_with_solids(ChunkCoord chunk, bool has_surface) {
+    SolidRock rock{solids_, nullptr, {box_of(chunk)}, how_.material};
     if (!has_surface) {
-      const bool rock = std::ranges::any_of(
+      const auto owner = std::ranges::find_if(
           solids_, [&](const auto& solid) { return solid->is_inside(first_voxel(chunk)); });
-      if (!rock) return copy_of(under_.chunk_bricks(chunk).generated);
+      if (owner == solids_.end()) return copy_of(under_.chunk_bricks(chunk).generated);
       mass_ += MassUnits{chunk_size} * chunk_size * chunk_size * units_per_voxel;
       GeneratedChunk made = uniform_chunk(solid_brick());
-      put_materials(made, chunk, nullptr);
+      rock.owners.all = static_cast<uint32_t>(owner - solids_.begin());
+      made.stored_materials = united_materials(made, chunk, rock, under_.chunk_bricks(chunk).generated);
       return made;
     }
     const VoxelBox box = box_of(chunk).grown(chunk_apron);
-    std::vector<float> levels = levels_of_solids(box);
+    rock.owners.box = box;
+    std::vector<float> levels = levels_of_solids(box, rock.owners);
     Window solids(box);
+    rock.codes = &solids;
     distances_from_levels(levels, solids);
     mass_ += mass_of(part_of(solids, box_of(chunk)));
     Window together = gather(under_, box);
     unite(solids, levels, together);
     GeneratedChunk made = split_into_bricks(together, chunk);
-    made.materials = under_.chunk_bricks(chunk).generated.materials;
-    put_materials(made, chunk, &solids);
+    made.stored_materials = united_materials(made, chunk, rock, under_.chunk_bricks(chunk).generated);
     return made;
   }
 
-  /// The least of all solids' levels.
-  std::vector<float> levels_of_solids(const VoxelBox& box) const {
+  /// The least of all solids' levels. A voxel's owner is the solid with the least one.
+  std::vector<float> levels_of_solids(const VoxelBox& box, SolidOwners& owners) const {
     std::vector<float> levels(Window::count(box), std::numeric_limits<float>::max());
     std::vector<float> own(levels.size());
-    for (const auto& solid : solids_) {
-      if (common(solid->box().grown(chunk_apron), box).empty()) continue;
-      solid->read_levels(box, own);
+    if (solids_.size() > 1) owners.each.resize(levels.size());
+    for (size_t n = 0; n < solids_.size(); ++n) {
+      if (common(solids_[n]->box().grown(chunk_apron), box).empty()) continue;
+      solids_[n]->read_levels(box, own);
       const float seam = solids_.size() > 1 ? seam_voxels : 0.0F;
-      std::ranges::transform(levels, own, levels.begin(),
-                             [seam](float a, float b) { return std::min(a, b - seam); });
+      for (size_t i = 0; i < levels.size(); ++i) {
+        if (own[i] - seam >= levels[i]) continue;
+        levels[i] = own[i] - seam;
+        if (!owners.each.empty()) owners.each[i] = static_cast<uint32_t>(n);
+      }
     }
     return levels;
   }
@@ -228,26 +237,6 @@ class Importer {
       if (solids.codes[i] != code_air) ground.codes[i] = std::min(united.codes[i], ground.codes[i]);
   }
 
-  /// The bricks in which the solids have rock, or their surface within rounding; all, if there is no window
-  /// of them.
-  void put_materials(GeneratedChunk& chunk, ChunkCoord at, const Window* solids) const {
-    for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
-      const BrickCoord brick = brick_in_chunk(at, i);
-      const VoxelCoord first = first_voxel(brick);
-      if (chunk.bricks[static_cast<size_t>(i)] == &air_brick()) continue;
-      if (solids != nullptr) {
-        const Window part = part_of(*solids, {first, first + VoxelCoord{brick_size, brick_size, brick_size}});
-        if (std::ranges::none_of(part.codes, [](Code code) { return code < surface_code; })) continue;
-      }
-      std::optional<Material> material;
-      for (const auto& solid : solids_)
-        if (!material) material = solid->material(brick);
-      if (!material) material = how_.material;
-      if (material)
-        chunk.materials[static_cast<size_t>(i)] = static_cast<uint8_t>(1 + static_cast<int>(*material));
-    }
-  }
-
   const std::vector<std::unique_ptr<Solid>>& solids_;
   const BricksImport& how_;
   const Grounds grounds_;
@@ -259,7 +248,8 @@ class Importer {
 Result<std::unique_ptr<GroundWriter>> begin_file(const std::string& path, const Grounds& grounds,
                                                  const BricksImport& how) {
   HeightLayout layout = grounds.bare.heights->layout();
-  auto writer = GroundWriter::create(path, layout, how.on != nullptr ? how.on->header().zero_m : 0.0F);
+  const float zero_m = how.on != nullptr ? how.on->header().zero_m : 0.0F;
+  auto writer = GroundWriter::create(path, layout, zero_m, *how.palette);
   TRY(writer);
   if (how.on != nullptr) {
     (*writer)->copy_heights(*how.on);
@@ -273,8 +263,12 @@ Result<std::unique_ptr<GroundWriter>> begin_file(const std::string& path, const 
 }  // namespace
 
 Result<BricksImported> import_bricks(const std::vector<std::unique_ptr<Solid>>& solids,
-                                     const std::string& path, const BricksImport& how,
+                                     const std::string& path, const BricksImport& given,
                                      const std::function<void(double)>& progress) {
+  BricksImport how = given;
+  const auto below = how.on != nullptr ? how.on->palette() : shared_builtin_palette();
+  if (how.palette == nullptr) how.palette = below;
+  if (how.on != nullptr) TRY(validate_change(*below, *how.palette));
   const bool on_bricks = how.on != nullptr && how.on->bricks();
   const float voxel_size_m =
       how.voxel_size_m.value_or(on_bricks ? how.on->bricks()->voxel_size_m : voxel_default_m);

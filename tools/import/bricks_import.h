@@ -17,8 +17,11 @@ struct BricksImport {
   std::optional<double> level_m{};
   std::optional<float> voxel_size_m{};      ///< default: that of `on`'s bricks, or 0.25
   std::optional<MaterialHeights> layers{};  ///< default: those of `on`, or none
-  std::optional<Material> material{};       ///< of rock for which the solid says none
-  double least_m3 = 0.0;                    ///< less rock of the solids is refused: they are too thin
+  /// What materials are rows of; null: the palette of `on`, or the built-in one. It has all rows of that of
+  /// `on`.
+  std::shared_ptr<const Palette> palette{};
+  std::optional<Material> material{};  ///< of rock for which the solid says none
+  double least_m3 = 0.0;               ///< less rock of the solids is refused: they are too thin
   /// The solids' codes are taken as they are, in place of the ground, in this box of chunks alone.
   struct Exact {
     ChunkCoord lo;

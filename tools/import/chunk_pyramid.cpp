@@ -44,6 +44,44 @@ void sample_levels(ChunkCoord at, const GeneratedChunk& fine, const VoxelBox& bo
       }
 }
 
+/// Of a brick, by the eight finer ones that it shows: each voxel is of what the one of them is that it has
+/// the code of, or if that says nothing, the one above: so a thin layer is not lost from afar.
+BrickMaterials sampled_materials(const std::array<const BrickMaterials*, 8>& finer) {
+  const BrickMaterials& one = *finer.front();
+  const auto is_same = [&](const BrickMaterials* other) { return *other == one; };
+  if (one.is_uniform() && std::ranges::all_of(finer, is_same)) return one;
+  VoxelMaterials voxels;
+  for (int x = 0; x < brick_size; ++x)
+    for (int y = 0; y < brick_size; ++y)
+      for (int z = 0; z < brick_size; ++z) {
+        const BrickMaterials& from = *finer[static_cast<size_t>((x >> 2) * 4 + (y >> 2) * 2 + (z >> 2))];
+        const int fx = (2 * x) & 7, fy = (2 * y) & 7, fz = (2 * z) & 7;
+        const VoxelMaterial own = from.at(Brick::index(fx, fy, fz));
+        voxels[static_cast<size_t>(Brick::index(x, y, z))] =
+            own != ground_own ? own : from.at(Brick::index(fx, fy + 1, fz));
+      }
+  return BrickMaterials(voxels);
+}
+
+/// Of a chunk, by the chunks of the level below; where none is stored, it says nothing.
+std::shared_ptr<const ChunkMaterials> coarser_materials(ChunkCoord parent, const ChunkPyramid::Level& fine) {
+  static const BrickMaterials none;
+  ChunkMaterials materials;
+  for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
+    const BrickCoord brick = brick_in_chunk(parent, i);
+    std::array<const BrickMaterials*, 8> finer{};
+    for (int k = 0; k < 8; ++k) {
+      const BrickCoord at{brick.x * 2 + (k >> 2), brick.y * 2 + ((k >> 1) & 1), brick.z * 2 + (k & 1)};
+      const auto found = fine.find(chunk_of(at));
+      const auto* stored = found == fine.end() ? nullptr : found->second->stored_materials.get();
+      finer[static_cast<size_t>(k)] =
+          stored == nullptr ? &none : &(*stored)[static_cast<size_t>(index_in_chunk(at))];
+    }
+    materials[static_cast<size_t>(i)] = sampled_materials(finer);
+  }
+  return stored_materials_of(materials);
+}
+
 }  // namespace
 
 ChunkPyramid::ChunkPyramid(const TerrainSource& bare, Level finest)
@@ -71,7 +109,9 @@ ChunkPyramid::Level ChunkPyramid::coarser(const Level& fine, int level) const {
         sample_levels(at, *found->second, box, levels);
     }
     distances_from_levels(levels, window);
-    coarse.emplace(parent, std::make_shared<const GeneratedChunk>(split_into_bricks(window, parent)));
+    GeneratedChunk made = split_into_bricks(window, parent);
+    made.stored_materials = coarser_materials(parent, fine);
+    coarse.emplace(parent, std::make_shared<const GeneratedChunk>(std::move(made)));
   }
   return coarse;
 }

@@ -56,6 +56,10 @@ bool is_volume_file(const std::string& path) {
   return ending_of(path) == ".vdb";
 }
 
+bool is_voxels_file(const std::string& path) {
+  return ending_of(path) == ".vox";
+}
+
 std::optional<std::string> refusal_of_form(const std::string& path) {
   const auto* const form = std::ranges::find(unread_forms, ending_of(path), &UnreadForm::ending);
   if (form == std::ranges::end(unread_forms)) return std::nullopt;

@@ -12,6 +12,7 @@ std::string ending_of(const std::string& path);
 
 bool is_mesh_file(const std::string& path);
 bool is_volume_file(const std::string& path);
+bool is_voxels_file(const std::string& path);
 
 /// Why a file of that name cannot be imported, and the way out; nothing for meshes, volumes, and all that
 /// GDAL may know.

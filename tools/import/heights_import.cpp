@@ -339,7 +339,8 @@ Result<HeightsImported> import_heights(Raster& raster, const std::string& path, 
   layout.layers.soil_below_m = static_cast<float>(how.soil_below_m.value_or(limits::world_half_height_m));
   layout.layers.ice_above_m = static_cast<float>(how.ice_above_m.value_or(limits::world_half_height_m));
   TRY(validate(layout));
-  auto writer = TRY(GroundWriter::create(path, layout, static_cast<float>(*zero_m)));
+  auto writer = TRY(GroundWriter::create(path, layout, static_cast<float>(*zero_m),
+                                         how.palette != nullptr ? *how.palette : builtin_palette()));
   HeightsImported imported;
   const double fill_m = how.fill_m.value_or(found.lowest_m);
   const Cells cells = cells_of(raster.shape(), how);

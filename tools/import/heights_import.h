@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ground/ground_header.h"
+#include "shared/material/palette.h"
 #include "tools/import/raster.h"
 
 namespace scree {
@@ -16,10 +17,11 @@ struct HeightsImport {
   std::optional<double> cell_m{};
   std::optional<double> sample_m{};  ///< distance of the ground's samples; default: the cells'
   double vertical_scale = 1.0;
-  std::optional<double> zero_m{};        ///< height that becomes y = 0, after the scale
-  std::optional<double> fill_m{};        ///< height where the file has none; default: the lowest
-  std::optional<double> soil_below_m{};  ///< heights in the world; default: all of the ground
-  std::optional<double> ice_above_m{};   ///< default: none
+  std::optional<double> zero_m{};            ///< height that becomes y = 0, after the scale
+  std::optional<double> fill_m{};            ///< height where the file has none; default: the lowest
+  std::optional<double> soil_below_m{};      ///< heights in the world; default: all of the ground
+  std::optional<double> ice_above_m{};       ///< default: none
+  std::shared_ptr<const Palette> palette{};  ///< of the ground; null: the built-in one
 };
 
 struct HeightsImported {

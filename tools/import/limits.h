@@ -80,6 +80,20 @@ inline constexpr size_t polygon_corners_max = 10'000;
 /// The squares of the polygons' corners, in all. Above: refused.
 inline constexpr uint64_t polygon_work_max = uint64_t{4} * polygon_corners_max * polygon_corners_max;
 
+/// Cells of a raster of land cover, a byte each. Above: refused.
+inline constexpr uint64_t cover_cells_max = uint64_t{1} << 28U;
+
+/// Bytes of a --material-map: some thousand lines. Above: refused.
+inline constexpr size_t material_map_bytes_max = size_t{1} << 18;
+
+/// Materials of a scene that are none of the palette's, and may become rows of it; and the colours that their
+/// pictures have, each of 15 bits. More have no colour.
+inline constexpr size_t scene_materials_max = 65'000;
+
+/// Pixels and bytes of a picture that gives a mesh its colours: 8192 a side. Above: it counts as not there.
+inline constexpr uint64_t picture_pixels_max = uint64_t{1} << 26U;
+inline constexpr uint64_t picture_bytes_max = uint64_t{1} << 28U;
+
 /// Pixels along a side of a preview.
 inline constexpr int preview_side_max = 1024;
 

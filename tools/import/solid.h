@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "shared/base/result.h"
+#include "shared/field/brick_materials.h"
 #include "shared/field/stored_chunks.h"
-#include "shared/material/material.h"
 
 namespace scree {
 
@@ -32,8 +32,9 @@ class Solid {
   /// away at least of the right sign. As many as the box has voxels.
   virtual void read_levels(const VoxelBox& box, std::span<float> levels) const = 0;
   virtual bool is_inside(VoxelCoord voxel) const = 0;
-  /// The material that it has in a brick, if it says one.
-  virtual std::optional<Material> material(BrickCoord) const { return std::nullopt; }
+  /// What its rock in a brick is of, by voxel; ground_own where it does not say. Beside its rock: of no
+  /// account.
+  virtual BrickMaterials materials(BrickCoord) const { return {}; }
 };
 
 }  // namespace scree

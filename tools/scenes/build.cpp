@@ -43,7 +43,9 @@ Result<std::unique_ptr<World>> scene_world(const SceneSetup& setup, size_t threa
 void build_scene(Field& field, const SceneSetup& setup) {
   PieceTable none;
   for (const BuildStep& step : setup.build)
-    std::visit(Overloaded{[&](const FillRequest& fill) { apply(FillOperation{fill.shape}, field, none); },
+    std::visit(Overloaded{[&](const FillRequest& fill) {
+                            apply(FillOperation{fill.shape, fill.material}, field, none);
+                          },
                           [&](const PaintRequest& paint) {
                             apply(PaintOperation{paint.shape, paint.material}, field, none);
                           }},

@@ -5,6 +5,7 @@
 
 #include "shared/base/listed.h"
 #include "tools/scenes/grounds.h"
+#include "tools/scenes/street.h"
 #include "tools/scenes/structures.h"
 
 namespace scree {
@@ -20,6 +21,8 @@ constexpr std::array rows{
     SceneRow{"quarry", "terraces of rock, soil and ice in layers", quarry_scene},
     SceneRow{"city", "a block of houses, imported from closed meshes", city_scene},
     SceneRow{"maunga-whau", "the crater of a volcano, from an elevation model", maunga_whau_scene},
+    SceneRow{"street", "houses of twelve materials: bricks, concrete, steel, glass, timber and more",
+             street_scene},
 };
 
 }  // namespace

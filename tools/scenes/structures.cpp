@@ -137,8 +137,8 @@ Result<SceneSetup> bridge_scene(const std::string&) {
   return setup;
 }
 
-/// Terraces on three sides of a pit, each 2 m high and 2 m deep, so that paint, which goes by bricks, is of
-/// one layer.
+/// Terraces on three sides of a pit, each 2 m high and 2 m deep. A layer begins half a metre below its step,
+/// in the one beneath, and is painted last, so that each ends at its step.
 Result<SceneSetup> quarry_scene(const std::string&) {
   SceneSetup setup = on_ground(flat_ground, {15.0F, 10.0F, 17.0F}, {-1.0F, 3.0F, -6.0F});
   constexpr std::array layers{material::rock, material::soil, material::rock, material::ice, material::soil};

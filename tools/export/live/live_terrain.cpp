@@ -42,7 +42,7 @@ void copy_edits(Field& from, const ChunkBox& box, Field& to) {
     if (!holds(box, chunk)) continue;
     for (const BrickCoord brick : from.edited_bricks(chunk)) {
       to.set_brick(brick, from.brick(brick));
-      to.paint_brick(brick, from.painted(brick));
+      to.set_materials(brick, from.materials(brick));
     }
   }
 }
@@ -156,7 +156,8 @@ class Fetcher {
   float chunk_m() const { return static_cast<float>(chunk_size) * mirror().terrain().voxel_size_m; }
 
   LiveTerrain contents(const ChunkBox& box) const {
-    return {std::make_unique<MapField>(mirror().terrain()), box, mirror().tick(), sessions_};
+    return {std::make_unique<MapField>(mirror().terrain()), mirror().palette(), box, mirror().tick(),
+            sessions_};
   }
 
   Result<LiveTerrain> fetch_box(const std::function<void(double)>& progress) {

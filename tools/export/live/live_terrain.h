@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "client/connection/endpoint.h"
+#include "shared/material/palette.h"
 #include "tools/export/exported.h"
 
 namespace scree {
@@ -26,6 +27,7 @@ struct LiveFetch {
 
 struct LiveTerrain {
   std::unique_ptr<Field> field;  ///< with the edits in the box, which needs no connection any more
+  std::shared_ptr<const Palette> palette;
   ChunkBox box;
   Tick tick = 0;        ///< as of which its last part is
   size_t sessions = 0;  ///< that fetched it

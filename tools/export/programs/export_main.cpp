@@ -6,6 +6,7 @@
 
 #include "client/connection/endpoint_options.h"
 #include "ground/ground_file.h"
+#include "proto/palette_codec.h"
 #include "server/app/ground_giver.h"
 #include "server/replay/recorded_field.h"
 #include "server/store/stored_field.h"
@@ -19,6 +20,7 @@
 #include "tools/export/mesh_export.h"
 #include "tools/export/surface_file.h"
 #include "tools/export/vdb/vdb_export.h"
+#include "tools/export/vox_export.h"
 #include "tools/import/programs/program.h"
 
 namespace scree {
@@ -42,17 +44,20 @@ struct Options {
 /// What is exported.
 struct Exported {
   std::unique_ptr<Field> field;
-  ChunkBox box;
+  std::shared_ptr<const Palette> palette;
+  ChunkBox box{};
 };
 
 /// A recording's terrain after a tick; as of a world, its pieces are no rock of the terrain.
-Result<std::unique_ptr<Field>> field_of_recording(const Options& options) {
+Result<Exported> field_of_recording(const Options& options) {
   const auto giver = TRY(ground_giver(options.from, options.ground));
-  return field_at(options.from, *options.tick, giver);
+  const auto source = TRY(ReplaySource::open(options.from, 0, giver));
+  auto field = TRY(field_at(options.from, *options.tick, giver));
+  return Exported{std::move(field), source->header().world.palette};
 }
 
 /// A world's terrain with its edits.
-Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
+Result<Exported> field_of_world(const Options& options) {
   auto file = TRY(WorldFile::open(options.from));
   TRY(file->hold_moment());
   auto rows = TRY(file->read_moment());
@@ -60,17 +65,17 @@ Result<std::unique_ptr<Field>> field_of_world(const Options& options) {
   RecordedHeader& config = rows.world.moment.config;
   if (auto given = give_ground(config.ground, config.terrain, giver); !given)
     return fail(options.from + ": " + given.error().message);
-  return stored_field(std::move(file), config.terrain, limits::export_bricks_max);
+  auto palette = shared_builtin_palette();
+  if (!config.palette.empty()) palette = std::make_shared<const Palette>(TRY(decode_palette(config.palette)));
+  auto field = TRY(stored_field(std::move(file), config.terrain, limits::export_bricks_max));
+  return Exported{std::move(field), std::move(palette)};
 }
 
-Result<std::unique_ptr<Field>> field_of(const Options& options) {
+Result<Exported> field_of(const Options& options) {
   if (options.tick) return field_of_recording(options);
   if (!options.from.ends_with(".ground")) return field_of_world(options);
   auto file = TRY(GroundFile::open(options.from));
-  TerrainSource source;
-  source.heights = file;
-  if (const auto& bricks = file->bricks()) source.voxel_size_m = bricks->voxel_size_m;
-  return std::make_unique<MapField>(source);
+  return Exported{std::make_unique<MapField>(GroundFile::source_of(file)), file->palette()};
 }
 
 /// That of --box.
@@ -86,12 +91,13 @@ Result<ChunkBox> given_box(const Options& options, float voxel_size_m) {
 }
 
 Result<Exported> read_file(const Options& options) {
-  auto field = TRY(field_of(options));
+  auto what = TRY(field_of(options));
   const auto box =
-      options.box_m.empty() ? whole_of(*field) : given_box(options, field->source().voxel_size_m);
+      options.box_m.empty() ? whole_of(*what.field) : given_box(options, what.field->source().voxel_size_m);
   if (!box) return fail(options.from + ": " + box.error().message);
   if (auto few = check_count(*box); !few) return fail(options.from + ": " + few.error().message);
-  return Exported{std::move(field), *box};
+  what.box = *box;
+  return what;
 }
 
 Result<Exported> read_server(const Options& options, Json& line) {
@@ -102,19 +108,27 @@ Result<Exported> read_server(const Options& options, Json& line) {
   TRY(terrain);
   line["tick"] = terrain->tick;
   line["sessions"] = terrain->sessions;
-  return Exported{std::move(terrain->field), terrain->box};
+  return Exported{std::move(terrain->field), std::move(terrain->palette), terrain->box};
 }
 
 Result<Json> write_vdb(const Options& options, const Exported& what, const Progress& progress) {
-  const auto exported = TRY(export_vdb(*what.field, what.box, options.out, progress));
+  const auto exported = TRY(export_vdb(*what.field, *what.palette, what.box, options.out, progress));
   return Json{{"active_voxels", exported.active_voxels}, {"bytes", exported.bytes}};
 }
 
 Result<Json> write_mesh(const Options& options, const Exported& what, const Progress& progress) {
-  const auto exported = TRY(export_mesh(*what.field, what.box, options.out, progress));
+  const auto exported = TRY(export_mesh(*what.field, *what.palette, what.box, options.out, progress));
   return Json{{"points", exported.points},
               {"triangles", exported.triangles},
               {"volume_m3", exported.volume_m3},
+              {"bytes", exported.bytes}};
+}
+
+Result<Json> write_vox(const Options& options, const Exported& what, const Progress& progress) {
+  const auto exported = TRY(export_vox(*what.field, *what.palette, what.box, options.out, progress));
+  return Json{{"voxels", exported.voxels},
+              {"models", exported.models},
+              {"materials", exported.materials},
               {"bytes", exported.bytes}};
 }
 
@@ -140,13 +154,15 @@ using Write = Result<Json> (*)(const Options& options, const Exported& what, con
 
 Write writer_of(const std::string& path) {
   if (path.ends_with(".vdb")) return write_vdb;
+  if (path.ends_with(".vox")) return write_vox;
   if (path.ends_with(".tif")) return write_elevation;
   return is_surface_name(path) ? write_mesh : nullptr;
 }
 
 Result<void> run(const Options& options) {
   const Write write = writer_of(options.out);
-  if (write == nullptr) return fail(options.out + ": the name must end in .vdb, .ply, .obj, .glb or .tif");
+  if (write == nullptr)
+    return fail(options.out + ": the name must end in .vdb, .vox, .ply, .obj, .glb or .tif");
   const std::array files{NamedFile{"the exported file", options.from, false, true},
                          NamedFile{"--ground", options.ground}, NamedFile{"--out", options.out, true}};
   TRY(check_distinct(files));
@@ -184,7 +200,7 @@ void declare(CLI::App& app, Options& options) {
           whole_within(1, 86400))
       ->needs(app.get_option("--server"))
       ->capture_default_str();
-  app.add_option("-o,--out", options.out, "the file to write: .vdb, .ply, .obj, .glb or .tif")
+  app.add_option("-o,--out", options.out, "the file to write: .vdb, .vox, .ply, .obj, .glb or .tif")
       ->required()
       ->check(check_replaceable, "FILE");
   app.add_option("--box", options.box_m,
@@ -203,7 +219,8 @@ void declare(CLI::App& app, Options& options) {
 int main(int argc, char** argv) {
   scree::fail_at_file_limit();
   CLI::App app(
-      "Exports rock as an OpenVDB level set, a mesh or an elevation model. The rock comes from a saved "
+      "Exports rock as an OpenVDB level set, MagicaVoxel voxels, a mesh or an elevation model. The rock "
+      "comes from a saved "
       "world, a ground, a tick of a recording or a running server.",
       "scree-export");
   app.set_version_flag("--version", SCREE_VERSION);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "ground/whole_file.h"
+#include "proto/palette_codec.h"
 #include "shared/field/heights.h"
 #include "tools/import/vdb/vdb_grids.h"
 #include "tools/import/vdb/vdb_names.h"
@@ -46,7 +47,19 @@ void tell_ground(FloatGrid& grid, const TerrainSource& source, const ChunkBox& b
     tell(grid, vdb_names::level_m, static_cast<double>(heights.lowest) / height_steps_per_m);
 }
 
-Grids empty_grids(const TerrainSource& source, const ChunkBox& box) {
+void tell_palette(Int32Grid& grid, const Palette& palette) {
+  std::string names, digits;
+  for (const std::string_view name : palette.names()) names += std::string(name) + "\n";
+  constexpr std::string_view hex = "0123456789abcdef";
+  for (const uint8_t byte : encode_palette(palette)) {
+    digits += hex[byte >> 4];
+    digits += hex[byte & 15];
+  }
+  tell(grid, vdb_names::material_names, names);
+  tell(grid, vdb_names::palette, digits);
+}
+
+Grids empty_grids(const TerrainSource& source, const Palette& palette, const ChunkBox& box) {
   openvdb::initialize();
   const auto voxel_m = static_cast<double>(source.voxel_size_m);
   Grids grids{FloatGrid::create(band_voxels * source.voxel_size_m), Int32Grid::create(0)};
@@ -59,6 +72,7 @@ Grids empty_grids(const TerrainSource& source, const ChunkBox& box) {
        {openvdb::GridBase::Ptr(grids.surface), openvdb::GridBase::Ptr(grids.material)})
     grid->setTransform(openvdb::math::Transform::createLinearTransform(voxel_m));
   tell_ground(*grids.surface, source, box);
+  tell_palette(*grids.material, palette);
   return grids;
 }
 
@@ -77,14 +91,27 @@ void add_brick(const Brick& brick, const Coord& at, float voxel_m, FloatGrid& gr
   }
 }
 
+/// Active where they are said.
+void add_materials(const BrickMaterials& said, const Coord& at, Int32Grid& grid) {
+  if (said.is_ground()) return;
+  if (said.is_uniform()) {
+    grid.tree().addTile(brick_tile_level, at, static_cast<int32_t>(row_number(material_of(said.uniform()))),
+                        true);
+    return;
+  }
+  auto* leaf = grid.tree().touchLeaf(at);
+  for (openvdb::Index i = 0; i < brick_voxels; ++i)
+    if (const VoxelMaterial one = said.at(static_cast<int>(i)); one != ground_own)
+      leaf->setValueOn(i, static_cast<int32_t>(row_number(material_of(one))));
+}
+
 void add_chunk(Field& field, ChunkCoord chunk, Grids& grids) {
   for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
     const BrickCoord coord = brick_in_chunk(chunk, i);
     const VoxelCoord first = first_voxel(coord);
     const Coord at(first.x, first.y, first.z);
     add_brick(field.brick(coord), at, field.source().voxel_size_m, *grids.surface);
-    if (const auto material = said_material(field, coord))
-      grids.material->tree().addTile(brick_tile_level, at, static_cast<int32_t>(*material), true);
+    add_materials(said_materials(field, coord), at, *grids.material);
   }
 }
 
@@ -165,9 +192,9 @@ Result<uint64_t> write(const Grids& grids, const std::string& path) {
 
 }  // namespace
 
-Result<VdbExported> export_vdb(Field& field, const ChunkBox& box, const std::string& path,
-                               const std::function<void(double)>& progress) {
-  Grids grids = empty_grids(field.source(), box);
+Result<VdbExported> export_vdb(Field& field, const Palette& palette, const ChunkBox& box,
+                               const std::string& path, const std::function<void(double)>& progress) {
+  Grids grids = empty_grids(field.source(), palette, box);
   size_t done = 0;
   for_each_chunk(box.voxels(), [&](ChunkCoord chunk) {
     add_chunk(field, chunk, grids);

@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::array<std::string_view, 3> picture_endings = {".png", ".jpg", ".jpeg"};
+
 /// Buffers of glTF, and materials of OBJ.
 constexpr std::array<std::string_view, 3> endings_beside = {".bin", ".buffer", ".mtl"};
 
@@ -30,6 +32,16 @@ bool FolderFiles::allows(const char* file) const {
   const fs::path path = whole(file);
   if (path == own_) return true;
   if (std::ranges::find(endings_beside, ending_of(path.string())) == endings_beside.end()) return false;
+  return lies_within(path);
+}
+
+bool FolderFiles::allows_picture(const fs::path& file) const {
+  const fs::path path = whole(file);
+  const std::string ending = ending_of(path.string());
+  return std::ranges::find(picture_endings, ending) != picture_endings.end() && lies_within(path);
+}
+
+bool FolderFiles::lies_within(const fs::path& path) const {
   const fs::path within = path.lexically_relative(folder_);
   // ".." begins with a point, too.
   if (within.empty() ||

@@ -17,12 +17,15 @@ class FolderFiles final : public Assimp::IOSystem {
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* file, const char* mode) override;
   void Close(Assimp::IOStream* stream) override;
+  /// Whether that file is a .png or a .jpg in the folder or below, by the same rule.
+  bool allows_picture(const std::filesystem::path& file) const;
 
   /// The first name that was not opened, as the file says it; empty: none.
   const std::string& refused() const { return refused_; }
 
  private:
   bool allows(const char* file) const;
+  bool lies_within(const std::filesystem::path& path) const;
 
   std::filesystem::path own_;  ///< absolute, as the folder
   std::filesystem::path folder_;

@@ -23,19 +23,36 @@ glm::dvec3 placed(const std::array<double, 3>& own, const Placement& place) {
   return turned * place.scale + glm::dvec3(place.at_m[0], place.at_m[1], place.at_m[2]);
 }
 
+/// Each triangle's: a row of the palette, or one of the file's own.
+Result<void> take_materials(const std::vector<SceneMaterial>& materials, MeshFile& file) {
+  file.mesh.materials.reserve(materials.size());
+  file.foreign_of.reserve(materials.size());
+  for (const SceneMaterial number : materials) {
+    const size_t own = number < scene_own_first ? 0 : 1 + size_t{number} - scene_own_first;
+    if (own > file.foreign.size() || (own == 0 && number > materials_max))
+      return fail("it has a material without a name");
+    if (own > 0) ++file.foreign[own - 1].colour.weight;
+    file.mesh.materials.push_back(own > 0 ? ground_own : static_cast<VoxelMaterial>(number));
+    file.foreign_of.push_back(static_cast<uint16_t>(own));
+  }
+  return {};
+}
+
 Result<void> receive_mesh(ReaderChannel& reader, const Placement& place, MeshFile& file) {
   const auto points = TRY(reader.get_list<std::array<double, 3>>(limits::import_triangles_max));
   file.mesh.triangles = TRY(reader.get_list<TriangleMesh::Triangle>(limits::import_triangles_max));
-  file.mesh.materials = TRY(reader.get_list<uint8_t>(limits::import_triangles_max));
+  const auto materials = TRY(reader.get_list<SceneMaterial>(limits::import_triangles_max));
+  const auto colours = TRY(reader.get_list<SceneColour>(limits::scene_materials_max));
   if (file.mesh.triangles.empty()) return fail("it holds no triangle");
-  if (file.mesh.materials.size() != file.mesh.triangles.size())
+  if (materials.size() != file.mesh.triangles.size())
     return fail("its triangles and their materials do not agree");
   for (const TriangleMesh::Triangle& t : file.mesh.triangles)
     if (std::ranges::max(t) >= points.size()) return fail("it has a triangle without its points");
-  for (const uint8_t number : file.mesh.materials)
-    if (number > kind_count<Material>) return fail("it has a material without a name");
-  if (std::ranges::count(file.mesh.materials, uint8_t{0}) == std::ssize(file.mesh.materials))
-    file.mesh.materials.clear();
+  for (const SceneColour& one : colours) {
+    file.foreign.emplace_back().colour.linear = one.linear;
+    file.foreign.back().has_colour = one.is_known != 0;
+  }
+  TRY(take_materials(materials, file));
   double largest = 0.0;
   for (const std::array<double, 3>& p : points) {
     if (!std::isfinite(p[0]) || !std::isfinite(p[1]) || !std::isfinite(p[2]))
@@ -47,32 +64,37 @@ Result<void> receive_mesh(ReaderChannel& reader, const Placement& place, MeshFil
   return {};
 }
 
-Result<MeshFile> meshes_in(const std::string& path, const Placement& place, const ReaderLimits& bounds) {
+Result<MeshFile> meshes_in(const std::string& path, const Placement& place, const ReaderLimits& bounds,
+                           const MaterialMap& named) {
   TRY(check_is_file(path));
   const auto reader = TRY(ReaderProcess::start(
-      "assimp", bounds, [&](ReaderChannel& channel) { return send_scene(channel, path, ending_of(path)); },
+      "assimp", bounds,
+      [&](ReaderChannel& channel) { return send_scene(channel, path, ending_of(path), named); },
       file_and_its_folder(path)));
   const auto head = TRY(reader->get<SceneHead>());
-  if (head.names > scene_names_max || head.warnings > scene_warnings_max ||
+  if (head.foreign_materials > limits::scene_materials_max || head.warnings > scene_warnings_max ||
       !std::isfinite(head.metres_a_unit))
     return fail("its form is unknown");
   MeshFile file;
   file.meshes = head.meshes;
-  file.foreign_materials = head.foreign_materials;
+  file.unread_textures = head.unread_textures;
   file.metres_a_unit = head.metres_a_unit;
   file.says_up = head.says_up != 0;
   file.mesh.name = std::filesystem::path(path).filename();
   TRY(receive_mesh(*reader, place, file));
-  for (uint64_t i = 0; i < head.names; ++i) file.materials.push_back(TRY(reader->get_text()));
+  if (file.foreign.size() != head.foreign_materials)
+    return fail("its materials and their colours do not agree");
+  for (MeshFile::Foreign& one : file.foreign) one.colour.name = TRY(reader->get_text());
   for (uint64_t i = 0; i < head.warnings; ++i) file.warnings.push_back(TRY(reader->get_text()));
   return file;
 }
 
 }  // namespace
 
-Result<MeshFile> read_meshes(const std::string& path, const Placement& place, const ReaderLimits& bounds) {
+Result<MeshFile> read_meshes(const std::string& path, const Placement& place, const ReaderLimits& bounds,
+                             const MaterialMap& named) {
   try {
-    auto file = meshes_in(path, place, bounds);
+    auto file = meshes_in(path, place, bounds, named);
     if (!file) return fail(path + ": " + file.error().message);
     return file;
   } catch (const std::bad_alloc&) {

@@ -10,16 +10,15 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <memory>
-#include <set>
 #include <sstream>
 #include <string_view>
 
-#include "shared/base/kind_table.h"
-#include "shared/material/material.h"
 #include "tools/import/assimp/folder_files.h"
 #include "tools/import/assimp/nesting.h"
 #include "tools/import/assimp/ply_header.h"
+#include "tools/import/assimp/scene_textures.h"
 #include "tools/import/assimp/scene_warnings.h"
 #include "tools/import/limits.h"
 
@@ -35,15 +34,19 @@ constexpr double metres_a_centimetre = 0.01;
 /// Axes of FBX files.
 constexpr int32_t fbx_up_x = 0, fbx_up_z = 2;
 
-uint8_t number_of(const std::string& material) {
-  const auto kind = kind_named<Material>(material);
-  return kind ? static_cast<uint8_t>(1 + static_cast<int>(*kind)) : material_unnamed;
+/// The base colour of glTF, or else what an older form calls diffuse.
+SceneColour colour_of(const aiMaterial& material) {
+  aiColor4D colour;
+  const bool is_known = material.Get(AI_MATKEY_BASE_COLOR, colour) == AI_SUCCESS ||
+                        material.Get(AI_MATKEY_COLOR_DIFFUSE, colour) == AI_SUCCESS;
+  return {{colour.r, colour.g, colour.b}, static_cast<uint8_t>(is_known ? 1 : 0)};
 }
 
 /// All meshes of a scene, in the order of its nodes.
 class SceneTriangles {
  public:
-  explicit SceneTriangles(const aiScene& scene) : scene_(scene) {}
+  SceneTriangles(const aiScene& scene, const MaterialMap& named, SceneTextures& textures)
+      : scene_(scene), named_(named), textures_(textures) {}
 
   Result<void> collect(const aiNode& node, const aiMatrix4x4& above) {
     const aiMatrix4x4 transform = above * node.mTransformation;
@@ -58,19 +61,56 @@ class SceneTriangles {
 
   std::vector<std::array<double, 3>> points;
   std::vector<std::array<uint32_t, 3>> triangles;
-  std::vector<uint8_t> materials;
-  std::set<std::string> foreign_materials;
+  std::vector<SceneMaterial> materials;
+  std::vector<std::string> foreign_names;
+  std::vector<SceneColour> foreign_colours;
   uint64_t meshes = 0;
 
  private:
-  uint8_t material_of(const aiMesh& mesh, const std::string& name) {
+  /// By the material's name, or else by the mesh's.
+  SceneMaterial material_of(const aiMesh& mesh, const std::string& name) {
     std::string material;
     if (mesh.mMaterialIndex < scene_.mNumMaterials)
       material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
-    const uint8_t number = number_of(material) != material_unnamed ? number_of(material) : number_of(name);
-    if (number == material_unnamed && !material.empty() && material != AI_DEFAULT_MATERIAL_NAME)
-      foreign_materials.insert(material);
-    return number;
+    for (const std::string& one : {material, name})
+      if (const auto found = named_.find(one); found != named_.end()) return said(found->second);
+    if (material.empty() || material == AI_DEFAULT_MATERIAL_NAME) return 0;
+    return own_material(material, colour_of(*scene_.mMaterials[mesh.mMaterialIndex]));
+  }
+
+  /// Of a material that is none of the palette's, one for each of its colours.
+  SceneMaterial own_material(const std::string& name, const SceneColour& colour) {
+    std::array<int, 3> key{};
+    for (size_t i = 0; i < 3; ++i) key[i] = srgb_of_linear(colour.linear[i]);
+    const auto found = foreign_.find({name, key});
+    if (found != foreign_.end()) return static_cast<SceneMaterial>(scene_own_first + found->second);
+    if (foreign_names.size() >= limits::scene_materials_max) return 0;
+    foreign_.emplace(std::pair(name, key), foreign_names.size());
+    foreign_names.push_back(name);
+    foreign_colours.push_back(colour);
+    return static_cast<SceneMaterial>(scene_own_first + foreign_names.size() - 1);
+  }
+
+  /// Those of the mesh's triangles from `first` on: one for all, or by the picture of the material.
+  void add_materials(const aiMesh& mesh, const std::string& name, const std::vector<const aiFace*>& faces) {
+    const SceneMaterial one = material_of(mesh, name);
+    if (one < scene_own_first || textures_.of(mesh.mMaterialIndex) == nullptr) {
+      materials.resize(triangles.size(), one);
+      return;
+    }
+    const std::string material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
+    const SceneColour factor = colour_of(*scene_.mMaterials[mesh.mMaterialIndex]);
+    for (const aiFace* const face : faces) {
+      const auto texel = textures_.colour(mesh, *face);
+      SceneColour colour{{}, 1};
+      for (size_t i = 0; texel && i < 3; ++i)
+        colour.linear[i] = coarse((*texel)[i] * (factor.is_known != 0 ? factor.linear[i] : 1.0F));
+      materials.push_back(texel ? own_material(material, colour) : one);
+    }
+  }
+  /// Of 32 steps of brightness as it is seen.
+  static float coarse(float linear) {
+    return linear_of_srgb(static_cast<uint8_t>((srgb_of_linear(linear) & 0xF8) | 4));
   }
 
   Result<void> add(const aiMesh& mesh, const aiMatrix4x4& transform, const std::string& name) {
@@ -81,6 +121,7 @@ class SceneTriangles {
     const auto first = static_cast<uint32_t>(points.size());
     const size_t had = triangles.size();
     const bool mirrored = transform.Determinant() < 0.0F;
+    std::vector<const aiFace*> faces;
     for (unsigned i = 0; i < mesh.mNumFaces; ++i) {
       const aiFace& face = mesh.mFaces[i];
       if (face.mNumIndices != 3) continue;  // points and lines bound nothing
@@ -89,10 +130,11 @@ class SceneTriangles {
           return fail(fmt::format("mesh '{}' has a triangle without its points", name));
       triangles.push_back({first + face.mIndices[0], first + face.mIndices[mirrored ? 2 : 1],
                            first + face.mIndices[mirrored ? 1 : 2]});
+      faces.push_back(&face);
     }
     if (triangles.size() == had) return {};
     ++meshes;
-    materials.resize(triangles.size(), material_of(mesh, name));
+    add_materials(mesh, name, faces);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D p = transform * mesh.mVertices[i];
       points.push_back({static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)});
@@ -101,6 +143,9 @@ class SceneTriangles {
   }
 
   const aiScene& scene_;
+  const MaterialMap& named_;
+  SceneTextures& textures_;
+  std::map<std::pair<std::string, std::array<int, 3>>, size_t> foreign_;
 };
 
 /// assimp would also try its readers of other forms, by what a file begins with.
@@ -221,29 +266,27 @@ aiMatrix4x4 read_unit(const aiScene& scene, const std::string& ending, SceneHead
 
 }  // namespace
 
-Result<void> send_scene(ReaderChannel& channel, const std::string& path, const std::string& ending) {
+Result<void> send_scene(ReaderChannel& channel, const std::string& path, const std::string& ending,
+                        const MaterialMap& named) {
   const SceneWarnings warnings;
   Assimp::Importer importer;
   const aiScene* const scene = TRY(opened(importer, path, ending));
   SceneHead head;
   const aiMatrix4x4 transform = read_unit(*scene, ending, head);
-  SceneTriangles all(*scene);
+  SceneTextures textures(*scene, path);
+  SceneTriangles all(*scene, named, textures);
   TRY(all.collect(*scene->mRootNode, transform));
   head.meshes = all.meshes;
-  head.foreign_materials = all.foreign_materials.size();
-  head.names = std::min(head.foreign_materials, scene_names_max);
+  head.foreign_materials = all.foreign_names.size();
+  head.unread_textures = textures.unread();
   head.warnings = warnings.lines().size();
   if (all.triangles.empty()) TRY(check_letters(path));
   TRY(channel.put(head));
   TRY(channel.put_list(all.points));
   TRY(channel.put_list(all.triangles));
   TRY(channel.put_list(all.materials));
-  uint64_t names = head.names;
-  for (const std::string& name : all.foreign_materials)
-    if (names > 0) {
-      --names;
-      TRY(channel.put_text(name));
-    }
+  TRY(channel.put_list(all.foreign_colours));
+  for (const std::string& name : all.foreign_names) TRY(channel.put_text(name));
   for (const std::string& line : warnings.lines()) TRY(channel.put_text(line));
   return {};
 }

@@ -25,13 +25,7 @@ std::string assumptions(const MeshFile& file, const SolidsImport& how) {
     words += file.says_up ? ", turned although the file says which way is up (--z-up)" : ", z up (--z-up)";
   else
     words += file.says_up ? ", up as the file says" : ", y up (--z-up says otherwise)";
-  if (file.foreign_materials == 0) return words;
-  words += fmt::format("; {} material{} of other names, ", file.foreign_materials,
-                       file.foreign_materials == 1 ? "" : "s");
-  for (size_t i = 0; i < file.materials.size(); ++i) words += (i > 0 ? ", '" : "'") + file.materials[i] + "'";
-  return words + (file.foreign_materials > file.materials.size() ? ", …" : "") + ": " +
-         (how.material ? std::string(row_of(*how.material).name) : "rock, or the layers of the ground") +
-         " (--material)";
+  return words;
 }
 
 std::string surfaces(const MeshBodies& bodies) {
@@ -77,14 +71,15 @@ std::string repairs(const MeshBodies& bodies, size_t all_parts) {
 
 }  // namespace
 
-std::vector<std::string> words_on(const MeshFile& file, const MeshBodies& bodies, const SolidsImport& how) {
+std::vector<std::string> words_on(const MeshFile& file, const MeshBodies& bodies, const SolidsImport& how,
+                                  const std::string& materials) {
   const size_t all_parts =
       bodies.whole.parts + bodies.holed.parts + bodies.filled.parts + bodies.dropped.parts;
   std::vector<std::string> said;
   said.push_back(fmt::format("{} triangles in {}, {}", bodies.triangles,
                              file.meshes == 1 ? "one mesh" : fmt::format("{} meshes", file.meshes),
                              surfaces(bodies)));
-  said.push_back(assumptions(file, how));
+  said.push_back(assumptions(file, how) + materials);
   if (std::string words = repairs(bodies, all_parts); !words.empty()) said.push_back(std::move(words));
   for (const std::string& warning : file.warnings) said.push_back("assimp warns: " + warning);
   const auto voxel_m = static_cast<double>(how.voxel_size_m);

@@ -8,6 +8,8 @@
 
 namespace scree {
 
-std::vector<std::string> words_on(const MeshFile& file, const MeshBodies& bodies, const SolidsImport& how);
+/// `materials`: words on these, which end a sentence.
+std::vector<std::string> words_on(const MeshFile& file, const MeshBodies& bodies, const SolidsImport& how,
+                                  const std::string& materials);
 
 }  // namespace scree

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "content/builtin_palette.h"
 #include "tools/import/assimp/mesh_file.h"
 #include "tools/import/file_forms.h"
+#include "tools/import/files/mesh_materials.h"
 #include "tools/import/files/mesh_words.h"
 #include "tools/import/mesh/mesh_solid.h"
 #include "tools/import/vdb/vdb_file.h"
+#include "tools/import/vox/vox_file.h"
 
 namespace scree {
 
@@ -20,14 +23,20 @@ constexpr double difference_said = 0.01;
 /// Meshes with less than this part of the rock enclose nothing: it is rounding.
 constexpr double nothing_share = 1.0e-6;
 
-Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, bool alone, SolidsRead& read) {
-  auto vdb = read_vdb(file, {how.grid, how.density, how.place, how.voxel_size_m, how.reader});
+Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, bool alone,
+                           ImportPalette& palette, SolidsRead& read) {
+  const size_t had = palette.added();
+  auto vdb = read_vdb(
+      file, {how.grid, how.density, how.place, how.voxel_size_m, how.reader, &palette, how.material_map});
   TRY(vdb);
   std::string words = fmt::format(
       "{}: taken: grid '{}', {}, in metres, {} up", file, vdb->grid,
       vdb->is_level_set ? "a level set" : fmt::format("a fog volume, rock above {} (--density)", how.density),
       how.place.z_up ? "z" : "y");
   if (!vdb->all_grids.empty()) words += "; the file holds " + vdb->all_grids + " (--grid)";
+  if (palette.added() > had)
+    words += fmt::format("; {} of its materials became rows of the palette (--material-map)",
+                         palette.added() - had);
   read.said.push_back(std::move(words));
   read.solids.push_back(std::move(vdb->solid));
   ++read.volumes;
@@ -40,17 +49,45 @@ Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, boo
   return {};
 }
 
-Result<void> read_mesh_file(const std::string& path, const SolidsImport& how, SolidsRead& read) {
-  MeshFile file = TRY(read_meshes(path, how.place, how.reader));
+Result<void> read_vox_file(const std::string& file, const SolidsImport& how, ImportPalette& palette,
+                           SolidsRead& read) {
+  const VoxImport vox_import{.place = how.place,
+                             .has_scale = how.has_scale,
+                             .voxel_size_m = how.voxel_size_m,
+                             .map = how.material_map,
+                             .material = how.material,
+                             .reader = how.reader};
+  auto vox = TRY(read_vox(file, vox_import, palette));
+  std::string words =
+      fmt::format("{}: {} voxels in {} cop{} of models; taken: {}, z up as in all such files", file,
+                  vox.voxels, vox.copies, vox.copies == 1 ? "y" : "ies",
+                  how.has_scale ? fmt::format("a voxel as {:.6g} m (--scale)", how.place.scale)
+                                : "a voxel as one of the world (--scale says another size)");
+  if (vox.hidden > 0)
+    words += fmt::format("; {} hidden part{} left out", vox.hidden, vox.hidden == 1 ? "" : "s");
+  read.said.push_back(words + vox.materials);
+  read.solids.push_back(std::move(vox.solid));
+  ++read.volumes;
+  read.volumes_volume_m3 += vox.own_volume_m3;
+  return {};
+}
+
+Result<void> read_mesh_file(const std::string& path, const SolidsImport& how, ImportPalette& palette,
+                            SolidsRead& read) {
+  MeshFile file =
+      TRY(read_meshes(path, how.place, how.reader, names_of(palette.palette(), how.material_map)));
   const auto voxel_m = static_cast<double>(how.voxel_size_m);
   if (file.step_m > voxel_m)
     return fail(fmt::format(
         "{}: its coordinates are so large that they are read in steps of {:.3g} m, more than a voxel: "
         "move the mesh near its origin first",
         path, file.step_m));
+  const auto materials = give_materials(file, how, palette);
+  if (!materials) return fail(path + ": " + materials.error().message);
   auto bodies = bodies_of(std::move(file.mesh), {how.sheet, voxel_m, how.level_m});
   if (!bodies) return fail(path + ": " + bodies.error().message);
-  for (const std::string& words : words_on(file, *bodies, how)) read.said.push_back(path + ": " + words);
+  for (const std::string& words : words_on(file, *bodies, how, *materials))
+    read.said.push_back(path + ": " + words);
   ++read.meshes;
   const size_t parts = bodies->whole.parts + bodies->holed.parts + bodies->filled.parts;
   read.parts += parts - std::min(parts, bodies->turned.cavities);
@@ -76,7 +113,7 @@ Result<void> read_mesh_file(const std::string& path, const SolidsImport& how, So
 }  // namespace
 
 bool is_solid_file(const std::string& path) {
-  return is_volume_file(path) || is_mesh_file(path);
+  return is_volume_file(path) || is_voxels_file(path) || is_mesh_file(path);
 }
 
 std::optional<std::string> words_on_difference(const SolidsRead& read, double imported_m3) {
@@ -109,12 +146,16 @@ double least_volume_m3(const SolidsRead& read) {
 
 Result<SolidsRead> read_solids(const std::vector<std::string>& files, const SolidsImport& how) {
   SolidsRead read;
+  ImportPalette palette(how.palette == nullptr ? shared_builtin_palette() : how.palette);
   for (const std::string& file : files) {
     if (is_volume_file(file))
-      TRY(read_vdb_file(file, how, files.size() == 1, read));
+      TRY(read_vdb_file(file, how, files.size() == 1, palette, read));
+    else if (is_voxels_file(file))
+      TRY(read_vox_file(file, how, palette, read));
     else
-      TRY(read_mesh_file(file, how, read));
+      TRY(read_mesh_file(file, how, palette, read));
   }
+  read.palette = palette.result();
   return read;
 }
 

@@ -1,9 +1,10 @@
-// Solids from files of all kinds: OpenVDB and meshes, by the ends of their names.
+// Solids from files of all kinds: OpenVDB, MagicaVoxel and meshes, by the ends of their names.
 #pragma once
 
 #include <string>
 
 #include "tools/import/bricks_import.h"
+#include "tools/import/import_palette.h"
 #include "tools/import/mesh/sheet.h"
 #include "tools/import/placement.h"
 #include "tools/import/process/reader_process.h"
@@ -15,17 +16,25 @@ bool is_solid_file(const std::string& path);
 
 struct SolidsImport {
   Placement place{};
+  bool has_scale =
+      false;           ///< the scale was asked for; else a voxel of a MagicaVoxel file is one of the world
   std::string grid{};  ///< of an OpenVDB file
   double density = 0.5;
   float voxel_size_m = 0.25F;
   SheetRule sheet = SheetRule::refuse;
-  std::optional<double> level_m{};     ///< of the rock that sheets are filled down to
-  std::optional<Material> material{};  ///< of rock for which no file says one: for the words alone
+  std::optional<double> level_m{};  ///< of the rock that sheets are filled down to
+  /// What materials are rows of, before those of the files; null: the built-in palette.
+  std::shared_ptr<const Palette> palette{};
+  MaterialMap material_map{};          ///< names and numbers in files that stand for rows of the palette
+  size_t colour_rows_max = 32;         ///< of a file, for materials that are none of the palette's
+  std::optional<Material> material{};  ///< of rock for which no file says one; then colours make no rows
   ReaderLimits reader{};               ///< of the process that reads each file
 };
 
 struct SolidsRead {
   std::vector<std::unique_ptr<Solid>> solids;
+  /// What their materials are rows of: what was chosen, and the rows of the files.
+  std::shared_ptr<const Palette> palette{};
   /// Sentences on each: what was found, and what was repaired.
   std::vector<std::string> said;
   size_t parts = 0;                ///< of meshes, without their cavities

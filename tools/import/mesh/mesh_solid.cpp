@@ -39,6 +39,9 @@ constexpr float none_between = 1.01F;
 /// Steps from a voxel within which its winding number is computed, not carried over, where holes are closed.
 constexpr double steps_kept_exact = 1.8;
 
+/// A brick lies far from all triangles from so many of its own sizes on.
+constexpr double far_reaches = 4.0;
+
 class MeshSolid final : public Solid {
  public:
   MeshSolid(TriangleMesh mesh, const std::vector<OpenBody::Edge>& open, float voxel_size_m)
@@ -86,15 +89,25 @@ class MeshSolid final : public Solid {
   bool is_inside(VoxelCoord voxel) const override {
     return box_.grown(1).holds(voxel) && tree_.winding(metres(voxel)) > 0.5;
   }
-  std::optional<Material> material(BrickCoord brick) const override {
-    if (mesh_.materials.empty()) return std::nullopt;
+  /// Each voxel's is that of the triangle nearest to it; far from all triangles, all of a brick have one.
+  BrickMaterials materials(BrickCoord brick) const override {
+    if (mesh_.materials.empty()) return {};
+    if (one_material_) return BrickMaterials(mesh_.materials.front());
     const VoxelCoord first = first_voxel(brick);
-    const VoxelBox box{first, first + VoxelCoord{brick_size, brick_size, brick_size}};
-    if (common(box, box_.grown(1)).empty()) return std::nullopt;
     constexpr double middle = 0.5 * (brick_size - 1);
     const glm::dvec3 centre = metres(first) + glm::dvec3(middle * voxel_m_);
-    const uint8_t number = mesh_.materials[one_material_ ? 0 : tree_.nearest(centre)];
-    return number == 0 ? std::nullopt : std::optional(static_cast<Material>(number - 1));
+    const double reach_m = middle * 1.7321 * voxel_m_;
+    const WindingTree::Nearest nearest = tree_.nearest(centre);
+    const VoxelMaterial one = mesh_.materials[nearest.triangle];
+    const auto is_one = [&](uint32_t triangle) { return mesh_.materials[triangle] == one; };
+    if (nearest.distance > far_reaches * reach_m ||
+        tree_.all_near(centre, nearest.distance + 2.0 * reach_m, is_one))
+      return BrickMaterials(one);
+    VoxelMaterials voxels;
+    for (int i = 0; i < brick_voxels; ++i)
+      voxels[static_cast<size_t>(i)] =
+          mesh_.materials[tree_.nearest(metres(first + VoxelCoord{i >> 6, (i >> 3) & 7, i & 7})).triangle];
+    return BrickMaterials(voxels);
   }
 
   void read_levels(const VoxelBox& box, std::span<float> levels) const override {

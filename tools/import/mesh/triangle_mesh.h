@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "shared/material/material.h"
+#include "shared/field/brick_materials.h"
 
 namespace scree {
 
@@ -18,15 +18,16 @@ struct TriangleMesh {
   std::string name;
   std::vector<glm::dvec3> points;
   std::vector<Triangle> triangles;  ///< counterclockwise from outside
-  /// A number for each triangle: 0 where the file names none of ours, else one more than Material. Empty:
-  /// none anywhere.
-  std::vector<uint8_t> materials{};
+  /// What each triangle says of its rock. Empty: none says anything.
+  std::vector<VoxelMaterial> materials{};
 
-  void add(const Triangle& triangle, uint8_t material) {
+  void add(const Triangle& triangle, VoxelMaterial material) {
     triangles.push_back(triangle);
     materials.push_back(material);
   }
-  uint8_t material_of(size_t triangle) const { return materials.empty() ? 0 : materials[triangle]; }
+  VoxelMaterial material_of(size_t triangle) const {
+    return materials.empty() ? ground_own : materials[triangle];
+  }
 };
 
 struct WeldFindings {

@@ -112,10 +112,14 @@ double WindingTree::winding(const glm::dvec3& p) const {
   return nodes_.empty() ? 0.0 : winding(0, p) / full_angle;
 }
 
-uint32_t WindingTree::nearest(const glm::dvec3& p) const {
+WindingTree::Nearest WindingTree::nearest(const glm::dvec3& p) const {
   Nearest best;
   find_nearest(0, p, best);
-  return best.triangle;
+  return best;
+}
+
+bool WindingTree::reaches(const Node& node, const glm::dvec3& p, double reach) const {
+  return glm::length(node.centre - p) - node.radius <= reach;
 }
 
 void WindingTree::find_nearest(uint32_t at, const glm::dvec3& p, Nearest& best) const {

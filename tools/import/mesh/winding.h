@@ -12,8 +12,19 @@ class WindingTree {
   explicit WindingTree(const TriangleMesh& mesh);
 
   double winding(const glm::dvec3& p) const;
-  /// The number of the triangle nearest to p; the mesh has one.
-  uint32_t nearest(const glm::dvec3& p) const;
+  /// The triangle nearest to a place, and how far it is.
+  struct Nearest {
+    double distance = 1e300;
+    uint32_t triangle = 0;
+  };
+  /// The mesh has a triangle.
+  Nearest nearest(const glm::dvec3& p) const;
+  /// Whether f(triangle) is true of each triangle within reach of p, and of some more; it ends with the first
+  /// of which it is not.
+  template <typename F>
+  bool all_near(const glm::dvec3& p, double reach, F&& f) const {
+    return nodes_.empty() || all_near(0, p, reach, f);
+  }
 
  private:
   struct Node {
@@ -29,10 +40,16 @@ class WindingTree {
   void add_pieces(const Corners& t, int halvings, size_t pieces_max);
   uint32_t build(uint32_t first, uint32_t count);
   double winding(uint32_t node, const glm::dvec3& p) const;
-  struct Nearest {
-    double distance = 1e300;
-    uint32_t triangle = 0;
-  };
+  bool reaches(const Node& node, const glm::dvec3& p, double reach) const;
+  template <typename F>
+  bool all_near(uint32_t at, const glm::dvec3& p, double reach, F& f) const {
+    const Node& node = nodes_[at];
+    if (!reaches(node, p, reach)) return true;
+    if (node.right != 0) return all_near(at + 1, p, reach, f) && all_near(node.right, p, reach, f);
+    for (uint32_t i = node.first; i < node.first + node.count; ++i)
+      if (!f(numbers_[i])) return false;
+    return true;
+  }
   void find_nearest(uint32_t node, const glm::dvec3& p, Nearest& best) const;
 
   std::vector<Corners> triangles_;  ///< or pieces of slender ones

@@ -39,8 +39,8 @@ Vec3d corner(const CoordBBox& box, int i) {
 
 class GridSolid final : public Solid {
  public:
-  GridSolid(FloatGrid::Ptr grid, openvdb::Int32Grid::Ptr materials, const GridSide& side,
-            const Placement& place, float voxel_size_m)
+  GridSolid(FloatGrid::Ptr grid, MaterialGrid materials, const GridSide& side, const Placement& place,
+            float voxel_size_m)
       : grid_(std::move(grid)),
         materials_(std::move(materials)),
         side_(side),
@@ -86,20 +86,21 @@ class GridSolid final : public Solid {
     return is_rock(grid_->getConstAccessor().getValue(Coord::round(index_of(voxel))));
   }
 
-  std::optional<Material> material(BrickCoord brick) const override {
-    if (materials_ == nullptr) return std::nullopt;
-    openvdb::Int32Grid::ConstAccessor accessor = materials_->getConstAccessor();
-    std::array<int, kind_count<Material>> votes{};
+  /// Each voxel's is that of the grid's voxel nearest to it.
+  BrickMaterials materials(BrickCoord brick) const override {
+    if (materials_.grid == nullptr) return {};
+    openvdb::Int32Grid::ConstAccessor accessor = materials_.grid->getConstAccessor();
     const VoxelCoord first = first_voxel(brick);
-    for (int i = 0; i < 64; ++i) {
-      const VoxelCoord voxel = first + VoxelCoord{1 + 2 * (i >> 4), 1 + 2 * ((i >> 2) & 3), 1 + 2 * (i & 3)};
+    VoxelMaterials voxels;
+    for (int i = 0; i < brick_voxels; ++i) {
+      const VoxelCoord voxel = first + VoxelCoord{i >> 6, (i >> 3) & 7, i & 7};
       int32_t number = 0;
-      const Coord at = Coord::round(materials_->worldToIndex(world_of(voxel)));
-      if (accessor.probeValue(at, number) && number >= 0 && number < static_cast<int32_t>(votes.size()))
-        ++votes[static_cast<size_t>(number)];
+      const bool is_said =
+          accessor.probeValue(Coord::round(materials_.grid->worldToIndex(world_of(voxel))), number);
+      const bool is_row = is_said && number >= 0 && static_cast<size_t>(number) < materials_.rows.size();
+      voxels[static_cast<size_t>(i)] = is_row ? materials_.rows[static_cast<size_t>(number)] : ground_own;
     }
-    const auto most = std::ranges::max_element(votes);
-    return *most == 0 ? std::nullopt : std::optional(static_cast<Material>(most - votes.begin()));
+    return BrickMaterials(voxels);
   }
 
  private:
@@ -214,7 +215,7 @@ class GridSolid final : public Solid {
   }
 
   const FloatGrid::Ptr grid_;
-  const openvdb::Int32Grid::Ptr materials_;
+  const MaterialGrid materials_;
   const GridSide side_;
   const Placement place_;
   const double voxel_m_;
@@ -226,7 +227,7 @@ class GridSolid final : public Solid {
 
 }  // namespace
 
-Result<std::unique_ptr<Solid>> solid_of_grid(openvdb::FloatGrid::Ptr grid, openvdb::Int32Grid::Ptr materials,
+Result<std::unique_ptr<Solid>> solid_of_grid(openvdb::FloatGrid::Ptr grid, MaterialGrid materials,
                                              const GridSide& side, const Placement& place,
                                              float voxel_size_m) {
   auto solid = std::make_unique<GridSolid>(std::move(grid), std::move(materials), side, place, voxel_size_m);

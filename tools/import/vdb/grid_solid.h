@@ -14,9 +14,15 @@ struct GridSide {
   float sign = 1.0F;
 };
 
-/// The grid's values are finite, and a level set's are metres. `materials` may be null. The error
+/// Rows of materials by voxel. What a number of the grid stands for; numbers beyond the list say nothing.
+struct MaterialGrid {
+  openvdb::Int32Grid::Ptr grid;  ///< null: none says anything
+  std::vector<VoxelMaterial> rows{};
+};
+
+/// The grid's values are finite, and a level set's are metres. The error
 /// says that it is beyond the world, or too large for voxels of that size.
-Result<std::unique_ptr<Solid>> solid_of_grid(openvdb::FloatGrid::Ptr grid, openvdb::Int32Grid::Ptr materials,
+Result<std::unique_ptr<Solid>> solid_of_grid(openvdb::FloatGrid::Ptr grid, MaterialGrid materials,
                                              const GridSide& side, const Placement& place,
                                              float voxel_size_m);
 

@@ -3,10 +3,13 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "content/builtin_palette.h"
+#include "proto/palette_codec.h"
 #include "shared/base/limits.h"
 #include "shared/base/regular_file.h"
 #include "tools/import/limits.h"
 #include "tools/import/vdb/grid_solid.h"
+#include "tools/import/vdb/vdb_materials.h"
 #include "tools/import/vdb/vdb_message.h"
 #include "tools/import/vdb/vdb_sender.h"
 
@@ -66,11 +69,16 @@ Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
                                                 [](float value) { return std::isfinite(value); }));
   grid->setTransform(TRY(transform_of(head.to_world)));
   if (solid.is_level_set) grid->setGridClass(openvdb::GRID_LEVEL_SET);
-  openvdb::Int32Grid::Ptr materials;
+  MaterialGrid materials;
   if (head.has_materials != 0) {
-    materials = TRY(
+    ImportPalette builtin(shared_builtin_palette());
+    const auto names = TRY(reader->get_list<uint8_t>(palette_bytes_max));
+    const auto packed = TRY(reader->get_list<uint8_t>(2 * palette_bytes_max));
+    materials.rows =
+        TRY(rows_of_numbers(names, packed, how.map, how.palette != nullptr ? *how.palette : builtin));
+    materials.grid = TRY(
         receive_grid<openvdb::Int32Grid>(*reader, limits::import_leaves_max, [](int32_t) { return true; }));
-    materials->setTransform(TRY(transform_of(head.materials_to_world)));
+    materials.grid->setTransform(TRY(transform_of(head.materials_to_world)));
   }
   const GridSide side =
       solid.is_level_set ? GridSide{0.0F, 1.0F} : GridSide{static_cast<float>(how.density), -1.0F};

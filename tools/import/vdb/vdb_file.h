@@ -4,6 +4,7 @@
 #include <string>
 
 #include "tools/import/bricks_import.h"
+#include "tools/import/import_palette.h"
 #include "tools/import/placement.h"
 #include "tools/import/process/reader_process.h"
 
@@ -15,6 +16,9 @@ struct VdbImport {
   Placement place{};
   float voxel_size_m = 0.25F;  ///< of the world
   ReaderLimits reader{};       ///< of the process that reads the file
+  /// Gets the rows of the file that it has no row of the same name for; null: the built-in palette's alone.
+  ImportPalette* palette = nullptr;
+  MaterialMap map{};  ///< names or numbers of materials in the file that stand for rows of it
 };
 
 struct VdbSolid {

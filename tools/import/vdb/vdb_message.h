@@ -17,7 +17,8 @@ struct VdbHead {
   float least = 0.0F;                           ///< of the grid's values
   float greatest = 0.0F;
   uint8_t is_level_set = 0;
-  uint8_t has_materials = 0;
+  uint8_t has_materials =
+      0;  ///< then their names (a list of bytes) and their palette's bytes come before them
   /// Metadata of exports; each bit of `told` says whether there is one, in this order.
   uint8_t told = 0;
   float voxel_size_m = 0.0F;

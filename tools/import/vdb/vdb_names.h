@@ -5,7 +5,12 @@ namespace scree::vdb_names {
 
 inline constexpr const char* surface = "surface";  ///< the level set
 inline constexpr const char* material =
-    "material";  ///< Material's number, where the ground or paint says one
+    "material";  ///< rows of a palette, where the ground or paint says one
+
+/// Metadata of the grid of materials: the palette's names in order, a line each; and its bytes
+/// (proto/palette_codec.h) in hexadecimal digits.
+inline constexpr const char* material_names = "material_names";
+inline constexpr const char* palette = "scree_palette";
 
 /// Metadata of the level set: floats in metres, and the box of chunks that it has all of.
 inline constexpr const char* voxel_size_m = "scree_voxel_size_m";

@@ -145,6 +145,14 @@ void read_metadata(const FloatGrid& grid, VdbHead& head) {
   head.told = static_cast<uint8_t>(head.told | static_cast<uint8_t>(VdbTold::chunks));
 }
 
+/// Of a text in the metadata; none if there is none.
+std::vector<uint8_t> bytes_of(const openvdb::Int32Grid& grid, const char* name) {
+  const auto meta = grid.getMetadata<openvdb::StringMetadata>(name);
+  if (!meta) return {};
+  const std::string text = meta->value();
+  return {text.begin(), text.end()};
+}
+
 /// Words of OpenVDB's exceptions need words around them.
 Result<openvdb::GridPtrVecPtr> grids_in(const std::string& path) {
   try {
@@ -176,7 +184,10 @@ Result<void> send_vdb(ReaderChannel& channel, const std::string& path, const std
   TRY(channel.put_text(rock.name));
   TRY(channel.put_text(grids->size() > 1 ? list_of(*grids) : std::string()));
   TRY(send_grid(channel, *rock.grid));
-  if (materials != nullptr) TRY(send_grid(channel, *materials));
+  if (materials == nullptr) return {};
+  TRY(channel.put_list(bytes_of(*materials, vdb_names::material_names)));
+  TRY(channel.put_list(bytes_of(*materials, vdb_names::palette)));
+  TRY(send_grid(channel, *materials));
   return {};
 }
 

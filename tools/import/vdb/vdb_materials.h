@@ -1,0 +1,19 @@
+// What the numbers of an OpenVDB grid of materials stand for. Internal to import/vdb.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tools/import/import_palette.h"
+
+namespace scree {
+
+/// By `map`, which has names or numbers, or else by the names in the grid's metadata, a line each; without
+/// names, numbers are rows of the palette. Names
+/// that the palette lacks become rows of it: as in `packed`, the palette of the file, or else with the
+/// numbers of any row.
+Result<std::vector<VoxelMaterial>> rows_of_numbers(std::span<const uint8_t> names,
+                                                   std::span<const uint8_t> packed, const MaterialMap& map,
+                                                   ImportPalette& palette);
+
+}  // namespace scree
