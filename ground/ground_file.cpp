@@ -39,7 +39,7 @@ Result<std::vector<uint8_t>> read_at(int file, uint64_t begins, size_t count) {
 /// Each is a row of the palette.
 Result<void> check_materials(const GeneratedChunk& chunk, const Palette& palette) {
   if (chunk.stored_materials == nullptr) return {};
-  for (const BrickMaterials& brick : *chunk.stored_materials)
+  for (const BrickMaterials& brick : chunk.stored_materials->distinct())
     if (const VoxelMaterial last = brick.list().back(); last > palette.rows.size())
       return fail(fmt::format("a stored chunk has material {}, and its palette has {} (0 to {})", last - 1,
                               palette.rows.size(), palette.rows.size() - 1));

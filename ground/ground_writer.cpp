@@ -21,7 +21,7 @@ namespace {
 /// Format 1 has one material a brick, and the first rows of the built-in palette: rock, soil and ice.
 bool is_of_format_1(const GeneratedChunk& chunk) {
   if (chunk.stored_materials == nullptr) return true;
-  return std::ranges::all_of(*chunk.stored_materials, [](const BrickMaterials& brick) {
+  return std::ranges::all_of(chunk.stored_materials->distinct(), [](const BrickMaterials& brick) {
     return brick.is_uniform() && brick.uniform() <= said(material::ice);
   });
 }
@@ -30,7 +30,7 @@ bool is_of_format_1(const GeneratedChunk& chunk) {
 VoxelMaterial last_material(const GeneratedChunk& chunk) {
   VoxelMaterial last = ground_own;
   if (chunk.stored_materials != nullptr)
-    for (const BrickMaterials& brick : *chunk.stored_materials) last = std::max(last, brick.list().back());
+    for (const BrickMaterials& brick : chunk.stored_materials->distinct()) last = std::max(last, brick.list().back());
   return last;
 }
 

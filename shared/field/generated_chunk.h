@@ -23,6 +23,8 @@ class PackedChunkMaterials {
   explicit PackedChunkMaterials(const ChunkMaterials& materials);
 
   const BrickMaterials& at(int index) const { return distinct_[places_[static_cast<size_t>(index)]]; }
+  /// Those that occur, in the order of the first brick of each.
+  const std::vector<BrickMaterials>& distinct() const { return distinct_; }
   size_t bytes() const;
   bool operator==(const PackedChunkMaterials& other) const;
 

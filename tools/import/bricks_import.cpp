@@ -178,16 +178,24 @@ class Importer {
     return made;
   }
 
+  std::shared_ptr<const GeneratedChunk> stored_below(ChunkCoord chunk) const {
+    return stored_chunk(under_.source(), chunk).chunk;
+  }
+
   GeneratedChunk chunk_with_solids(ChunkCoord chunk, bool has_surface) {
     SolidRock rock{solids_, nullptr, {box_of(chunk)}, how_.material};
     if (!has_surface) {
       const auto owner = std::ranges::find_if(
           solids_, [&](const auto& solid) { return solid->is_inside(first_voxel(chunk)); });
-      if (owner == solids_.end()) return copy_of(under_.chunk_bricks(chunk).generated);
+      if (owner == solids_.end()) {
+        GeneratedChunk below = copy_of(under_.chunk_bricks(chunk).generated);
+        if (stored_below(chunk) == nullptr) below.stored_materials = nullptr;
+        return below;
+      }
       mass_ += MassUnits{chunk_size} * chunk_size * chunk_size * units_per_voxel;
       GeneratedChunk made = uniform_chunk(solid_brick());
       rock.owners.all = static_cast<uint32_t>(owner - solids_.begin());
-      made.stored_materials = united_materials(made, chunk, rock, under_.chunk_bricks(chunk).generated);
+      made.stored_materials = united_materials(made, chunk, rock, stored_below(chunk).get());
       return made;
     }
     const VoxelBox box = box_of(chunk).grown(chunk_apron);
@@ -200,7 +208,7 @@ class Importer {
     Window together = gather(under_, box);
     unite(solids, levels, together);
     GeneratedChunk made = split_into_bricks(together, chunk);
-    made.stored_materials = united_materials(made, chunk, rock, under_.chunk_bricks(chunk).generated);
+    made.stored_materials = united_materials(made, chunk, rock, stored_below(chunk).get());
     return made;
   }
 

@@ -64,7 +64,8 @@ BrickMaterials sampled_materials(const std::array<const BrickMaterials*, 8>& fin
 }
 
 /// Of a chunk, by the chunks of the level below; where none is stored, it says nothing.
-std::shared_ptr<const ChunkMaterials> coarser_materials(ChunkCoord parent, const ChunkPyramid::Level& fine) {
+std::shared_ptr<const PackedChunkMaterials> coarser_materials(ChunkCoord parent,
+                                                              const ChunkPyramid::Level& fine) {
   static const BrickMaterials none;
   ChunkMaterials materials;
   for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
@@ -74,8 +75,7 @@ std::shared_ptr<const ChunkMaterials> coarser_materials(ChunkCoord parent, const
       const BrickCoord at{brick.x * 2 + (k >> 2), brick.y * 2 + ((k >> 1) & 1), brick.z * 2 + (k & 1)};
       const auto found = fine.find(chunk_of(at));
       const auto* stored = found == fine.end() ? nullptr : found->second->stored_materials.get();
-      finer[static_cast<size_t>(k)] =
-          stored == nullptr ? &none : &(*stored)[static_cast<size_t>(index_in_chunk(at))];
+      finer[static_cast<size_t>(k)] = stored == nullptr ? &none : &stored->at(index_in_chunk(at));
     }
     materials[static_cast<size_t>(i)] = sampled_materials(finer);
   }

@@ -82,14 +82,15 @@ uint32_t SolidOwners::at(VoxelCoord voxel) const {
               static_cast<size_t>(in.z)];
 }
 
-std::shared_ptr<const ChunkMaterials> united_materials(const GeneratedChunk& chunk, ChunkCoord at,
-                                                       const SolidRock& rock, const GeneratedChunk& under) {
+std::shared_ptr<const PackedChunkMaterials> united_materials(const GeneratedChunk& chunk, ChunkCoord at,
+                                                             const SolidRock& rock,
+                                                             const GeneratedChunk* under) {
   ChunkMaterials materials;
   for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
     const BrickCoord brick = brick_in_chunk(at, i);
     const Brick& united = *chunk.bricks[static_cast<size_t>(i)];
     BrickMaterials& own = materials[static_cast<size_t>(i)];
-    own = under.materials(i);
+    if (under != nullptr) own = under->materials(i);
     if (&united != &air_brick() && has_rock(rock, brick)) own = of_brick(united, brick, rock, own);
   }
   return stored_materials_of(materials);

@@ -28,9 +28,11 @@ struct SolidRock {
   std::optional<Material> otherwise{};  ///< of rock for which its solid says nothing
 };
 
-/// What the voxels of `chunk`, the union, are of. `under`: what those of the ground below say. Air has the
+/// What the voxels of `chunk`, the union, are of. `under`: the stored chunk of the ground below; null: that
+/// stores none there, and its layers are to decide. Air has the
 /// material that most of the solids' rock in its brick has: so bricks of one material stay uniform.
-std::shared_ptr<const ChunkMaterials> united_materials(const GeneratedChunk& chunk, ChunkCoord at,
-                                                       const SolidRock& rock, const GeneratedChunk& under);
+std::shared_ptr<const PackedChunkMaterials> united_materials(const GeneratedChunk& chunk, ChunkCoord at,
+                                                             const SolidRock& rock,
+                                                             const GeneratedChunk* under);
 
 }  // namespace scree

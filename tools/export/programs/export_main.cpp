@@ -65,8 +65,7 @@ Result<Exported> field_of_world(const Options& options) {
   RecordedHeader& config = rows.world.moment.config;
   if (auto given = give_ground(config.ground, config.terrain, giver); !given)
     return fail(options.from + ": " + given.error().message);
-  auto palette = shared_builtin_palette();
-  if (!config.palette.empty()) palette = std::make_shared<const Palette>(TRY(decode_palette(config.palette)));
+  auto palette = config.palette == nullptr ? shared_builtin_palette() : config.palette;
   auto field = TRY(stored_field(std::move(file), config.terrain, limits::export_bricks_max));
   return Exported{std::move(field), std::move(palette)};
 }
