@@ -132,9 +132,10 @@ const BrickMaterials& Field::ground_materials(BrickCoord coord) const {
   if (!stored && !may_be_layered(chunk)) return bulk_;
   const GeneratedChunk& generated = generated_chunk(chunk);
   const PackedChunkMaterials* materials = generated.stored_materials.get();
-  if (materials != nullptr && !materials->at(index_in_chunk(coord)).says_ground())
-    return materials->at(index_in_chunk(coord));
-  if (!stored || !may_be_layered(chunk)) return bulk_;
+  const BrickMaterials* says = materials == nullptr ? nullptr : &materials->at(index_in_chunk(coord));
+  if (says != nullptr && !says->says_ground()) return *says;
+  const bool silent = says == nullptr || says->is_ground();
+  if (!stored || (silent && !may_be_layered(chunk))) return bulk_;
   return ground_materials_.of(source_, coord, generated);
 }
 
