@@ -17,10 +17,11 @@ class Site {
  public:
   explicit Site(SceneSetup& setup) : setup_(setup) {}
 
-  /// Corners are multiples of a voxel; faces lie between voxels.
+  /// Corners are multiples of a voxel; faces lie between voxels. What stands on the ground reaches into it.
   void put(std::string_view material, glm::vec3 lo_m, glm::vec3 hi_m) {
     const auto row = builtin_palette().named(material);
     CHECK(row.has_value());
+    if (lo_m.y == 0.0F) lo_m.y = -0.5F;
     const glm::vec3 middle = 0.5F * (lo_m + hi_m) + 0.5F * voxel_m;
     setup_.build.emplace_back(FillRequest{box(middle, 0.5F * (hi_m - lo_m)), *row});
   }
