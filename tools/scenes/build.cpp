@@ -21,7 +21,11 @@ Result<void> carry_out(World& world, const BuildStep& step) {
     delta = world.step({});
   }
   const std::string& refusal = delta->replies.front().refusal;
-  return refusal.empty() ? Result<void>() : fail(refusal);
+  if (!refusal.empty()) return fail(refusal);
+  if (delta->spawned.empty()) return {};
+  const glm::vec3 at_m = std::visit([](const auto& request) { return centre_of(request.shape); }, step);
+  return fail("something falls while the scene is built, at or before the fill about " +
+              std::to_string(at_m.x) + ", " + std::to_string(at_m.y) + ", " + std::to_string(at_m.z));
 }
 
 }  // namespace

@@ -17,12 +17,20 @@ class Site {
  public:
   explicit Site(SceneSetup& setup) : setup_(setup) {}
 
-  /// Corners are multiples of a voxel; faces lie between voxels.
+  /// Corners are multiples of a voxel; faces lie between voxels. What stands on the ground reaches into it.
   void put(std::string_view material, glm::vec3 lo_m, glm::vec3 hi_m) {
     const auto row = builtin_palette().named(material);
     CHECK(row.has_value());
+    if (lo_m.y == 0.0F) lo_m.y = -0.5F;
     const glm::vec3 middle = 0.5F * (lo_m + hi_m) + 0.5F * voxel_m;
     setup_.build.emplace_back(FillRequest{box(middle, 0.5F * (hi_m - lo_m)), *row});
+  }
+  /// Soil does not carry houses: what is below them becomes another material, down to the rock.
+  void found(std::string_view material, glm::vec3 lo_m, glm::vec3 hi_m) {
+    constexpr float deep_m = 1.5F;
+    const glm::vec3 low(lo_m.x - 0.5F, -deep_m, lo_m.z - 0.5F), high(hi_m.x + 0.5F, 0.125F, hi_m.z + 0.5F);
+    setup_.build.emplace_back(
+        PaintRequest{box(0.5F * (low + high), 0.5F * (high - low)), *builtin_palette().named(material)});
   }
   void heap(std::string_view material, glm::vec3 at_m, float radius_m) {
     setup_.build.emplace_back(FillRequest{sphere(at_m, radius_m), *builtin_palette().named(material)});
@@ -83,6 +91,7 @@ void timber_roof(Site& site, const Plan& plan) {
 
 void brick_house(Site& site) {
   const Plan plan{{-24.0F, 0.0F, -9.0F}, {-13.0F, 2.0F * level_m, -1.0F}};
+  site.found("concrete", plan.lo_m, plan.hi_m);
   for (const float floor_m : {0.0F, level_m}) one_storey(site, "brick", plan, floor_m);
   timber_roof(site, plan);
 }
@@ -90,6 +99,7 @@ void brick_house(Site& site) {
 /// Columns of steel carry slabs of concrete; the front and the back are of glass.
 void office(Site& site) {
   const Plan plan{{-5.0F, 0.0F, -10.0F}, {7.0F, 3.0F * level_m, -1.0F}};
+  site.found("concrete", plan.lo_m, plan.hi_m);
   for (float floor_m = 0.0F; floor_m < plan.hi_m.y; floor_m += level_m) {
     const float top_m = floor_m + level_m;
     for (const float x : {plan.lo_m.x, plan.lo_m.x + 3.75F, plan.lo_m.x + 7.5F, plan.hi_m.x - 0.5F})
@@ -107,6 +117,7 @@ void office(Site& site) {
 
 void timber_hut(Site& site) {
   const Plan plan{{14.0F, 0.0F, -8.0F}, {22.0F, level_m, -2.0F}};
+  site.found("rock", plan.lo_m, plan.hi_m);
   site.put("rock", {plan.lo_m.x - 0.5F, -0.5F, plan.lo_m.z - 0.5F},
            {plan.hi_m.x + 0.5F, 0.5F, plan.hi_m.z + 0.5F});
   one_storey(site, "timber", plan, 0.5F);
