@@ -88,15 +88,15 @@ int look_at(uvec3 entry, vec3 local, vec3 normal, float before) {
 }
 
 // How far the field as generated was from a point of the surface, for its looks (rock.glsl): x where rock has gone from
-// there, y where rock has come. Where the ground was at the same place but faced another way, what is above tells.
-// Something else above may be as near as `other`, voxels.
+// there, y where rock has come. Where the ground was at the same place but faced another way, what is above tells
+// whether rock has gone. Something else above may be as near as `other`, voxels.
 vec2 worn_at(vec3 from_eye, vec3 normal, int level, float before, float other) {
   float worn = before;
   if (abs(before) < worn_all) {
     vec3 above = from_eye + normal * (probe_height / u_voxels_per_m[level]);
     float now = min(field_at(above, level), other) / band;
-    float apart = generated_at(above, level) - now;
-    if (abs(apart) - turned_begins > abs(before)) worn = sign(apart) * (abs(apart) - turned_begins);
+    float gone = now - generated_at(above, level) - turned_begins;
+    if (gone > abs(before)) worn = -gone;
   }
   return vec2(max(-worn, 0.0), max(worn, 0.0));
 }

@@ -58,7 +58,7 @@ Marks bricks_at(vec3 p, vec3 n, float size, float broken, float pixel, float fin
   float width = 0.022 * size;
   float mortar = max(joint_at(edge.x, width, pixel), joint_at(edge.y, width, pixel));
   mortar = max(mortar, broken * joint_at(edge.z, width, pixel));
-  float far = smoothstep(0.25 * side.y, 0.9 * side.y, pixel);
+  float far = smoothstep(0.15 * side.y, 0.6 * side.y, pixel);
   Marks marks;
   vec3 tint = vec3(1.0 + 0.5 * draw.x + 0.25 * (fine - 0.5)) * mix(vec3(1.0), vec3(1.10, 0.95, 0.86), draw.y + 0.5);
   tint *= mix(1.0, 1.16, broken);
@@ -144,7 +144,7 @@ Marks grain_at(vec3 p, float size, float pixel) {
 
 // Pores, as concrete has them: where the colour varies at all, and the surface is dull.
 Marks plain_at(vec3 p, float pores, float pixel, vec4 small) {
-  Marks marks = Marks(vec3(1.0), small.yzw * 0.05, 1.0);
+  Marks marks = Marks(vec3(1.0), small.yzw * 0.02, 1.0);
   const float size = 0.11;
   float near = pores * (1.0 - smoothstep(0.006, 0.02, pixel));
   if (near <= 0.0) return marks;
@@ -163,11 +163,11 @@ Rock material_at(int look, vec3 p, vec3 n, vec4 coarse, vec4 middle, vec4 small,
   vec4 kind = texelFetch(u_materials, ivec2(look - 1, 1), 0);
   float variation = colour.a, roughness = kind.x, size = max(kind.z, 0.005);
   int pattern = int(kind.y + 0.5);
-  float pixel = 0.0011 * away;  // metres that it covers, about
+  float pixel = 0.0016 * away;  // metres that it covers, about
   float fine = 0.6 * middle.x + 0.4 * small.x;
   // What people make has faces along the axes: others are broken, and so are its edges. Loose ground breaks no such face.
   vec3 a = abs(n);
-  float broken = smoothstep(0.05, 0.16, 1.0 - max(a.x, max(a.y, a.z))) * (1.0 - smoothstep(0.96, 1.0, roughness));
+  float broken = smoothstep(0.12, 0.26, 1.0 - max(a.x, max(a.y, a.z))) * (1.0 - smoothstep(0.96, 1.0, roughness));
   broken *= smoothstep(0.1, 0.3, roughness);
   Marks marks;
   if (pattern == pattern_bricks) marks = bricks_at(p, n, size, broken, pixel, small.x);
@@ -184,7 +184,7 @@ Rock material_at(int look, vec3 p, vec3 n, vec4 coarse, vec4 middle, vec4 small,
   rock.albedo = clamp(colour.rgb * uneven * marks.shade, 0.0, 1.0);
   // Broken faces are uneven, in chips.
   vec3 chips = (small.yzw * 0.35 + middle.yzw * 0.45) * broken;
-  vec3 bump = marks.bump + chips + (middle.yzw * 0.05 + small.yzw * 0.07) * roughness * roughness;
+  vec3 bump = marks.bump + chips + (middle.yzw * 0.02 + small.yzw * 0.04) * roughness * roughness;
   rock.normal = normalize(n - (bump - n * dot(bump, n)) / (1.0 + away * 0.03));
   rock.open = marks.open;
   rock.roughness = mix(roughness, 1.0, 0.7 * broken);

@@ -48,25 +48,43 @@ vec4 facet(vec3 p, vec3 bend) {
 // How much of its shade a loose piece has of its own, with that look: made things are all alike.
 float piece_shade(int look) { return look > 0 ? 0.08 : 0.22; }
 
-// Rubble: stones about half a metre large, each of a bed of its own, with dirt in the joints. `bed`: the colour of broken
-// rock here; `bent`: slopes of the noise, which keep faces from being even.
-Rock rubble_at(vec3 p, vec3 n, vec3 bed, vec3 bent, float fine, float in_cleft, float away) {
-  vec3 q = along_beds * p;
-  Stone stone = stone_at(q * 1.9 + bent * 0.16);
-  float pixel = 0.0024 * away;  // in stones
+// One of the stones of rubble: planes that turn the light each its own way, round its edge, and the joint about it. `gap`:
+// what others take of its edge. `edge` becomes how far it is to the edge that is left.
+Rock stone_of(vec3 q, vec3 n, vec3 bed, vec3 bent, float fine, float gap, float pixel, out float edge) {
+  Stone stone = stone_at(q + bent * 0.07);
+  edge = stone.edge - gap;
   float near = 1.0 - smoothstep(0.25, 0.9, pixel);
-  float width = 0.085 + 0.10 * (1.0 - in_cleft);
-  float deep = (1.0 - smoothstep(0.35 * width, width + pixel, stone.edge)) * near;
-  // Faces: a stone is bounded by a few planes, one of them towards each neighbour.
-  vec4 face = facet(q * 3.1 + stone.way * 9.0, bent * 0.10);
-  float rim = 1.0 - smoothstep(0.0, 0.26, stone.edge);
+  // Stones touch here and there: joints are not equally wide.
+  float width = 0.03 + 0.09 * smoothstep(0.30, 0.75, fine);
+  float deep = (1.0 - smoothstep(0.3 * width, width + pixel, edge)) * near;
+  float rim = 1.0 - smoothstep(0.0, 0.24, edge);
+  vec4 face = facet(q * 1.25 + stone.way * 9.0, bent * 0.06);
+  vec3 round = -0.9 * stone.off - 1.7 * rim * rim * stone.joint;
+  vec3 bump = stone.way * 1.1 + face.xyz * 1.0 + round + bent * 0.14;
+  vec3 tint = mix(vec3(0.82, 0.87, 0.94), vec3(1.15, 0.96, 0.80), smoothstep(0.15, 0.85, stone.way.y + 0.5));
+  float shade = (0.66 + 0.70 * (stone.way.z + 0.5)) * (0.62 + 0.76 * fine);
   Rock rock;
-  vec3 warm = mix(vec3(0.74, 0.80, 0.88), vec3(1.18, 1.0, 0.84), stone.way.y + 0.5);
-  float shade = (0.70 + 0.62 * (stone.way.x + 0.5)) * (0.62 + 0.76 * fine);
-  rock.albedo = bed * warm * shade * mix(1.0, 0.20, deep);
-  vec3 bump = stone.way * 0.9 - stone.joint * rim * 1.1 + face.xyz * 0.75 + bent * 0.10;
+  rock.albedo = bed * tint * shade * mix(1.0, 0.66, rim * rim * near) * mix(1.0, 0.30, deep);
   rock.normal = n - (bump - n * dot(bump, n)) * near;
-  rock.open = 1.0 - 0.65 * deep;
+  rock.open = 1.0 - 0.30 * rim * near - 0.45 * deep;
+  rock.roughness = 1.0;
+  return rock;
+}
+
+// Rubble: stones up to 80 cm large, and small ones in the gaps between them. `bed`: the colour of broken rock here;
+// `bent`: slopes of the noise, which keep faces from being even; `sand`: brightness by grains of sand.
+Rock rubble_at(vec3 p, vec3 n, vec3 bed, vec3 bent, float fine, float sand, float in_cleft, float away) {
+  vec3 q = along_beds * p;
+  // More small ones where the surface turns in.
+  float gap = 0.07 + 0.22 * (1.0 - in_cleft) + 0.16 * (fine - 0.5);
+  float edge, small_edge;
+  Rock large = stone_of(q * 1.35, n, bed, bent, fine, gap, 0.0018 * away, edge);
+  Rock small = stone_of(q * 3.6 + 7.0, n, bed * 0.72, bent * 0.6, fine, 0.0, 0.005 * away, small_edge);
+  float filled = 1.0 - smoothstep(-0.02, 0.02, edge);
+  Rock rock;
+  rock.albedo = mix(large.albedo, small.albedo, filled) * (sand * mix(0.55, 1.0, smoothstep(0.1, 0.8, in_cleft)));
+  rock.normal = mix(large.normal, small.normal, filled);
+  rock.open = mix(large.open, small.open * 0.8, filled);
   rock.roughness = 1.0;
   return rock;
 }
@@ -80,6 +98,7 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
   vec4 small = noise(p * 5.1 + 5.0);
   if (look > 0) return material_at(look, p, shape_normal, coarse, middle, small, away);
   float fine = 0.6 * middle.x + 0.4 * small.x;
+  float uneven = fine;
   float bare = bare_of(worn.x + worn.y, fine);
   float grain = 1.0 / (1.0 + away * 0.05);
   vec3 bump = middle.yzw * 0.17 + small.yzw * 0.15 * grain;
@@ -122,7 +141,7 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
   float piled = bare * worn.y / max(worn.x + worn.y, 1e-3);
   if (piled > 0.0) {
     vec3 bed = mix(vec3(0.46, 0.235, 0.12), vec3(0.56, 0.36, 0.21), coarse.x);
-    Rock rubble = rubble_at(p, shape_normal, bed, middle.yzw, fine, in_cleft, away);
+    Rock rubble = rubble_at(p, shape_normal, bed, middle.yzw, uneven, 1.0 + fine - uneven, in_cleft, away);
     rock.albedo = mix(rock.albedo, rubble.albedo, piled);
     rock.normal = normalize(mix(rock.normal, normalize(rubble.normal), piled));
     rock.open = mix(rock.open, rubble.open, piled);

@@ -86,7 +86,7 @@ TEST_P(Layers, a_cut_lays_the_soil_bare) {
   // A cell of the grid is half a metre.
   const Colour soil = wall(image, 0.5F, depth_m - 0.2F);
   const Colour rock = wall(image, depth_m + 0.5F, 2.5F);
-  EXPECT_LT(soil.bright(), 0.75F * rock.bright());
+  EXPECT_LT(soil.bright(), 0.88F * rock.bright());
 }
 
 TEST_P(Layers, paint_is_seen) {

@@ -162,23 +162,23 @@ TEST(BrickLooksTest, untouched_ground_has_none_and_edited_bricks_have_those_of_t
   EXPECT_EQ(untouched.looks.all, Look{});
   EXPECT_EQ(untouched.looks.each, nullptr);
   PieceTable table;
-  apply(Operation(FillOperation{box({0.5F, 0.4F, 1.0F}, {0.5F, 0.6F, 1.5F}), brick}), field, table);
-  const LevelBrick one = bricks.read(field, {0, 0, 0});
-  EXPECT_EQ(one.looks.each, nullptr) << "the air above says nothing";
+  apply(Operation(FillOperation{box({0.5F, 2.9F, 1.0F}, {0.5F, 0.5F, 1.5F}), brick}), field, table);
+  const LevelBrick one = bricks.read(field, {0, 1, 0});
+  EXPECT_EQ(one.looks.each, nullptr) << "the air about it says nothing";
   EXPECT_EQ(one.looks.all.shown, said(brick));
-  apply(Operation(FillOperation{box({1.5F, 0.4F, 1.0F}, {0.5F, 0.6F, 1.5F}), concrete}), field, table);
-  const LevelBrick two = bricks.read(field, {0, 0, 0});
+  apply(Operation(FillOperation{box({1.5F, 2.9F, 1.0F}, {0.5F, 0.5F, 1.5F}), concrete}), field, table);
+  const LevelBrick two = bricks.read(field, {0, 1, 0});
   ASSERT_NE(two.looks.each, nullptr);
   const auto at = [&](int x, int y, int z) {
     return (*two.looks.each)[static_cast<size_t>((x * look_brick_side + y) * look_brick_side + z)].shown;
   };
-  EXPECT_EQ(at(1, 2, 3), said(brick));
-  EXPECT_EQ(at(6, 2, 3), said(concrete));
-  EXPECT_EQ(at(8, 2, 3), said(concrete)) << "beside the last of its rock";
+  EXPECT_EQ(at(1, 3, 3), said(brick));
+  EXPECT_EQ(at(6, 3, 3), said(concrete));
+  EXPECT_EQ(at(8, 3, 3), said(concrete)) << "beside the last of its rock";
   LevelBricks coarse(flat_terrain, 1);
   const LevelBrick far = coarse.read(field, {0, 0, 0});
   ASSERT_NE(far.looks.each, nullptr);
-  EXPECT_EQ((*far.looks.each)[static_cast<size_t>((1 * look_brick_side + 1) * look_brick_side + 1)].shown,
+  EXPECT_EQ((*far.looks.each)[static_cast<size_t>((1 * look_brick_side + 6) * look_brick_side + 1)].shown,
             said(brick));
 }
 

@@ -1,8 +1,10 @@
 // The viewer's window, on an X server of the test's own that shows nothing to anyone (Xvfb).
+#include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
 
 #include "client/viewer/pictures/png.h"
+#include "content/builtin_palette.h"
 #include "tests/support/run_viewer.h"
 #include "tests/support/viewer_window_fixture.h"
 
@@ -114,16 +116,18 @@ TEST_F(ViewerHand, fills_and_paints) {
   };
   hand("key f click 1");
   run_until(poured, "what was poured");
+  viewing_->session.mirror()->set_palette(shared_builtin_palette());
   const auto painted = [&] {
     Field& field = viewing_->session.mirror()->field();
     for (const ChunkCoord chunk : field.edited_chunks())
       for (const BrickCoord brick : field.edited_bricks(chunk))
-        if (field.painted(brick) == app_->settings().tool.material) return true;
+        if (std::ranges::count(field.materials(brick).list(), said(material::ice)) > 0) return true;
     return false;
   };
-  hand("key f key b click 1");
+  hand("key f key b key b click 1");
   run_until(painted, "what was painted");
   EXPECT_EQ(app_->settings().tool.use, ToolUse::paint);
+  EXPECT_EQ(app_->settings().tool.material, "ice");
   EXPECT_FALSE(viewing_->session.carved());
 }
 

@@ -146,10 +146,8 @@ int BlockWindows::worn(const SurfaceVertex& vertex, glm::vec3 p) const {
   const glm::vec3 normal(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
   const glm::vec3 above = p + normal * (probe_voxels / 127.0F);
   if (are_same(now, *before, cell_at(now.box, above))) return here;
-  const float apart = trilinear(*before, above) - trilinear(now, above);
-  const int turned = std::abs(static_cast<int>(apart)) - turned_begins;
-  if (turned <= std::abs(here)) return here;
-  return apart < 0.0F ? -turned : turned;
+  const int gone = static_cast<int>(trilinear(now, above) - trilinear(*before, above)) - turned_begins;
+  return gone > std::abs(here) ? -gone : here;
 }
 
 void BlockWindows::set_looks(SurfaceMesh& mesh) const {
