@@ -135,7 +135,7 @@ TEST_F(ViewerHand, walks_and_is_stopped_by_a_wall) {
   join(320, 200);
   capture_mouse();
   // A box stands on what it is aimed at.
-  const Tool box{.kind = ToolKind::box, .use = ToolUse::fill, .radius_m = 2.0F};
+  const Tool box{.kind = ToolKind::box, .use = ToolUse::fill, .material = {}, .radius_m = 2.0F};
   viewing_->session.strike(box, {0.0F, 6.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, steady_now_s());
   hand("key q");
   const float ground_m = ground_height_m(viewing_->session.mirror()->terrain(), 0.0F, 6.0F);
