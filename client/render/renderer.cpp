@@ -12,12 +12,12 @@
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gl_errors.h"
 #include "client/render/gl/line_drawer.h"
+#include "client/render/gl/material_table.h"
 #include "client/render/gl/particle_drawer.h"
 #include "client/render/gl/shader_sources.h"
 #include "client/render/gl/shadow_map.h"
 #include "client/render/scene/limits.h"
 #include "shared/base/check.h"
-#include "shared/material/material.h"
 
 namespace scree {
 namespace {
@@ -101,6 +101,8 @@ struct Renderer::Parts {
   std::vector<Contact> contacts;
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
+  std::shared_ptr<const Palette> palette = plain_palette();
+  MaterialTable materials{*palette};
   Fineness fineness;
   std::optional<ShadowMap> shadows{std::in_place, fineness.shadow_map_side};  ///< nothing: no shadows
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
@@ -210,7 +212,8 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
   pass.timers = &timers;
   pass.render_scale = std::max(fineness.render_scale, 1.0F);
   pass.eye_m = camera.eye_m;
-  pass.lighting = {sun, reach_m, nowhere_in_shadow(), shadows ? shadows->texture() : 0, layers};
+  pass.lighting = {sun,   reach_m, nowhere_in_shadow(), shadows ? shadows->texture() : 0, materials.texture(),
+                   layers};
   if (method != nullptr && shadows) draw_shadows(*method, camera, pass);
 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -321,6 +324,13 @@ void Renderer::set_trace(Trace* trace) {
 
 void Renderer::set_terrain(const TerrainSource& terrain) {
   parts_->layers = layers_of(terrain);
+}
+
+void Renderer::set_palette(const std::shared_ptr<const Palette>& palette) {
+  CHECK(palette != nullptr);
+  if (parts_->palette == palette) return;
+  parts_->palette = palette;
+  parts_->materials.set(*palette);
 }
 
 const std::string& Renderer::description() const {

@@ -13,6 +13,7 @@
 #include "client/render/scene/line_list.h"
 #include "client/render/scene/particle.h"
 #include "client/render/scene/quality.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -37,6 +38,9 @@ class Renderer {
 
   /// Sets the terrain, which decides where soil and ice cover the ground. Before the first call, all is rock.
   void set_terrain(const TerrainSource& terrain);
+  /// What materials look like from now on; before the first call, as rows of plain_palette(). Not null. Costs
+  /// nothing where the palette is the one that was set.
+  void set_palette(const std::shared_ptr<const Palette>& palette);
 
   /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing; without a
   /// method there is only sky. `lines` come last.

@@ -8,10 +8,12 @@ const uint kind_solid = 255u;
 const float band = 3.0;       // distances saturate there
 const float brick = 8.0;      // voxels a side
 const float brick_pitch = 11.0;  // with the apron, one voxel of which lies before the brick
+const int look_pitch = 9;        // voxels a side of a brick in the atlas of looks
 // Voxels before a window's border where the next level takes over: a ray that nears the border sees beyond it.
 const float border = 16.0;
 
 uniform usampler3D u_entries;
+uniform usampler3D u_looks;
 uniform sampler3D u_atlas;
 uniform vec3 u_atlas_texel;
 uniform ivec3 u_window;  // bricks; along x and z a power of two, along y half of it
@@ -19,16 +21,15 @@ uniform int u_levels;
 uniform vec3 u_eye_in[levels_max];  // voxels, from the window's lowest corner
 uniform ivec3 u_wrap[levels_max];   // where that corner's brick lies in the entries
 uniform float u_voxels_per_m[levels_max];
-uniform vec4 u_layers;  // metres: soil below, its depth, ice above, its depth
 
 const float cut_begins = -0.08;  // of the field as generated, code / 127 (rock.glsl)
 const float turned_begins = 0.35;  // of the same above the surface, where that faces another way
 const float worn_all = 0.46;     // nothing of the weathered ground is left
 const float probe_height = 2.75;  // voxels, as for meshes (shared/surface/surface_nets.h)
 
-uvec2 entry_at(ivec3 at, int level) {
+uvec3 entry_at(ivec3 at, int level) {
   ivec3 i = (at + u_wrap[level]) & (u_window - 1);
-  return texelFetch(u_entries, ivec3(i.z, i.y + level * u_window.y, i.x), 0).xy;
+  return texelFetch(u_entries, ivec3(i.z, i.y + level * u_window.y, i.x), 0).xyz;
 }
 
 // Trilinear value in a stored brick, `local` voxels from its first. Rounded to 1/256 voxel, which is what hardware
@@ -47,8 +48,8 @@ vec3 brick_gradient(uint entry, vec3 local) {
 }
 
 // The field as generated, code / 127: what an entry says of it, `same` where nothing was edited.
-float generated_in(uvec2 entry, vec3 local, float same) {
-  uint kind = (entry.y >> 24u) & ((256u >> uint(paint_bits)) - 1u);
+float generated_in(uvec3 entry, vec3 local, float same) {
+  uint kind = entry.y >> 24u;
   if (kind == 1u) return brick_value(entry.y, local) / band;
   return kind == 2u ? 1.0 : kind == 3u ? -1.0 : same;
 }
@@ -74,27 +75,30 @@ float generated_at(vec3 from_eye, int level) {
   return generated_in(entry_at(at, level), p - vec3(at) * brick, field_at(from_eye, level) / band);
 }
 
-// The paint number (client/render/scene/paint_number.h).
-int paint_of(uvec2 entry) { return int(entry.y >> uint(32 - paint_bits)); }
-
-// How far a point of a cut lies within the ground's layer of soil or ice, metres, as shared/field/material.h has it:
-// by the generated field as far above as the layer is deep. 0 or less: not at all.
-float layer_at(vec3 from_eye, float height_m, int level, float before) {
-  if (before >= cut_begins) return 0.0;
-  bool soil = height_m < u_layers.x;
-  if (!soil && height_m <= u_layers.z) return 0.0;
-  float depth = soil ? u_layers.y : u_layers.w;
-  return generated_at(from_eye + vec3(0.0, depth, 0.0), level) * band / u_voxels_per_m[level];
+// What the surface looks like at a point in a brick (client/render/levels/look_window.h): as the nearest voxel to a point
+// half a voxel beneath it. 0: as the ground.
+int look_at(uvec3 entry, vec3 local, vec3 normal, float before) {
+  uvec2 looks = uvec2(entry.z & 255u, (entry.z >> 8u) & 255u);
+  if (entry.z >> 24u != 0u) {
+    ivec3 slot = ivec3(int(entry.z & 255u), int((entry.z >> 8u) & 255u), int((entry.z >> 16u) & 255u));
+    ivec3 at = clamp(ivec3(floor(local - 0.5 * normal + 0.5)), ivec3(0), ivec3(look_pitch - 1));
+    looks = texelFetch(u_looks, slot * look_pitch + at.zyx, 0).rg;
+  }
+  return int(before < cut_begins ? looks.y : looks.x);
 }
 
-// How far the field as generated was from a point of the surface, for its looks (rock.glsl). Where the ground was at the
-// same place but faced another way, what is above tells: rock has gone from there, or has come. Something else
-// above may be as near as `other`, voxels.
-float worn_at(vec3 from_eye, vec3 normal, int level, float before, float other) {
-  if (abs(before) >= worn_all) return abs(before);
-  vec3 above = from_eye + normal * (probe_height / u_voxels_per_m[level]);
-  float now = min(field_at(above, level), other) / band;
-  return max(abs(before), abs(generated_at(above, level) - now) - turned_begins);
+// How far the field as generated was from a point of the surface, for its looks (rock.glsl): x where rock has gone from
+// there, y where rock has come. Where the ground was at the same place but faced another way, what is above tells
+// whether rock has gone. Something else above may be as near as `other`, voxels.
+vec2 worn_at(vec3 from_eye, vec3 normal, int level, float before, float other) {
+  float worn = before;
+  if (abs(before) < worn_all) {
+    vec3 above = from_eye + normal * (probe_height / u_voxels_per_m[level]);
+    float now = min(field_at(above, level), other) / band;
+    float gone = now - generated_at(above, level) - turned_begins;
+    if (gone > abs(before)) worn = -gone;
+  }
+  return vec2(max(-worn, 0.0), max(worn, 0.0));
 }
 
 // The finest level, from `level` on, that shows this point; u_levels beyond all.
@@ -111,7 +115,7 @@ int level_of(vec3 from_eye, int level) {
 // One look at the field from a point on a ray.
 struct Look {
   uint kind;
-  uvec2 entry;
+  uvec3 entry;
   vec3 local;      // in its brick, voxels
   vec3 lo;         // of the empty box around, from the point, voxels
   vec3 hi;

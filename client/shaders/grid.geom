@@ -18,9 +18,8 @@ out vec3 v_rock;
 out vec3 v_normal;
 out vec3 v_rock_normal;
 out float v_openness;
-out float v_worn;
-out vec4 v_paint;
-out float v_layer;
+out vec2 v_worn;
+flat out int v_look;
 
 const float nowhere = 1e9;
 const uint no_corner = 255u;
@@ -28,13 +27,13 @@ const uint no_corner = 255u;
 // The brick of the cell on one level.
 struct Home {
   int level;
-  uvec2 entry;
+  uvec3 entry;
   vec3 first;  // voxels
 };
 
 Home home_on(int level, vec3 middle) {
   vec3 at = floor(in_level(middle, level) / brick);
-  Home home = Home(level, uvec2(0u), at * brick);
+  Home home = Home(level, uvec3(0u), at * brick);
   if (all(greaterThanEqual(at, vec3(0.0))) && all(lessThan(at, vec3(u_window)))) home.entry = entry_at(ivec3(at), level);
   return home;
 }
@@ -46,7 +45,7 @@ Home home_of(vec3 corner, int level, vec3 middle, Home last) {
     if (level != last.level) home = home_on(level, middle);
     if (home.entry.x >> 24u != kind_unloaded) return home;
   }
-  return Home(u_levels, uvec2(0u), vec3(0.0));
+  return Home(u_levels, uvec3(0u), vec3(0.0));
 }
 
 // Metres; nowhere beyond all that is loaded.
@@ -59,17 +58,15 @@ float distance_at(vec3 corner, Home home) {
 }
 
 void emit(vec3 from_eye, vec3 normal, Home home) {
-  v_worn = 0.0;
-  v_paint = vec4(0.0);
-  v_layer = 0.0;
+  v_worn = vec2(0.0);
+  v_look = 0;
   if (home.entry.x >> 24u == kind_stored) {
     vec3 local = in_level(from_eye, home.level) - home.first;
     vec3 slope = brick_gradient(home.entry.x, local);
     if (dot(slope, slope) > 0.0) normal = normalize(slope);
     float before = generated_in(home.entry, local, 0.0);
-    v_worn = before == 0.0 ? 0.0 : worn_at(from_eye, normal, home.level, before, band);
-    v_paint = paint_colour(paint_of(home.entry));
-    v_layer = layer_at(from_eye, u_eye.y + from_eye.y, home.level, before);
+    if (before != 0.0) v_worn = worn_at(from_eye, normal, home.level, before, band);
+    v_look = look_at(home.entry, local, normal, before);
   }
   v_world = u_eye + from_eye;
   v_rock = v_world;
@@ -93,7 +90,7 @@ void main() {
   vec3 hi = vec3(lines[3].x, lines[4].x, lines[5].x);
   float distances[8];
   Home homes[8];
-  Home last = Home(-1, uvec2(0u), vec3(0.0));
+  Home last = Home(-1, uvec3(0u), vec3(0.0));
   int signs = 0;
   for (int i = 0; i < 8; ++i) {
     float level = max(lines[3 * (i >> 2)].y, max(lines[1 + 3 * ((i >> 1) & 1)].y, lines[2 + 3 * (i & 1)].y));

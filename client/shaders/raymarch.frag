@@ -23,23 +23,21 @@ void main() {
   gl_FragDepth = clamp(0.5 * clip.z / clip.w + 0.5, 0.0, 1.0);
 
   vec3 normal = -direction;
-  float worn = 0.0;
-  float layer_m = 0.0;
-  vec4 paint = vec4(0.0);
+  vec2 worn = vec2(0.0);
+  int material = 0;
   if (hit.there.kind == kind_stored) {
     vec3 slope = brick_gradient(hit.there.entry.x, hit.there.local);
     if (dot(slope, slope) > 0.0) normal = normalize(slope);
     float before = generated_in(hit.there.entry, hit.there.local, 0.0);
     if (before != 0.0) worn = worn_at(from_eye, normal, hit.level, before, band);
-    layer_m = layer_at(from_eye, world.y, hit.level, before);
-    paint = paint_colour(paint_of(hit.there.entry));
+    material = look_at(hit.there.entry, hit.there.local, normal, before);
   }
   float in_cleft = cleft_openness_at(from_eye, normal, hit.level, band);
   float open = openness_at(from_eye, normal, hit.level, in_cleft);
-  Rock rock = rock_at(world, normal, worn, layer_m, paint, in_cleft, hit.along);
+  Rock rock = rock_at(world, normal, worn, material, in_cleft, hit.along);
   float sunlight = max(dot(rock.normal, u_sun), 0.0);
   float voxel = 1.0 / u_voxels_per_m[hit.level];
   if (sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel), u_sun, hit.level);
   if (u_pieces && sunlight > 0.0) sunlight *= lit(world, normal);
-  o_colour = vec4(tone(in_fog(lit_rock(rock.albedo, rock.normal, open * rock.open, sunlight), world, hit.along)), 1.0);
+  o_colour = vec4(tone(in_fog(lit_rock(rock, rock.normal, open * rock.open, sunlight, -direction), world, hit.along)), 1.0);
 }

@@ -1,14 +1,7 @@
-// What rock looks like in the light of atmosphere.glsl, the same for every way to draw it. Needs haze.glsl and the
-// table of materials (client/render/gl/material_source.h).
+// What surfaces look like in the light of atmosphere.glsl, the same for every way to draw them. Needs haze.glsl and
+// material.glsl.
 
 uniform float u_ice_above_m;
-uniform float u_soil_below_m;
-
-struct Rock {
-  vec3 albedo;
-  vec3 normal;  // bent by the grain
-  float open;   // 1, less in a crack
-};
 
 // Beds of sandstone, bent a little; scrub and sand where it is flat.
 vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
@@ -52,27 +45,61 @@ vec4 facet(vec3 p, vec3 bend) {
   return vec4(way, abs(apart));
 }
 
-// A material lends its colour to the grain of what lies there.
-vec3 of_material(vec3 colour, vec3 albedo) { return colour * (0.25 + 1.15 * dot(albedo, vec3(0.3, 0.5, 0.2))); }
+// How much of its shade a loose piece has of its own, with that look: made things are all alike.
+float piece_shade(int look) { return look > 0 ? 0.08 : 0.22; }
 
-// Soil and ice, as far as a cut lays their layers bare.
-vec3 layered(vec3 albedo, float height_m, float layer_m, float bare) {
-  float shown = bare * smoothstep(0.04, 0.26, layer_m);
-  if (shown <= 0.0) return albedo;
-  float soil = 1.0 - smoothstep(u_soil_below_m - 0.4, u_soil_below_m, height_m);
-  vec3 colour = height_m < u_soil_below_m ? material_albedo[material_soil - 1] : material_albedo[material_ice - 1];
-  return mix(albedo, of_material(colour, albedo), shown * (height_m < u_soil_below_m ? soil : 1.0));
+// One of the stones of rubble: planes that turn the light each its own way, round its edge, and the joint about it. `gap`:
+// what others take of its edge. `edge` becomes how far it is to the edge that is left.
+Rock stone_of(vec3 q, vec3 n, vec3 bed, vec3 bent, float fine, float gap, float pixel, out float edge) {
+  Stone stone = stone_at(q + bent * 0.07);
+  edge = stone.edge - gap;
+  float near = 1.0 - smoothstep(0.25, 0.9, pixel);
+  // Stones touch here and there: joints are not equally wide.
+  float width = 0.03 + 0.09 * smoothstep(0.30, 0.75, fine);
+  float deep = (1.0 - smoothstep(0.3 * width, width + pixel, edge)) * near;
+  float rim = 1.0 - smoothstep(0.0, 0.24, edge);
+  vec4 face = facet(q * 1.25 + stone.way * 9.0, bent * 0.06);
+  vec3 round = -0.9 * stone.off - 1.7 * rim * rim * stone.joint;
+  vec3 bump = stone.way * 1.1 + face.xyz * 1.0 + round + bent * 0.14;
+  vec3 tint = mix(vec3(0.82, 0.87, 0.94), vec3(1.15, 0.96, 0.80), smoothstep(0.15, 0.85, stone.way.y + 0.5));
+  float shade = (0.66 + 0.70 * (stone.way.z + 0.5)) * (0.62 + 0.76 * fine);
+  Rock rock;
+  rock.albedo = bed * tint * shade * mix(1.0, 0.66, rim * rim * near) * mix(1.0, 0.30, deep);
+  rock.normal = n - (bump - n * dot(bump, n)) * near;
+  rock.open = 1.0 - 0.30 * rim * near - 0.45 * deep;
+  rock.roughness = 1.0;
+  return rock;
 }
 
-// At p in the frame of the rock, whose patterns stay with a piece that moves. `layer_m`: within the ground's layer;
-// `paint`: colour of the painted part, and how much is painted; `in_cleft`: 1 on an open face, less where other rock is near
-// above it; `away`: metres from the eye.
-Rock rock_at(vec3 p, vec3 shape_normal, float worn, float layer_m, vec4 paint, float in_cleft, float away) {
+// Rubble: stones up to 80 cm large, and small ones in the gaps between them. `bed`: the colour of broken rock here;
+// `bent`: slopes of the noise, which keep faces from being even; `sand`: brightness by grains of sand.
+Rock rubble_at(vec3 p, vec3 n, vec3 bed, vec3 bent, float fine, float sand, float in_cleft, float away) {
+  vec3 q = along_beds * p;
+  // More small ones where the surface turns in.
+  float gap = 0.07 + 0.22 * (1.0 - in_cleft) + 0.16 * (fine - 0.5);
+  float edge, small_edge;
+  Rock large = stone_of(q * 1.35, n, bed, bent, fine, gap, 0.0018 * away, edge);
+  Rock small = stone_of(q * 3.6 + 7.0, n, bed * 0.72, bent * 0.6, fine, 0.0, 0.005 * away, small_edge);
+  float filled = 1.0 - smoothstep(-0.02, 0.02, edge);
+  Rock rock;
+  rock.albedo = mix(large.albedo, small.albedo, filled) * (sand * mix(0.55, 1.0, smoothstep(0.1, 0.8, in_cleft)));
+  rock.normal = mix(large.normal, small.normal, filled);
+  rock.open = mix(large.open, small.open * 0.8, filled);
+  rock.roughness = 1.0;
+  return rock;
+}
+
+// At p in the frame of the rock, whose patterns stay with a piece that moves. `worn`: how far the field as generated was
+// from here, x where rock has gone, y where it has come; `look`: 0, or 1 + a row of the palette; `in_cleft`: 1 on an open
+// face, less where other rock is near above it; `away`: metres from the eye.
+Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, float away) {
   vec4 coarse = noise(p * 0.16);
   vec4 middle = noise(p * 1.3 + 17.0);
   vec4 small = noise(p * 5.1 + 5.0);
+  if (look > 0) return material_at(look, p, shape_normal, coarse, middle, small, away);
   float fine = 0.6 * middle.x + 0.4 * small.x;
-  float bare = bare_of(worn, fine);
+  float uneven = fine;
+  float bare = bare_of(worn.x + worn.y, fine);
   float grain = 1.0 / (1.0 + away * 0.05);
   vec3 bump = middle.yzw * 0.17 + small.yzw * 0.15 * grain;
   float open = 1.0;
@@ -108,19 +135,41 @@ Rock rock_at(vec3 p, vec3 shape_normal, float worn, float layer_m, vec4 paint, f
     }
     albedo = mix(albedo, broken, bare);
   }
-  albedo = layered(albedo, p.y, layer_m, bare);
-  if (paint.a > 0.0)
-    albedo = mix(albedo, of_material(paint.rgb / paint.a, albedo), smoothstep(0.3, 0.7, paint.a));
-
   // The slopes bend the normal, less with distance, where they would only flicker.
-  return Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain), open);
+  Rock rock = Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain), open, 1.0);
+  // Rubble is stones, whatever shape the field has room for.
+  float piled = bare * worn.y / max(worn.x + worn.y, 1e-3);
+  if (piled > 0.0) {
+    vec3 bed = mix(vec3(0.46, 0.235, 0.12), vec3(0.56, 0.36, 0.21), coarse.x);
+    Rock rubble = rubble_at(p, shape_normal, bed, middle.yzw, uneven, 1.0 + fine - uneven, in_cleft, away);
+    rock.albedo = mix(rock.albedo, rubble.albedo, piled);
+    rock.normal = normalize(mix(rock.normal, normalize(rubble.normal), piled));
+    rock.open = mix(rock.open, rubble.open, piled);
+  }
+  return rock;
+}
+
+// What a smooth surface mirrors of the sun and of the sky (Blinn 1977, with Schlick's approximation of Fresnel).
+vec3 mirrored(float roughness, vec3 normal, vec3 to_eye, float openness, float sunlight) {
+  float gloss = 1.0 - roughness;
+  float facing = clamp(dot(normal, to_eye), 0.0, 1.0);
+  float straight = mix(0.04, 0.30, smoothstep(0.4, 0.75, gloss));
+  float share = straight + (1.0 - straight) * pow(1.0 - facing, 5.0);
+  float power = exp2(1.0 + 8.0 * gloss);
+  float peak = pow(max(dot(normal, normalize(u_sun + to_eye)), 0.0), power) * (power + 8.0) / 25.0;
+  vec3 back = reflect(-to_eye, normal);
+  vec3 around = mix(ground_colour * 0.6, sky(back), smoothstep(-0.15, 0.15, back.y));
+  return (sun_colour * min(sunlight * peak, 3.0) + around * openness) * share * gloss * gloss;
 }
 
 // `sunlight`: cosine of the sun's angle, 0 in shadow. `openness`: 1 under the open sky, less in a crevice.
-vec3 lit_rock(vec3 albedo, vec3 normal, float openness, float sunlight) {
+// `normal` in the world; `to_eye`: unit.
+vec3 lit_rock(Rock rock, vec3 normal, float openness, float sunlight, vec3 to_eye) {
   float open = mix(1.0, openness, 0.85);
   open = open * open;
   // What the rock around reflects: most in a crevice, and of the rock's own colour.
-  vec3 bounce = sun_colour * albedo * (0.05 + 0.14 * (1.0 - open));
-  return albedo * (sun_colour * sunlight + ambient(normal) * open + bounce);
+  vec3 bounce = sun_colour * rock.albedo * (0.05 + 0.14 * (1.0 - open));
+  vec3 light = rock.albedo * (sun_colour * sunlight + ambient(normal) * open + bounce);
+  if (rock.roughness < 1.0) light += mirrored(rock.roughness, normal, to_eye, open, sunlight);
+  return light;
 }

@@ -3,8 +3,8 @@
 layout(location = 0) in vec3 a_position;  // 1/256 voxel, from the mesh's origin
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in float a_openness;
-layout(location = 3) in float a_before;  // code / 127 of the field as generated: how far it was from here
-layout(location = 4) in float a_paint;   // client/render/scene/paint_number.h, vertex_paint
+layout(location = 3) in float a_worn;  // packed_worn() of client/render/levels/surface_looks.h
+layout(location = 4) in float a_look;  // 0: as the ground; else 1 + a row of the palette
 
 uniform mat4 u_view_projection;
 uniform float u_step;         // voxels a step of a_position
@@ -19,9 +19,10 @@ out vec3 v_rock;  // in the frame of the rock: patterns stay with a piece that m
 out vec3 v_normal;
 out vec3 v_rock_normal;
 out float v_openness;
-out float v_worn;
-out vec4 v_paint;    // of the painted part: its colour, times how much of it there is
-out float v_layer;   // metres within the ground's layer of soil or ice
+out vec2 v_worn;     // rock.glsl
+flat out int v_look;  // of all three vertices
+
+const float worn_step = 58.0 / 127.0 / 15.0;
 
 void main() {
   // Voxels are exact; metres are rounded once. So blocks meet to the bit, whatever the size of a voxel.
@@ -30,9 +31,8 @@ void main() {
   v_rock_normal = a_normal;
   v_normal = rotated(u_rotation, a_normal);
   v_openness = a_openness;
-  v_worn = abs(a_before);
-  int paint = int(a_paint);
-  v_paint = paint_colour(paint & (paint_in_cuts - 1));
-  v_layer = float(paint / paint_in_cuts) * layer_step_m;
+  float come = floor(a_worn / 16.0);
+  v_worn = vec2(a_worn - 16.0 * come, come) * worn_step;
+  v_look = int(a_look);
   gl_Position = u_view_projection * vec4(v_world, 1.0);
 }

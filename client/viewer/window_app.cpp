@@ -124,7 +124,7 @@ void WindowApp::end_path(double now_s) {
 /// Says what changed: with the panel hidden, nothing else does.
 void WindowApp::change_hand(Action action, double now_s) {
   const Tool tool = tool_;
-  change(tool_, action);
+  change(tool_, action, viewing_.session.palette());
   if (tool != tool_ && !viewing_.session.is_replay()) say(describe(tool_), now_s);
   const HandChoice hand = hand_;
   change(hand_, action);
@@ -190,7 +190,7 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
                      choice_.graphs);
     if (choice_.panel)
       picked = hud_.panel(viewing_.view->methods().chosen(),
-                          {tool_, overlay_, method_options_, particles_, predict_, hand_, quality_});
+                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, predict_, hand_, quality_});
     hud_.help(choice_.help, window_.has_gamepad(),
               viewing_.session.is_replay() ? ControlsOf::replay : ControlsOf::live);
     hud_.timeline(viewing_.session.timeline(), now_s);

@@ -12,6 +12,7 @@
 #include "client/web/socket_bridge.h"
 #include "proto/limits.h"
 #include "shared/base/check.h"
+#include "shared/material/material_members.h"
 
 namespace scree {
 namespace {
@@ -255,7 +256,10 @@ int scree_set_use(const char* use) {
 }
 
 int scree_set_material(const char* name) {
-  return set_kind(client().tool.material, name);
+  const std::string wanted = name;
+  if (!wanted.empty() && !check_material_name(wanted)) return 0;
+  client().tool.material = wanted;
+  return 1;
 }
 
 int scree_set_pattern(const char* name) {

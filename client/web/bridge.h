@@ -118,10 +118,12 @@ int scree_act(const char* action);
 const char* scree_asked();
 
 /// The tool, by the names in scree_catalogue().
-int scree_set_tool(const char* kind);      ///< its shape: "crater"
-int scree_set_use(const char* use);        ///< "carve", "fill", "paint"
-int scree_set_material(const char* name);  ///< to paint with
-int scree_set_pattern(const char* name);   ///< of the cracks
+int scree_set_tool(const char* kind);  ///< its shape: "crater"
+int scree_set_use(const char* use);    ///< "carve", "fill", "paint"
+/// To fill or paint with, by its name in "materials" of scree_state(). "": as the ground. A name that the
+/// world's palette lacks stands for the first.
+int scree_set_material(const char* name);
+int scree_set_pattern(const char* name);  ///< of the cracks
 int scree_set_radius(float metres);
 int scree_set_blast(float metres_per_second);
 int scree_set_seeds(int seeds);  ///< pieces that a carve makes; 0: by its volume
@@ -144,7 +146,7 @@ void scree_replay_seek(double tick);
 /// What never changes, once:
 ///
 /// {"methods": [{"name", "summary", "missing": what this browser lacks for it, or null}],
-///  "qualities": ["auto", "low", …], "tools": […], "uses": […], "materials": […], "patterns": […],
+///  "qualities": ["auto", "low", …], "tools": […], "uses": […], "patterns": […],
 ///  "limits": {"view_radius_m": [least, most], "tool_radius_m": […], "blast_speed_m_s": […], "seeds": […],
 ///             "field_of_view_degrees": […], "look_speed": […], "replay_speed": […],
 ///             "line_bytes": n, "name_bytes": n},
@@ -174,8 +176,10 @@ const char* scree_catalogue();
 ///            "tick_median_ms", "tick_worst_ms", "field_hash": hexadecimal, "repairs", "chunks_waiting",
 ///            "saving", "ledger": {"terrain", "pieces", "dust", "poured", "moved"}, in m³,
 ///            "refusals": {reason: count}},
-///  "tool": {"kind", "use", "material", "radius_m", "blast_speed_m_s", "pattern", "seeds", "seeds_now"},
-///  "view": {"method", "quality", "quality_auto", "view_radius_m", "particles", "predict", "overlay",
+///  "materials": [{"name", "colour": "#rrggbb"}], the rows of the world's palette, which may change,
+///  "tool": {"kind", "use", "material": a name, or "", "radius_m", "blast_speed_m_s", "pattern", "seeds",
+///  "seeds_now"}, "view": {"method", "quality", "quality_auto", "view_radius_m", "particles", "predict",
+///  "overlay",
 ///           "field_of_view_degrees", "look_speed"},
 ///  "persons": {"list": [{"session", "name", "role"}], "more", "chat"},
 ///  "lines": ["Ann: mind the edge"], of the last seconds,

@@ -46,7 +46,7 @@ float PageClient::aspect() const {
 }
 
 void PageClient::act(Action action, double now_s) {
-  change(tool, action);
+  change(tool, action, visit_.session.palette());
   change(hand, action);
   visit_.session.timeline().act(action);
   switch (action) {

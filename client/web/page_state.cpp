@@ -1,6 +1,8 @@
 #include "client/web/page_state.h"
 
+#include <array>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -114,10 +116,29 @@ Json mirror_json(const Mirror& mirror, const HudFacts& facts) {
           {"edited_bricks", facts.edited_bricks}};
 }
 
+std::string hex_colour(const LineColour& colour) {
+  char text[8];
+  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.red, colour.green, colour.blue);
+  return text;
+}
+
+/// As a screen shows a linear colour, about.
+LineColour shown_colour(const std::array<float, 3>& linear) {
+  const auto bright = [](float part) { return static_cast<uint8_t>(255.0F * std::sqrt(part)); };
+  return {bright(linear[0]), bright(linear[1]), bright(linear[2]), 255};
+}
+
+Json materials_json(const Palette& palette) {
+  Json list = Json::array();
+  for (const MaterialRow& row : palette.rows)
+    list.push_back({{"name", row.name}, {"colour", hex_colour(shown_colour(row.look.colour))}});
+  return list;
+}
+
 Json tool_json(const Tool& tool) {
   return {{"kind", name_of(tool.kind)},
           {"use", name_of(tool.use)},
-          {"material", name_of(tool.material)},
+          {"material", tool.material},
           {"radius_m", tool.radius_m},
           {"blast_speed_m_s", tool.blast_speed_m_s},
           {"pattern", name_of(tool.pattern)},
@@ -180,12 +201,6 @@ Json draw_json(PageClient& client, const HudFacts& facts) {
           {"first_gl_error", renderer.first_gl_error()}};
 }
 
-std::string hex_colour(const LineColour& colour) {
-  char text[8];
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", colour.red, colour.green, colour.blue);
-  return text;
-}
-
 }  // namespace
 
 std::string catalogue_text() {
@@ -213,7 +228,6 @@ std::string catalogue_text() {
                   {"qualities", qualities},
                   {"tools", names_of<ToolKind>()},
                   {"uses", names_of<ToolUse>()},
-                  {"materials", names_of<Material>()},
                   {"patterns", patterns},
                   {"limits", limits_json()},
                   {"events", events},
@@ -246,6 +260,7 @@ std::string state_text(PageClient& client) {
             {"preparing", nullptr},
             {"latency_ms", facts.latency ? Json(facts.latency->total_ms) : Json()},
             {"status", facts.status ? status_json(*facts.status, facts.voxel_size_m) : Json()},
+            {"materials", materials_json(session.palette())},
             {"tool", tool_json(client.tool)},
             {"view", view_json(client)},
             {"persons", persons_json(session.conversation().persons())},

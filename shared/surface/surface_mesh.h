@@ -27,7 +27,7 @@ struct SurfaceVertex {
   uint8_t openness = 255;              ///< 255: the field is open above; less: a crevice
   Code before = 0;                     ///< code of the `before` window here; 0 without one
   std::array<int8_t, 3> normal{};      ///< the field's gradient, out of the rock; unit length is 127
-  uint8_t paint = 0;                   ///< for the drawing side (client/render/scene/paint_number.h)
+  uint8_t look = 0;                    ///< for the drawing side (client/render/levels/look_window.h)
 
   bool operator==(const SurfaceVertex&) const = default;
 };

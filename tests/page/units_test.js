@@ -15,6 +15,7 @@ import { picture_name } from './page/picture.js';
 import { Socket, ask_why, session_url, told_url, why_closed } from './page/socket.js';
 import { is_read_on_the_way, is_withheld, insist, token_to_send } from './page/secrets.js';
 import { points } from './page/spark.js';
+import { materials_for } from './page/tools.js';
 import { budget_text, heads, latency_bars, lists, session_row, stage_bars } from './page/status_figures.js';
 import { bytes, span, time, whole } from './page/words.js';
 
@@ -410,4 +411,16 @@ test('rock that differed from the server, and what OpenGL refused, is marked', (
   assert.deepEqual(bad(seen), []);
   const mirror = { ...seen.mirror, mismatches: 1 }, draw = { ...seen.draw, gl_errors: 2, first_gl_error: 'lost' };
   assert.deepEqual(bad({ ...seen, mirror, draw }), ['OpenGL errors', 'that differed']);
+});
+
+test('a fill may be as the ground, paint may not, and what a world lacks is its first', () => {
+  const materials = [{ name: 'rock', colour: '#938e8b' }, { name: 'brick', colour: '#99543f' }];
+  const chosen = (use, material) => materials_for({ use, material }, materials).chosen;
+  assert.equal(materials_for({ use: 'fill', material: '' }, materials).list.length, 3);
+  assert.equal(materials_for({ use: 'paint', material: '' }, materials).list.length, 2);
+  assert.equal(chosen('fill', ''), '');
+  assert.equal(chosen('paint', ''), 'rock');
+  assert.equal(chosen('fill', 'brick'), 'brick');
+  assert.equal(chosen('fill', 'amber'), 'rock');
+  assert.equal(materials_for({ use: 'paint', material: 'amber' }, []).chosen, '');
 });

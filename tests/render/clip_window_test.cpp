@@ -5,10 +5,7 @@
 #include <cstdlib>
 #include <gtest/gtest.h>
 #include <map>
-#include <set>
-#include <string>
 
-#include "client/render/gl/material_source.h"
 #include "shared/base/random.h"
 
 namespace scree {
@@ -25,7 +22,7 @@ class ClipWindowTest : public testing::Test {
   }
   void set(BrickCoord brick, uint32_t kind) {
     const uint32_t field = kind == 1 ? clip_empty : ClipEntry::packed(kind, AtlasSlot{7, 8, 9});
-    window_.set(brick, {field, 0});
+    window_.set(brick, {field, 0, 0});
     kinds_[brick] = kind;
   }
   void fill(Random& random, int percent_stored) {
@@ -122,50 +119,32 @@ TEST_F(ClipWindowTest, only_what_changed_is_uploaded_again) {
   int slabs = 0;
   window_.drain_changed_slabs([&](int, const ClipEntry*) { ++slabs; });
   EXPECT_EQ(slabs, side);
-  window_.set({5, 2, 3}, {ClipEntry::packed(ClipEntry::stored, AtlasSlot{1, 1, 1}), 0});
+  window_.set({5, 2, 3}, {ClipEntry::packed(ClipEntry::stored, AtlasSlot{1, 1, 1}), 0, 0});
   window_.settle();
   std::vector<int> changed;
   window_.drain_changed_slabs([&](int x, const ClipEntry*) { changed.push_back(x); });
   EXPECT_EQ(changed, std::vector<int>{5});
 }
 
-TEST(PaintNumber, tells_every_material_apart_painted_or_in_a_cut) {
-  static_assert(paint_in_cuts > 8, "eight materials have room");
-  std::set<uint8_t> numbers{0};
-  for (const Material material : all_kinds<Material>) {
-    const uint8_t painted = paint_number(material), layer = layer_number(material);
-    EXPECT_LT(painted, paint_in_cuts) << name_of(material);
-    EXPECT_LT(layer, 1U << paint_bits) << name_of(material);
-    EXPECT_TRUE(numbers.insert(painted).second) << name_of(material);
-    EXPECT_EQ(numbers.insert(layer).second, material != material::rock) << "fresh rock is no paint";
+TEST(ClipEntry, has_slots_for_the_field_as_it_was_and_for_looks) {
+  const AtlasSlot slot{27, 5, 1};
+  for (const uint32_t kind : {ClipEntry::same, ClipEntry::mixed, ClipEntry::air, ClipEntry::rock}) {
+    const ClipEntry entry{ClipEntry::packed(ClipEntry::stored, slot), ClipEntry::packed(kind, slot),
+                          ClipEntry::packed(ClipEntry::looks_mixed, slot)};
+    EXPECT_EQ(entry.kind(), ClipEntry::stored);
+    EXPECT_EQ(entry.has_before_slot(), kind == ClipEntry::mixed);
+    EXPECT_EQ(ClipEntry::slot_of(entry.before), slot);
+    EXPECT_TRUE(entry.has_looks_slot());
+    EXPECT_EQ(ClipEntry::slot_of(entry.looks), slot);
   }
+  EXPECT_FALSE((ClipEntry{0, 0, 0xFFFF}.has_looks_slot())) << "all of one look";
 }
 
-TEST(PaintNumber, lies_beside_the_slot_and_kind_of_an_entry) {
-  for (const uint32_t kind : {ClipEntry::same, ClipEntry::mixed, ClipEntry::air, ClipEntry::rock})
-    for (uint32_t number = 0; number < 1U << paint_bits; ++number) {
-      const AtlasSlot slot{255, 128, 1};
-      ClipEntry entry{ClipEntry::packed(ClipEntry::stored, slot), ClipEntry::packed(kind, slot)};
-      entry.paint(static_cast<uint8_t>((1U << paint_bits) - 1));
-      entry.paint(static_cast<uint8_t>(number));
-      EXPECT_EQ(entry.paint(), number);
-      EXPECT_EQ(entry.has_before_slot(), kind == ClipEntry::mixed);
-      EXPECT_EQ(ClipEntry::slot_of(entry.before), slot);
-      EXPECT_EQ(entry.kind(), ClipEntry::stored);
-    }
-}
-
-/// The shaders' side, which they have as text.
-TEST(PaintNumber, is_the_same_in_shaders) {
-  const std::string text(material_source());
-  const auto has = [&](const std::string& line) { return text.find(line + ";\n") != std::string::npos; };
-  EXPECT_TRUE(has("const int paint_bits = " + std::to_string(paint_bits))) << text;
-  EXPECT_TRUE(has("const int paint_in_cuts = " + std::to_string(paint_in_cuts))) << text;
-  for (const Material material : all_kinds<Material>)
-    EXPECT_TRUE(has("const int material_" + std::string(name_of(material)) + " = " +
-                    std::to_string(paint_number(material))))
-        << text;
-  EXPECT_NE(text.find("vec3[" + std::to_string(kind_count<Material>) + "]"), std::string::npos) << text;
+TEST_F(ClipWindowTest, a_brick_that_stays_empty_keeps_what_else_its_entry_says) {
+  window_.move_to({0, 0, 0}, [](const ClipEntry&) {});
+  window_.set({3, 2, 3}, {clip_empty, 0, 7});
+  window_.settle();
+  EXPECT_EQ(window_.at({3, 2, 3}).looks, 7U);
 }
 
 }  // namespace

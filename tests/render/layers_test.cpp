@@ -5,14 +5,13 @@
 
 #include "client/render/methods.h"
 #include "client/viewer/pictures/png.h"
-#include "shared/field/paint.h"
+#include "content/builtin_palette.h"
 #include "tests/support/flat_terrain.h"
 #include "tests/support/offscreen_fixture.h"
 
 namespace scree {
 namespace {
 
-constexpr float soil_depth_m = traits_of(material::soil).layer_depth_m;
 /// A wall that faces the camera, from the ground down.
 constexpr float wall_z_m = -4.0F, pit_depth_m = 4.0F;
 
@@ -32,12 +31,18 @@ class Layers : public OffscreenTest, public testing::WithParamInterface<std::str
     OffscreenTest::SetUp();
     if (method_ == nullptr) return;
     renderer_->set_terrain(field_.source());
+    renderer_->set_palette(shared_builtin_palette());
     finish();
-    PieceTable table;
     const CarveOperation pit{box({0.0F, 0.0F, 0.0F}, {4.0F, pit_depth_m, -wall_z_m}), {}, 1, 5, {}, 1};
-    changes_.bricks = apply(Operation(pit), field_, table).changed;
+    change(pit);
     camera_.eye_m = {0.0F, -0.5F, 2.5F};
     camera_.pitch = -0.2F;
+  }
+
+  void change(const Operation& operation) {
+    PieceTable table;
+    const Applied applied = apply(operation, field_, table);
+    changes_.bricks.insert(changes_.bricks.end(), applied.changed.begin(), applied.changed.end());
   }
 
   Image show() {
@@ -77,20 +82,19 @@ class Layers : public OffscreenTest, public testing::WithParamInterface<std::str
 TEST_P(Layers, a_cut_lays_the_soil_bare) {
   const Image image = show();
   save_picture(image, "soil");
+  const float depth_m = field_.source().rows.soil_depth_m;
   // A cell of the grid is half a metre.
-  const Colour soil = wall(image, 0.5F, soil_depth_m - 0.2F);
-  const Colour rock = wall(image, soil_depth_m + 0.5F, 2.5F);
-  EXPECT_LT(soil.bright(), 0.75F * rock.bright());
+  const Colour soil = wall(image, 0.5F, depth_m - 0.2F);
+  const Colour rock = wall(image, depth_m + 0.5F, 2.5F);
+  EXPECT_LT(soil.bright(), 0.88F * rock.bright());
 }
 
 TEST_P(Layers, paint_is_seen) {
-  const std::vector<BrickCoord> painted =
-      paint(field_, in_voxels(box({0.0F, -3.0F, wall_z_m}, {4.0F, 1.5F, 3.0F}), voxel_m), material::ice);
-  changes_.bricks.insert(changes_.bricks.end(), painted.begin(), painted.end());
+  change(PaintOperation{box({0.0F, -3.0F, wall_z_m}, {4.0F, 1.0F, 3.0F}), material::ice});
   const Image image = show();
   save_picture(image, "paint");
-  const Colour ice = wall(image, 2.3F, 3.0F), soil = wall(image, 0.5F, soil_depth_m - 0.2F);
-  EXPECT_GT(ice.blue, 0.85F * ice.red);
+  const Colour ice = wall(image, 2.5F, 3.2F), soil = wall(image, 0.4F, 0.8F);
+  EXPECT_GT(ice.blue, 0.9F * ice.red);
   EXPECT_LT(soil.blue, 0.75F * soil.red) << "above the paint";
 }
 

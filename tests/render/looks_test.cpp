@@ -1,14 +1,24 @@
-// What vertices say of their looks: how worn the ground is, its layers, its paint.
+// What vertices say of their looks: how worn the ground is, and what they lie on.
 #include <gtest/gtest.h>
 
 #include "client/render/levels/block_windows.h"
-#include "shared/field/edit.h"
-#include "shared/field/paint.h"
+#include "client/render/levels/level_bricks.h"
+#include "client/render/levels/surface_looks.h"
+#include "client/render/pieces/piece_mesh.h"
 #include "shared/operation/operation.h"
+#include "tests/support/edge_uses.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/mesh_position.h"
 
 namespace scree {
 namespace {
+
+constexpr Material brick{7}, concrete{6};  // of the built-in palette
+
+glm::vec3 place_of(const SurfaceMesh& mesh, const SurfaceVertex& vertex) {
+  return glm::vec3(mesh.origin.x, mesh.origin.y, mesh.origin.z) +
+         glm::vec3(vertex.position[0], vertex.position[1], vertex.position[2]) / surface_steps_per_voxel;
+}
 
 /// A pit with walls along x = ±2 m in flat ground, whose uppermost metre is soil.
 class Looks : public testing::Test {
@@ -18,20 +28,16 @@ class Looks : public testing::Test {
     const CarveOperation pit{box({0.0F, 0.0F, 0.0F}, {2.0F, 3.0F, 6.0F}), {}, 1, 5, {}, 1};
     apply(Operation(pit), field_, table);
   }
+  SurfaceMesh mesh() const {
+    const std::optional<BlockWindows> windows = gather_windows(field_, {{0, -16, 0}, {16, 16, 16}});
+    return windows ? windows->mesh() : SurfaceMesh{};
+  }
   /// Calls f(vertex, place in voxels) for each vertex of a block about one of the pit's edges.
   template <typename F>
   void for_each_vertex(F&& f) {
-    const std::optional<BlockWindows> windows = gather_windows(field_, {{0, -16, 0}, {16, 16, 16}});
-    ASSERT_TRUE(windows);
-    const SurfaceMesh mesh = windows->mesh();
-    ASSERT_FALSE(mesh.empty());
-    for (const SurfaceVertex& vertex : mesh.vertices)
-      f(vertex,
-        glm::vec3(mesh.origin.x, mesh.origin.y, mesh.origin.z) +
-            glm::vec3(vertex.position[0], vertex.position[1], vertex.position[2]) / surface_steps_per_voxel);
-  }
-  static float layer_m(const SurfaceVertex& vertex) {
-    return static_cast<float>(vertex.paint / paint_in_cuts) * layer_step_m;
+    const SurfaceMesh made = mesh();
+    ASSERT_FALSE(made.empty());
+    for (const SurfaceVertex& vertex : made.vertices) f(vertex, place_of(made, vertex));
   }
 
   MapField field_{flat_terrain};
@@ -42,48 +48,146 @@ TEST_F(Looks, a_wall_is_worn_up_to_the_ground_that_it_ends_at) {
   for_each_vertex([&](const SurfaceVertex& vertex, glm::vec3 p) {
     const bool upright = std::abs(vertex.normal[0]) > 120;
     const bool flat = vertex.normal[1] > 126 && p.x > 12.5F;
+    const int worn = unpacked_worn(vertex.before);
     // Two voxels below the ground's surface, at most.
     if (upright && p.y > -2.0F) {
       ++walls;
-      EXPECT_GT(vertex.before, 28) << p.x << " " << p.y;
+      EXPECT_LT(worn, -26) << p.x << " " << p.y;
     }
     if (flat && p.y > -1.0F) {
       ++ground;
-      EXPECT_LE(vertex.before, 4) << p.x << " " << p.y;
+      EXPECT_LE(std::abs(worn), 4) << p.x << " " << p.y;
     }
   });
   EXPECT_GT(walls, 10U);
   EXPECT_GT(ground, 10U);
 }
 
-TEST_F(Looks, a_layer_becomes_thinner_with_depth_and_ends_as_deep_as_it_is) {
-  const float depth_m = traits_of(material::soil).layer_depth_m;
+TEST_F(Looks, a_cut_lays_soil_bare_as_deep_as_it_is_and_the_ground_above_stays_as_it_was) {
+  const float depth = field_.source().rows.soil_depth_m / voxel_m;
   size_t walls = 0;
   for_each_vertex([&](const SurfaceVertex& vertex, glm::vec3 p) {
-    if (std::abs(vertex.normal[0]) < 120 || vertex.before < 58) return;
+    const bool on_top = vertex.normal[1] > 126 && p.y > -1.0F && p.x > 12.5F;
+    EXPECT_TRUE(!on_top || vertex.look == 0) << p.x;
+    if (std::abs(vertex.normal[0]) < 120 || unpacked_worn(vertex.before) > -58) return;
+    if (std::abs(-p.y - depth) < 1.0F || p.y > -0.6F) return;  // within a voxel of its end
     ++walls;
-    const float within_m = std::clamp(depth_m + p.y * voxel_m, 0.0F, layer_step_m * layer_steps_max);
-    EXPECT_NEAR(layer_m(vertex), within_m, 0.06F) << p.y;
+    EXPECT_EQ(vertex.look, -p.y < depth ? said(material::soil) : 0) << p.y;
   });
   EXPECT_GT(walls, 50U);
 }
 
-TEST_F(Looks, paint_lies_beside_the_layer) {
-  paint(field_, in_voxels(box({2.0F, -2.0F, 2.0F}, {2.0F, 2.0F, 2.0F}), voxel_m), material::ice);
-  size_t layered = 0;
+TEST_F(Looks, what_is_painted_looks_so_voxel_by_voxel_and_rubble_of_the_bulk_as_the_ground) {
+  PieceTable table;
+  const Shape half = box({2.0F, -2.0F, 1.0F}, {2.0F, 2.0F, 1.0F});
+  apply(Operation(PaintOperation{half, material::ice}), field_, table);
+  size_t painted = 0, other = 0;
   for_each_vertex([&](const SurfaceVertex& vertex, glm::vec3 p) {
-    if (std::abs(vertex.normal[0]) < 120 || vertex.before < 58 || p.z < 1.0F || p.z > 15.0F) return;
-    EXPECT_EQ(vertex.paint % paint_in_cuts, paint_number(material::ice)) << p.y;
-    layered += layer_m(vertex) > 0.2F;
+    if (std::abs(vertex.normal[0]) < 120 || p.y < -6.0F || p.y > -5.0F) return;
+    if (p.z < 1.0F || std::abs(p.z - 8.0F) < 1.6F) return;  // the paint's edges
+    EXPECT_EQ(vertex.look, p.z < 8.0F ? said(material::ice) : 0) << p.z;
+    ++(p.z < 8.0F ? painted : other);
   });
-  EXPECT_GT(layered, 10U);
+  EXPECT_GT(painted, 3U);
+  EXPECT_GT(other, 3U);
+  apply(Operation(PaintOperation{half, material::rock}), field_, table);
+  for_each_vertex(
+      [&](const SurfaceVertex& vertex, glm::vec3) { EXPECT_NE(vertex.look, said(material::ice)); });
 }
 
-TEST(VertexPaint, tells_a_piece_that_is_of_one_material_from_one_that_is_of_a_layer) {
-  EXPECT_EQ(vertex_paint(paint_number(material::ice)), paint_number(material::ice));
-  EXPECT_EQ(vertex_paint(layer_number(material::soil)), paint_in_cuts * layer_steps_max);
-  EXPECT_EQ(vertex_paint(layer_number(material::rock)), 0);
-  EXPECT_EQ(vertex_paint(3, -1.0F), 3);
+TEST_F(Looks, no_triangle_lies_on_two_materials) {
+  PieceTable table;
+  for (const Material material : {material::ice, brick, concrete}) {
+    const float z_m = 0.4F * static_cast<float>(row_number(material));
+    apply(Operation(FillOperation{box({3.0F, 0.2F, z_m}, {0.7F, 0.5F, 0.5F}), material}), field_, table);
+  }
+  const SurfaceMesh made = mesh();
+  std::vector<size_t> looks(256);
+  for (size_t i = 0; i < made.indices.size(); i += 3) {
+    const uint8_t look = made.vertices[made.indices[i]].look;
+    ++looks[look];
+    EXPECT_EQ(made.vertices[made.indices[i + 1]].look, look);
+    EXPECT_EQ(made.vertices[made.indices[i + 2]].look, look);
+  }
+  for (const Material material : {brick, concrete}) EXPECT_GT(looks[said(material)], 10U);
+}
+
+TEST(PieceLooks, a_piece_of_two_materials_is_closed_and_has_both) {
+  MapField field(flat_terrain);
+  PieceTable table;
+  apply(Operation(FillOperation{box({-0.5F, 1.0F, 0.0F}, {0.5F, 1.0F, 0.5F}), brick}), field, table);
+  apply(Operation(FillOperation{box({0.5F, 1.0F, 0.0F}, {0.5F, 1.0F, 0.5F}), concrete}), field, table);
+  const CarveOperation carve{box({0.0F, 1.4F, 0.0F}, {1.5F, 1.0F, 1.0F}), {}, 1, 5, {}, 1};
+  apply(Operation(carve), field, table);
+  ASSERT_EQ(table.size(), 1U);
+  const PieceMesh made = mesh_piece(gather_piece(field, 1, {table.at(1), {}}));
+  EdgeUses<MeshPosition> uses;
+  count_edges(
+      std::span<const uint32_t>(made.mesh.indices),
+      [&](uint32_t index) { return position_of(made.mesh, index); }, uses);
+  EXPECT_EQ(open_edges(uses), 0);
+  for (const SurfaceVertex& vertex : made.mesh.vertices) {
+    const float x = place_of(made.mesh, vertex).x;
+    if (std::abs(x) < 1.0F) continue;
+    EXPECT_EQ(vertex.look, said(x < 0.0F ? brick : concrete)) << x;
+  }
+}
+
+TEST(PieceLooks, a_piece_of_the_ground_looks_as_the_ground_but_where_it_was_cut_in_a_layer) {
+  MapField field(flat_terrain);
+  PieceTable table;
+  apply(Operation(CarveOperation{sphere({0.0F, 0.0F, 0.0F}, 1.5F), {}, 1, 5, {}, 1}), field, table);
+  const PieceMesh made = mesh_piece(gather_piece(field, 1, {table.at(1), {}}));
+  size_t on_top = 0, beneath = 0;
+  for (const SurfaceVertex& vertex : made.mesh.vertices) {
+    const glm::vec3 p = place_of(made.mesh, vertex);
+    if (vertex.normal[1] > 126) {
+      ++on_top;
+      EXPECT_EQ(vertex.look, 0);
+    } else if (p.y < -1.5F && p.y > -3.0F) {
+      ++beneath;
+      EXPECT_EQ(vertex.look, said(material::soil)) << p.y;
+    } else if (p.y < -5.2F) {
+      EXPECT_EQ(vertex.look, 0) << p.y;
+    }
+  }
+  EXPECT_GT(on_top, 10U);
+  EXPECT_GT(beneath, 10U);
+}
+
+TEST(BrickLooksTest, untouched_ground_has_none_and_edited_bricks_have_those_of_their_rock) {
+  MapField field(flat_terrain);
+  LevelBricks bricks(flat_terrain, 0);
+  const LevelBrick untouched = bricks.read(field, {0, -1, 0});
+  EXPECT_EQ(untouched.looks.all, Look{});
+  EXPECT_EQ(untouched.looks.each, nullptr);
+  PieceTable table;
+  apply(Operation(FillOperation{box({0.5F, 2.9F, 1.0F}, {0.5F, 0.5F, 1.5F}), brick}), field, table);
+  const LevelBrick one = bricks.read(field, {0, 1, 0});
+  EXPECT_EQ(one.looks.each, nullptr) << "the air about it says nothing";
+  EXPECT_EQ(one.looks.all.shown, said(brick));
+  apply(Operation(FillOperation{box({1.5F, 2.9F, 1.0F}, {0.5F, 0.5F, 1.5F}), concrete}), field, table);
+  const LevelBrick two = bricks.read(field, {0, 1, 0});
+  ASSERT_NE(two.looks.each, nullptr);
+  const auto at = [&](int x, int y, int z) {
+    return (*two.looks.each)[static_cast<size_t>((x * look_brick_side + y) * look_brick_side + z)].shown;
+  };
+  EXPECT_EQ(at(1, 3, 3), said(brick));
+  EXPECT_EQ(at(6, 3, 3), said(concrete));
+  EXPECT_EQ(at(8, 3, 3), said(concrete)) << "beside the last of its rock";
+  LevelBricks coarse(flat_terrain, 1);
+  const LevelBrick far = coarse.read(field, {0, 0, 0});
+  ASSERT_NE(far.looks.each, nullptr);
+  EXPECT_EQ((*far.looks.each)[static_cast<size_t>((1 * look_brick_side + 6) * look_brick_side + 1)].shown,
+            said(brick));
+}
+
+TEST(PackedWorn, keeps_what_has_gone_and_what_has_come_within_a_step) {
+  for (int worn = -127; worn <= 127; ++worn) {
+    const int kept = std::clamp(worn, -worn_all, worn_all);
+    EXPECT_NEAR(unpacked_worn(packed_worn(worn)), kept, 3) << worn;
+  }
+  EXPECT_EQ(packed_worn(0), 0);
 }
 
 }  // namespace

@@ -47,6 +47,12 @@ TEST(Dust, a_break_throws_dust_and_chips_and_a_merge_dust_alone) {
   EXPECT_LT(thrown(touch, 0.1).size(), thrown(event_of(PieceEventKind::strike), 0.1).size());
 }
 
+TEST(Dust, has_the_colour_of_what_breaks) {
+  PieceEvent event = event_of(PieceEventKind::crack);
+  event.dust = {0.05F, 0.05F, 0.9F};
+  for (const Particle& particle : thrown(event, 0.1)) EXPECT_GT(particle.colour[2], 4 * particle.colour[0]);
+}
+
 TEST(Dust, all_of_it_is_over_in_its_time) {
   for (const PieceEventKind kind : {PieceEventKind::crack, PieceEventKind::strike, PieceEventKind::settle}) {
     EXPECT_FALSE(thrown(event_of(kind), 0.3).empty());

@@ -124,7 +124,7 @@ class WholeHud {
         {{1, "A person with a long name, so it", Role::builder}, {2, "", Role::viewer}}, 3, true};
     hud_.lower_right(facts, all ? &persons : nullptr, all);
     hud_.panel(*method_named("grid"),
-               {tool_, overlay_, method_options_, particles_, predict_, hand_, quality_});
+               {tool_, *plain_palette(), overlay_, method_options_, particles_, predict_, hand_, quality_});
     hud_.help(all ? Telling::all : Telling::basics, all, all ? ControlsOf::both : ControlsOf::live);
     if (all) hud_.banner("the server is gone - trying again");
     if (all) hud_.timeline(timeline_, 10.0);

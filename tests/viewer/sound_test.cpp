@@ -75,6 +75,19 @@ TEST(Synthesiser, no_crowd_of_sounds_goes_beyond_the_peak_or_the_voices) {
   EXPECT_LE(peak(synthesiser.render(second)), Synthesiser::peak_max);
 }
 
+TEST(Synthesiser, a_material_rings_as_its_row_says) {
+  const auto heard = [](float pitch, float damping_s, float noise) {
+    PieceEvent event{PieceEventKind::strike, {0.0F, 0.0F, -2.0F}, 1.0F, 4000.0F};
+    event.sound = {pitch, damping_s, noise};
+    return rendered({event}, second);
+  };
+  const auto later = [](const std::vector<float>& samples) {
+    return loudness({samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2), samples.end()});
+  };
+  EXPECT_GT(later(heard(1.0F, 0.5F, 0.1F)), 4.0F * later(heard(1.0F, 0.05F, 0.1F)));
+  EXPECT_NE(heard(1.0F, 0.1F, 0.5F), heard(2.0F, 0.1F, 0.5F));
+}
+
 TEST(Synthesiser, far_is_quieter_and_later_and_sides_are_heard) {
   const auto strike = [](glm::vec3 place_m) {
     return std::vector<PieceEvent>{{PieceEventKind::strike, place_m, 0.5F, 3000.0F, material::rock}};

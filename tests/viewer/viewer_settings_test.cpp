@@ -12,6 +12,7 @@
 #include "client/viewer/input/gamepad.h"
 #include "client/viewer/viewing/settings.h"
 #include "client/viewer/window/history.h"
+#include "content/builtin_palette.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -99,7 +100,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.width = 801;
   settings.method = all_methods().front().name;
   settings.method_options = values_of(GridShape{64, 4, GridSpacing::growing});
-  settings.tool = {ToolKind::box, ToolUse::paint, material::ice, 3.25F, 12.0F, SeedPattern::uniform, 40};
+  settings.tool = {ToolKind::box, ToolUse::paint, "ice", 3.25F, 12.0F, SeedPattern::uniform, 40};
   settings.hud = {Telling::all, true, true, false, true};
   settings.hand = {75.0F, 2.5F, 1.5F};
   settings.overlay = {true, false, true, false, true};
@@ -166,13 +167,32 @@ TEST(Tool, what_is_filled_stands_on_the_rock_and_what_is_painted_is_in_it) {
   EXPECT_LT(distance(fill.shape, hit_m), 0.0F) << "it touches";
   EXPECT_GT(centre_of(fill.shape).y, hit_m.y) << "and is mostly outside";
   change(tool, Action::next_use);
-  change(tool, Action::next_material);
-  const auto paint = std::get<PaintRequest>(request_of(tool, hit_m, down, 1));
-  EXPECT_EQ(paint.material, tool.material);
-  EXPECT_NE(paint.material, Tool{}.material);
+  change(tool, Action::next_material, builtin_palette());
+  const auto paint = std::get<PaintRequest>(request_of(tool, hit_m, down, 1, builtin_palette()));
+  EXPECT_EQ(paint.material, material::soil);
   EXPECT_LT(distance(paint.shape, hit_m), 0.0F);
   change(tool, Action::next_use);
   EXPECT_EQ(tool.use, ToolUse::carve);
+}
+
+TEST(Tool, materials_are_known_by_name_and_one_that_the_world_lacks_is_its_first) {
+  const Palette& palette = builtin_palette();
+  Tool tool;
+  tool.use = ToolUse::fill;
+  EXPECT_EQ(material_of(tool, palette), std::nullopt) << "as the ground";
+  for (const MaterialRow& row : palette.rows) {
+    change(tool, Action::next_material, palette);
+    EXPECT_EQ(tool.material, row.name);
+    EXPECT_EQ(std::get<FillRequest>(request_of(tool, {}, {0.0F, -1.0F, 0.0F}, 1, palette)).material,
+              palette.named(row.name));
+  }
+  change(tool, Action::next_material, palette);
+  EXPECT_EQ(tool.material, "");
+  tool.use = ToolUse::paint;
+  EXPECT_EQ(material_of(tool, palette), Material{}) << "paint is always of one";
+  tool.material = "brick";
+  EXPECT_EQ(material_of(tool, *plain_palette()), Material{});
+  EXPECT_EQ(tool.material, "brick") << "for the next world";
 }
 
 TEST(Tool, actions_stay_within_the_ranges) {
@@ -203,7 +223,7 @@ TEST(Tool, is_told_with_what_it_does_and_units) {
   tool.kind = ToolKind::box;
   EXPECT_EQ(describe(tool), "fill: box, radius 2.00 m");
   tool.use = ToolUse::paint;
-  tool.material = material::ice;
+  tool.material = "ice";
   EXPECT_EQ(describe(tool), "paint: box, radius 2.00 m, ice");
 }
 

@@ -1,8 +1,10 @@
 // The viewer's window, on an X server of the test's own that shows nothing to anyone (Xvfb).
+#include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
 
 #include "client/viewer/pictures/png.h"
+#include "content/builtin_palette.h"
 #include "tests/support/run_viewer.h"
 #include "tests/support/viewer_window_fixture.h"
 
@@ -114,16 +116,18 @@ TEST_F(ViewerHand, fills_and_paints) {
   };
   hand("key f click 1");
   run_until(poured, "what was poured");
+  viewing_->session.mirror()->set_palette(shared_builtin_palette());
   const auto painted = [&] {
     Field& field = viewing_->session.mirror()->field();
     for (const ChunkCoord chunk : field.edited_chunks())
       for (const BrickCoord brick : field.edited_bricks(chunk))
-        if (field.painted(brick) == app_->settings().tool.material) return true;
+        if (std::ranges::count(field.materials(brick).list(), said(material::ice)) > 0) return true;
     return false;
   };
-  hand("key f key b click 1");
+  hand("key f key b key b click 1");
   run_until(painted, "what was painted");
   EXPECT_EQ(app_->settings().tool.use, ToolUse::paint);
+  EXPECT_EQ(app_->settings().tool.material, "ice");
   EXPECT_FALSE(viewing_->session.carved());
 }
 
@@ -131,7 +135,7 @@ TEST_F(ViewerHand, walks_and_is_stopped_by_a_wall) {
   join(320, 200);
   capture_mouse();
   // A box stands on what it is aimed at.
-  const Tool box{.kind = ToolKind::box, .use = ToolUse::fill, .radius_m = 2.0F};
+  const Tool box{.kind = ToolKind::box, .use = ToolUse::fill, .material = {}, .radius_m = 2.0F};
   viewing_->session.strike(box, {0.0F, 6.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, steady_now_s());
   hand("key q");
   const float ground_m = ground_height_m(viewing_->session.mirror()->terrain(), 0.0F, 6.0F);

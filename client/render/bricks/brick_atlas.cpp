@@ -55,7 +55,8 @@ void BrickAtlas::replace(AtlasSlot slot, const AtlasBrick& brick) {
 }
 
 size_t BrickAtlas::bytes() const {
-  return static_cast<size_t>(size_[0]) * static_cast<size_t>(size_[1]) * static_cast<size_t>(size_[2]);
+  return static_cast<size_t>(size_[0]) * static_cast<size_t>(size_[1]) * static_cast<size_t>(size_[2]) +
+         looks_.bytes();
 }
 
 }  // namespace scree

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "client/render/bricks/look_atlas.h"
 #include "client/render/gl/gl.h"
 #include "client/render/levels/atlas_brick.h"
 
@@ -24,6 +25,10 @@ class BrickAtlas {
   void replace(AtlasSlot slot, const AtlasBrick& brick);
   void remove(AtlasSlot slot) { free_.push_back(slot); }
 
+  /// Of bricks whose voxels look unlike each other.
+  LookAtlas& looks() { return looks_; }
+  const LookAtlas& looks() const { return looks_; }
+
   unsigned texture() const { return texture_.name(); }
   /// Texels along x, y and z.
   const std::array<int, 3>& size() const { return size_; }
@@ -35,6 +40,7 @@ class BrickAtlas {
 
  private:
   gl::Texture texture_;
+  LookAtlas looks_;
   std::array<int, 3> size_;
   size_t capacity_ = 0;
   std::vector<AtlasSlot> free_;

@@ -14,13 +14,15 @@ namespace scree {
 
 class BrickWorld {
  public:
+  static constexpr int looks_unit = 6;
+
   /// `pool` must outlive it.
   BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m);
 
   /// Uploads these edited bricks, and a bounded number of bricks that are not loaded yet.
   void update(const Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m);
 
-  /// Binds the textures to units 0 and 1 and sets the uniforms of client/shaders/bricks.glsl.
+  /// Binds the textures to units 0, 1 and looks_unit and sets the uniforms of client/shaders/bricks.glsl.
   void use(const gl::Program& program, glm::vec3 eye_m) const;
 
   /// The content of all bricks of a box (metres) on one level: only air, or only rock. Nothing when the box

@@ -26,6 +26,18 @@ uint32_t store_before(LevelBrick::Before kind, const AtlasBrick& brick, BrickAtl
   return slot ? ClipEntry::packed(ClipEntry::mixed, *slot) : 0;
 }
 
+uint32_t store_looks(const BrickLooks& looks, const ClipEntry& old, LookAtlas& atlas) {
+  if (looks.each != nullptr) {
+    if (old.has_looks_slot()) {
+      atlas.replace(ClipEntry::slot_of(old.looks), *looks.each);
+      return old.looks;
+    }
+    if (const auto slot = atlas.add(*looks.each)) return ClipEntry::packed(ClipEntry::looks_mixed, *slot);
+  }
+  if (old.has_looks_slot()) atlas.remove(ClipEntry::slot_of(old.looks));
+  return looks.all.shown | static_cast<uint32_t>(looks.all.bare) << 8U;
+}
+
 struct ClipLevel::Inbox {
   struct Generated {
     ChunkCoord coord;
@@ -43,6 +55,7 @@ ClipLevel::~ClipLevel() = default;
 void ClipLevel::release(const ClipEntry& entry, BrickAtlas& atlas) {
   if (entry.kind() == ClipEntry::stored) atlas.remove(ClipEntry::slot_of(entry.field));
   if (entry.has_before_slot()) atlas.remove(ClipEntry::slot_of(entry.before));
+  if (entry.has_looks_slot()) atlas.looks().remove(ClipEntry::slot_of(entry.looks));
 }
 
 void ClipLevel::follow(glm::vec3 eye_m, BrickAtlas& atlas) {
@@ -150,7 +163,7 @@ void ClipLevel::read(const Field& field, BrickCoord brick, BrickAtlas& atlas) {
   // Generated codes never change: a brick of them keeps its slot.
   const bool keeps = now.before_kind == LevelBrick::Before::mixed && old.has_before_slot();
   entry.before = keeps ? old.before : store_before(now.before_kind, now.before, atlas);
-  entry.paint(now.paint);
+  entry.looks = store_looks(now.looks, old, atlas.looks());
   if (old.kind() == ClipEntry::stored && entry.kind() != ClipEntry::stored)
     atlas.remove(ClipEntry::slot_of(old.field));
   if (old.has_before_slot() && !keeps) atlas.remove(ClipEntry::slot_of(old.before));

@@ -20,6 +20,9 @@ namespace scree {
 /// The value of ClipEntry::before: the brick as generated. A mixed brick goes into the atlas, if there is
 /// room.
 uint32_t store_before(LevelBrick::Before kind, const AtlasBrick& brick, BrickAtlas& atlas);
+/// The value of ClipEntry::looks; `old`: what stood there. Mixed looks go into the looks' atlas, if there is
+/// room; else the brick looks as one of its voxels does. Gives the slot of `old` back if it has no use.
+uint32_t store_looks(const BrickLooks& looks, const ClipEntry& old, LookAtlas& atlas);
 
 class ClipLevel {
  public:

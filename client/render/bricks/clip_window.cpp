@@ -106,7 +106,7 @@ void ClipWindow::write_distances(uint64_t bits, int x, int y, uint32_t distance)
   for (; bits != 0; bits &= bits - 1) {
     const BrickCoord brick = origin_ + BrickCoord{x, y, std::countr_zero(bits)};
     const size_t at = index(brick);
-    write(at, {distance << 24U, entries_[at].before});
+    write(at, {distance << 24U, entries_[at].before, entries_[at].looks});
   }
 }
 

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "client/render/levels/atlas_brick.h"
-#include "client/render/scene/paint_number.h"
 #include "shared/field/coord.h"
 
 namespace scree {
@@ -23,24 +22,21 @@ inline constexpr int empty_distance_max = 16;
 struct ClipEntry {
   enum Kind : uint32_t { unloaded = 0, stored = 254, solid = 255 };  ///< between: empty, the distance
 
-  uint32_t field = 0;  ///< kind << 24 | slot z << 16 | y << 8 | x
-  /// The generated field: kind << 24, and the slot of a mixed brick. Above them the paint number.
-  uint32_t before = 0;
+  uint32_t field = 0;   ///< kind << 24 | slot z << 16 | y << 8 | x
+  uint32_t before = 0;  ///< the generated field: kind << 24, and the slot of a mixed brick
+  /// Of a stored brick: how all of it looks, shown | bare << 8; or looks_mixed << 24 and a slot of the looks'
+  /// atlas.
+  uint32_t looks = 0;
 
-  static constexpr unsigned paint_shift = 32 - paint_bits;
-  static constexpr uint32_t before_kind_max = (1U << (paint_shift - 24U)) - 1U;
+  static constexpr uint32_t looks_mixed = 1;
 
   /// The kind of `before`: nothing was edited, so it is the field itself; or all air, or all rock, or a
   /// brick.
   enum BeforeKind : uint32_t { same = 0, mixed = 1, air = 2, rock = 3 };
-  static_assert(rock <= before_kind_max, "the paint number leaves no room for the kind");
 
   uint32_t kind() const { return field >> 24U; }
-  bool has_before_slot() const { return ((before >> 24U) & before_kind_max) == mixed; }
-  uint8_t paint() const { return static_cast<uint8_t>(before >> paint_shift); }
-  void paint(uint8_t number) {
-    before = (before & ((1U << paint_shift) - 1U)) | static_cast<uint32_t>(number) << paint_shift;
-  }
+  bool has_before_slot() const { return before >> 24U == mixed; }
+  bool has_looks_slot() const { return looks >> 24U == looks_mixed; }
   bool is_empty() const { return kind() != unloaded && kind() < stored; }
   static uint32_t packed(uint32_t kind, AtlasSlot slot) {
     return kind << 24U | static_cast<uint32_t>(slot.z) << 16U | static_cast<uint32_t>(slot.y) << 8U | slot.x;

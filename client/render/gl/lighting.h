@@ -1,4 +1,4 @@
-// The uniforms of atmosphere.glsl, bricks.glsl, rock.glsl and shadow.glsl: one light for all methods.
+// The uniforms of atmosphere.glsl, material.glsl, rock.glsl and shadow.glsl: one light for all methods.
 #pragma once
 
 #include "client/render/gl/gl.h"
@@ -6,7 +6,8 @@
 
 namespace scree {
 
-/// Sets the uniforms of the program in use. Binds the shadow map to that texture unit.
+/// Sets the uniforms of the program in use. Binds the shadow map to that texture unit, and the
+/// table of materials to its own.
 void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_unit);
 
 }  // namespace scree

@@ -3,14 +3,13 @@
 #include <array>
 #include <utility>
 
-#include "client/render/gl/material_source.h"
 #include "client/render/gl/shader_sources.h"
 
 namespace scree {
 namespace {
 
 Result<SurfaceProgram> link(std::string_view name, std::span<const std::string_view> fragment) {
-  const std::array vertex{material_source(), shader_source("rotation.glsl"), shader_source("surface.vert")};
+  const std::array vertex{shader_source("rotation.glsl"), shader_source("surface.vert")};
   Result<gl::Program> program = gl::Program::link(name, vertex, fragment);
   if (!program) return fail(program.error().message);
   return SurfaceProgram(std::move(*program));
@@ -35,10 +34,11 @@ void SurfaceProgram::set_place(const MeshPlace& place) const {
 }
 
 std::span<const std::string_view> surface_fragment_parts() {
-  static const std::array parts{
-      material_source(),           shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
-      shader_source("noise.glsl"), shader_source("clouds.glsl"),   shader_source("haze.glsl"),
-      shader_source("rock.glsl"),  shader_source("shadow.glsl"),   shader_source("surface.frag")};
+  static const std::array parts{shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
+                                shader_source("noise.glsl"),    shader_source("clouds.glsl"),
+                                shader_source("haze.glsl"),     shader_source("stones.glsl"),
+                                shader_source("material.glsl"), shader_source("rock.glsl"),
+                                shader_source("shadow.glsl"),   shader_source("surface.frag")};
   return parts;
 }
 

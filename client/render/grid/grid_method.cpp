@@ -8,7 +8,6 @@
 #include "client/render/bricks/brick_world.h"
 #include "client/render/gl/gpu_timers.h"
 #include "client/render/gl/lighting.h"
-#include "client/render/gl/material_source.h"
 #include "client/render/gl/shader_sources.h"
 #include "client/render/grid/grid_points.h"
 #include "client/render/pieces/piece_views.h"
@@ -43,7 +42,7 @@ std::vector<uint8_t> case_texels() {
 
 Result<gl::Program> link_grid(std::string_view name, std::span<const std::string_view> fragment) {
   const std::array vertex{shader_source("grid.vert")};
-  const std::array geometry{material_source(), shader_source("bricks.glsl"), shader_source("march.glsl"),
+  const std::array geometry{shader_source("bricks.glsl"), shader_source("march.glsl"),
                             shader_source("grid.geom")};
   return gl::Program::link(name, vertex, fragment, geometry);
 }

@@ -6,17 +6,13 @@
 #include <glm/common.hpp>
 #include <utility>
 
+#include "client/render/levels/surface_looks.h"
 #include "shared/base/vector_clones.h"
-#include "shared/material/material.h"
 #include "shared/surface/marching_cubes.h"
 
 namespace scree {
 namespace {
 
-/// A code of the field as generated: from here on, looks are those of a cut (client/shaders/bricks.glsl).
-constexpr Code cut_begins = -10;
-/// From here on, on either side, nothing of the weathered ground is left.
-constexpr Code worn_all = 58;
 /// A code of the same above a surface: from here on, it faces another way than the generated one.
 constexpr int turned_begins = 44;
 /// Where to look at what is above a surface, voxels from it (surface_vertices.cpp).
@@ -78,22 +74,20 @@ struct Survey {
   bool air = true;
   bool rock = true;
   bool edited = false;
-  std::map<BrickCoord, Material> paint;
+  bool stores = false;  ///< materials
 };
 
 Survey survey(const Field& field, const VoxelBox& box) {
   Survey seen;
   for_each_chunk(box, [&](ChunkCoord chunk) {
     const Field::ChunkBricks bricks = field.chunk_bricks(chunk);
+    seen.stores = seen.stores || bricks.generated.stored_materials != nullptr;
     for_each_brick_in(chunk, box, [&](BrickCoord coord, int index) {
       const bool edited = is_bit(bricks.edited, index);
       const Brick* brick = edited ? &field.brick(coord) : bricks.generated.bricks[static_cast<size_t>(index)];
       seen.air = seen.air && brick == &air_brick();
       seen.rock = seen.rock && brick == &solid_brick();
       seen.edited = seen.edited || edited;
-      const auto painted = edited ? field.painted(coord) : std::nullopt;
-      if (const auto shown = painted ? painted : stored_material(bricks.generated, index))
-        seen.paint[coord] = *shown;
     });
   });
   return seen;
@@ -135,81 +129,46 @@ SurfaceMesh BlockWindows::mesh(const CellMask* mask, const SheetPlace* place) co
   const Window* then = before ? &*before : nullptr;
   SurfaceMesh made = place == nullptr ? surface_nets(now, owned, then, mask)
                                       : surface_nets_placed(now, owned, then, mask, *place);
-  set_paint(made);
+  set_looks(made);
   return made;
 }
 
 SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {
   SurfaceMesh made = marching_cubes(now, owned, before ? &*before : nullptr, mask);
-  set_paint(made);
+  set_looks(made);
   return made;
 }
 
-Code BlockWindows::worn(const SurfaceVertex& vertex, glm::vec3 p) const {
-  const int here = std::abs(vertex.before);
-  if (here >= worn_all) return static_cast<Code>(here);
+/// Signed: below 0 rock has gone from there, above it rock has come.
+int BlockWindows::worn(const SurfaceVertex& vertex, glm::vec3 p) const {
+  const int here = vertex.before;
+  if (std::abs(here) >= worn_all) return here;
   const glm::vec3 normal(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
   const glm::vec3 above = p + normal * (probe_voxels / 127.0F);
-  if (are_same(now, *before, cell_at(now.box, above))) return static_cast<Code>(here);
-  const float apart = std::abs(trilinear(*before, above) - trilinear(now, above));
-  return static_cast<Code>(std::clamp(static_cast<int>(apart) - turned_begins, here, 127));
+  if (are_same(now, *before, cell_at(now.box, above))) return here;
+  const int gone = static_cast<int>(trilinear(now, above) - trilinear(*before, above)) - turned_begins;
+  return gone > std::abs(here) ? -gone : here;
 }
 
-float BlockWindows::layer_m(const MaterialHeights& layers, glm::vec3 p) const {
-  const float height_m = p.y * source.voxel_size_m;
-  const bool soil = height_m < layers.soil_below_m;
-  if (!soil && height_m <= layers.ice_above_m) return 0.0F;
-  const float depth_m = traits_of(soil ? material::soil : material::ice).layer_depth_m;
-  const glm::vec3 end(p.x, p.y + depth_m / source.voxel_size_m, p.z);
-  // Mostly the surface is farther above.
-  const VoxelCoord cell = cell_at(before->box, end);
-  if (before->at(cell.x, cell.y, cell.z) == code_solid) return 0.0F;
-  const float top = static_cast<float>(before->box.hi.y) - 1.01F;
-  const float highest = trilinear(*before, {p.x, std::min(end.y, top), p.z});
-  // Above the window, distances grow as fast as below.
-  const float beyond =
-      end.y <= top ? 0.0F : (end.y - top) * (highest - trilinear(*before, {p.x, top - 1.0F, p.z}));
-  return (highest + beyond) / codes_per_voxel * source.voxel_size_m;
-}
-
-void BlockWindows::set_paint(SurfaceMesh& mesh) const {
-  if (!before && paint.empty()) return;  // nothing was edited here
-  constexpr int steps = surface_steps;
-  const MaterialHeights layers = layers_of(source);
+void BlockWindows::set_looks(SurfaceMesh& mesh) const {
+  if (!before && looks.is_ground()) return;  // nothing was edited here
+  scree::set_looks(mesh, now, looks);
   const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
-  for (SurfaceVertex& vertex : mesh.vertices) {
-    const glm::vec3 in_mesh(vertex.position[0], vertex.position[1], vertex.position[2]);
-    const glm::vec3 p = origin + in_mesh / surface_steps_per_voxel;
-    uint8_t brick_paint = 0;
-    if (!paint.empty()) {
-      const auto nearest = [&](size_t axis) { return (vertex.position[axis] + steps / 2) / steps; };
-      const auto found = paint.find(brick_of(mesh.origin + VoxelCoord{nearest(0), nearest(1), nearest(2)}));
-      if (found != paint.end()) brick_paint = paint_number(found->second);
+  if (before) {
+    for (SurfaceVertex& vertex : mesh.vertices) {
+      const glm::vec3 in_mesh(vertex.position[0], vertex.position[1], vertex.position[2]);
+      vertex.before = packed_worn(worn(vertex, origin + in_mesh / surface_steps_per_voxel));
     }
-    const bool is_cut = before && vertex.before < cut_begins;
-    vertex.paint = vertex_paint(brick_paint, is_cut ? layer_m(layers, p) : 0.0F);
-    if (before) vertex.before = worn(vertex, p);
   }
-}
-
-std::optional<Material> shown_material(const Field& field, BrickCoord brick) {
-  const std::optional<Material> painted = field.painted(brick);
-  return painted ? painted
-                 : stored_material(field.chunk_bricks(chunk_of(brick)).generated, index_in_chunk(brick));
-}
-
-uint8_t paint_number(const Field& field, const Volume& piece) {
-  const glm::vec3 centre = piece.centre_voxels + 0.5F;
-  const BrickCoord birthplace =
-      brick_of(VoxelCoord{floor_to_int(centre.x), floor_to_int(centre.y), floor_to_int(centre.z)});
-  return field.painted(birthplace) ? paint_number(piece.material) : layer_number(piece.material);
+  if (!looks.is_ground()) part_looks(mesh);
 }
 
 std::optional<BlockWindows> gather_windows(const Field& field, const VoxelBox& owned) {
   const VoxelBox box = owned.grown(surface_nets_apron);
   Survey seen = survey(field, box);
   if (seen.air || seen.rock) return std::nullopt;
-  BlockWindows windows{owned, Window(box), std::nullopt, std::move(seen.paint), field.source()};
+  BlockWindows windows{owned, Window(box), std::nullopt, {}};
+  if (seen.edited || seen.stores) windows.looks = gather_looks(field, field, 0, box);
   if (seen.edited) windows.before.emplace(box);
   for_each_chunk(box, [&](ChunkCoord chunk) {
     const Field::ChunkBricks bricks = field.chunk_bricks(chunk);

@@ -1,6 +1,9 @@
 #include "client/render/levels/level_bricks.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "client/render/levels/block_windows.h"
 
@@ -83,6 +86,45 @@ LevelBrick::Before before_kind_of(const AtlasBrick& brick) {
   return most <= -code_far ? LevelBrick::Before::rock : LevelBrick::Before::mixed;
 }
 
+BrickLooks looks_of(const LookWindow& looks, const Window& now, VoxelCoord first) {
+  BrickLooks made;
+  if (looks.is_ground()) return made;
+  constexpr int side = look_brick_side;
+  const auto is_rock = [&](VoxelCoord v) { return now.box.holds(v) && now.at(v.x, v.y, v.z) < 0; };
+  // Rock beside a voxel of air: across its faces first, then its edges, then its corners.
+  const auto beside = [&](VoxelCoord v) {
+    for (int apart = 1; apart <= 3; ++apart)
+      for (int i = 0; i < 27; ++i) {
+        const VoxelCoord off{i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1};
+        if (off.x * off.x + off.y * off.y + off.z * off.z == apart && is_rock(v + off))
+          return std::optional(v + off);
+      }
+    return std::optional<VoxelCoord>();
+  };
+  auto each = std::make_unique<LookBrick>();
+  std::optional<Look> one;
+  bool mixed = false;
+  std::vector<size_t> unknown;
+  size_t at = 0;
+  for (int x = 0; x < side; ++x)
+    for (int y = 0; y < side; ++y)
+      for (int z = 0; z < side; ++z, ++at) {
+        const VoxelCoord v = first + VoxelCoord{x, y, z};
+        const std::optional<VoxelCoord> rock = is_rock(v) ? std::optional(v) : beside(v);
+        if (!rock) {
+          unknown.push_back(at);
+          continue;
+        }
+        (*each)[at] = looks.at(*rock);
+        if (!one) one = (*each)[at];
+        mixed = mixed || (*each)[at] != *one;
+      }
+  made.all = one.value_or(Look{});
+  for (const size_t air : unknown) (*each)[air] = made.all;
+  if (mixed) made.each = std::move(each);
+  return made;
+}
+
 LevelBricks::LevelBricks(const TerrainSource& source, int level)
     : level_(level), source_(spaced(source, level)) {
   if (level > 0) coarse_ = std::make_unique<MapField>(source_);
@@ -123,15 +165,17 @@ LevelBrick LevelBricks::read(const Field& field, BrickCoord brick) {
   const bool edited = edited_around(field, brick);
   if (!edited) {
     if (const Brick* uniform = uniform_around(field, brick); uniform != nullptr)
-      return {uniform == &air_brick() ? LevelBrick::Kind::empty : LevelBrick::Kind::solid, {}, {}, {}, 0};
+      return {uniform == &air_brick() ? LevelBrick::Kind::empty : LevelBrick::Kind::solid, {}, {}, {}, {}};
   }
   Window window = gather(generator(field), samples_of(brick));
   std::optional<Window> before;
   if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
   if (level_ > 0 && edited) copy_edits(field, level_, window);
-  LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}, 0};
-  if (level_ == 0) read.paint = paint_number(shown_material(field, brick));
+  LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}, {}};
   read.kind = kind_of(read.field);
+  const Field& ground = generator(field);
+  if (read.kind == LevelBrick::Kind::stored && (edited || stores_materials(ground, window.box)))
+    read.looks = looks_of(gather_looks(field, ground, level_, window.box), window, first_voxel(brick));
   if (!before || before->codes == window.codes) return read;
   read.before = as_brick(*before);
   read.before_kind = before_kind_of(read.before);

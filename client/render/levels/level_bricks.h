@@ -8,9 +8,23 @@
 #include <memory>
 
 #include "client/render/levels/atlas_brick.h"
+#include "client/render/levels/look_window.h"
 #include "shared/field/field.h"
 
 namespace scree {
+
+/// The looks of samples 0 … 8 of a brick along each axis, for rays that end in it: half a voxel beneath a
+/// surface in the brick, the nearest voxel is one of them. Air has the looks of rock beside it.
+inline constexpr int look_brick_side = brick_size + 1;
+using LookBrick = std::array<Look, look_brick_side * look_brick_side * look_brick_side>;
+
+struct BrickLooks {
+  Look all{};
+  std::unique_ptr<LookBrick> each;  ///< null: all alike
+};
+
+/// Of the brick that begins at `first`; what is beyond the windows is air. They have the same box.
+BrickLooks looks_of(const LookWindow& looks, const Window& now, VoxelCoord first);
 
 struct LevelBrick {
   enum class Kind { empty, solid, stored } kind = Kind::empty;
@@ -19,7 +33,7 @@ struct LevelBrick {
   /// The generated field: `same` without edits; else it distinguishes fresh rock and rubble.
   enum class Before { same, mixed, air, rock } before_kind = Before::same;
   AtlasBrick before;  ///< when mixed
-  uint8_t paint = 0;  ///< a paint number (paint_number.h); on level 0 alone
+  BrickLooks looks;   ///< when stored
 };
 
 /// By the samples of its own cells, not the rest of its apron.

@@ -43,7 +43,8 @@ std::optional<BlockWindows> SurfaceLevels::gather(const Field& field, int level,
   MapField& generator = *coarse_[static_cast<size_t>(level)];
   const VoxelBox box = owned.grown(surface_nets_apron);
   if (!has_edits(field, level, box)) return gather_windows(generator, owned);
-  BlockWindows windows{owned, gather_generated(generator, box), std::nullopt, {}, generator.source()};
+  BlockWindows windows{owned, gather_generated(generator, box), std::nullopt,
+                       gather_looks(field, generator, level, box)};
   windows.before = windows.now;
   copy_edits(field, level, windows.now);
   return windows;

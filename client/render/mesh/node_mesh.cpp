@@ -210,15 +210,14 @@ SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows
     vertices.push_back(placed);
   }
   add_placed_vertices(windows.now, windows.before ? &*windows.before : nullptr, vertices, mesh.vertices);
-  windows.set_paint(mesh);
+  windows.set_looks(mesh);
   return mesh;
 }
 static_assert(surface_steps_per_voxel == 256.0F);
 
 /// A window where the field has nothing but air or rock.
 BlockWindows plain_windows(const VoxelBox& owned, bool is_rock) {
-  return {
-      owned, Window(owned.grown(surface_nets_apron), is_rock ? code_solid : code_air), std::nullopt, {}, {}};
+  return {owned, Window(owned.grown(surface_nets_apron), is_rock ? code_solid : code_air), std::nullopt, {}};
 }
 
 SheetPlace place_by(Polygoniser polygoniser, const Window& window) {

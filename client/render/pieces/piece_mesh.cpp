@@ -1,14 +1,20 @@
 #include "client/render/pieces/piece_mesh.h"
 
+#include "client/render/levels/surface_looks.h"
+
 namespace scree {
 
 PieceJob gather_piece(const Field& field, PieceId id, const ScenePiece& piece) {
-  return {id, piece, paint_number(field, *piece.volume), gather_generated(field, piece.volume->window.box)};
+  const Volume& volume = *piece.volume;
+  return {id, piece, looks_of(field, volume), gather_generated(field, volume.window.box)};
 }
 
 PieceMesh mesh_piece(const PieceJob& job) {
-  PieceMesh done{job.id, job.piece, surface_nets_closed(job.piece.volume->window, &job.before)};
-  for (SurfaceVertex& vertex : done.mesh.vertices) vertex.paint = vertex_paint(job.paint);
+  const Window& now = job.piece.volume->window;
+  PieceMesh done{job.id, job.piece, surface_nets_closed(now, &job.before)};
+  set_looks(done.mesh, now, job.looks);
+  for (SurfaceVertex& vertex : done.mesh.vertices) vertex.before = packed_worn(vertex.before);
+  if (!job.looks.is_ground()) part_looks(done.mesh);
   return done;
 }
 

@@ -15,7 +15,7 @@ struct PieceMesh {
 struct PieceJob {
   PieceId id = 0;
   ScenePiece piece;
-  uint8_t paint = 0;  ///< a paint number (paint_number.h)
+  LookWindow looks;
   /// The generated terrain in the voxel frame of the rock from which the piece was cut: it tells which of the
   /// piece's faces are fresh.
   Window before;

@@ -6,6 +6,7 @@
 
 #include "client/render/bricks/clip_level.h"
 #include "client/render/levels/block_windows.h"
+#include "client/render/levels/look_window.h"
 #include "client/render/scene/piece_tint.h"
 
 namespace scree {
@@ -113,7 +114,7 @@ PieceVolumes::Stored PieceVolumes::store(const Field& field, const ScenePiece& p
   const auto along = [](int voxels) { return (voxels + brick_size - 1) / brick_size; };
   const VoxelCoord bricks{along(size.x), along(size.y), along(size.z)};
   const Window before = gather_generated(field, window.box);
-  const uint8_t paint = paint_number(field, *piece.volume);
+  const LookWindow looks = looks_of(field, *piece.volume);
   stored.count = static_cast<uint32_t>(bricks.x * bricks.y * bricks.z);
   stored.first = allocate_run(stored.count);
   ClipEntry* entry = &entries_[stored.first];
@@ -123,12 +124,12 @@ PieceVolumes::Stored PieceVolumes::store(const Field& field, const ScenePiece& p
         const VoxelCoord at = first + first_voxel(BrickCoord{x, y, z});
         const AtlasBrick codes = brick_from(window, at);
         const LevelBrick::Kind kind = kind_of(codes);
-        *entry = {kind == LevelBrick::Kind::solid ? ClipEntry::solid << 24U : clip_empty, 0};
+        *entry = {kind == LevelBrick::Kind::solid ? ClipEntry::solid << 24U : clip_empty, 0, 0};
         if (kind != LevelBrick::Kind::stored) continue;
         if (const auto slot = atlas.add(codes)) entry->field = ClipEntry::packed(ClipEntry::stored, *slot);
         const AtlasBrick generated = brick_from(before, at);
         entry->before = store_before(before_kind_of(generated), generated, atlas);
-        entry->paint(paint);
+        entry->looks = store_looks(looks_of(looks, window, at), {}, atlas.looks());
       }
   upload_entries(stored.first, stored.count);
   const glm::vec3 centre = piece.volume->centre_voxels - glm::vec3(first.x, first.y, first.z);
@@ -145,6 +146,7 @@ void PieceVolumes::drop(const Stored& stored, BrickAtlas& atlas) {
     const ClipEntry& entry = entries_[i];
     if (entry.kind() == ClipEntry::stored) atlas.remove(ClipEntry::slot_of(entry.field));
     if (entry.has_before_slot()) atlas.remove(ClipEntry::slot_of(entry.before));
+    if (entry.has_looks_slot()) atlas.looks().remove(ClipEntry::slot_of(entry.looks));
   }
   free_runs_[static_cast<size_t>(std::bit_width(stored.count - 1))].push_back(stored.first);
 }
@@ -154,14 +156,14 @@ void PieceVolumes::upload_entries(uint32_t first, uint32_t count) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   const auto rows = static_cast<GLsizei>(entries_.size() / entries_row);
   if (count == entries_.size()) {
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, entries_row, rows, 0, GL_RG_INTEGER, GL_UNSIGNED_INT,
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32UI, entries_row, rows, 0, GL_RGB_INTEGER, GL_UNSIGNED_INT,
                  entries_.data());
     return;
   }
   const uint32_t top = first / entries_row;
   const uint32_t end = (first + count - 1) / entries_row + 1;
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(top), entries_row, static_cast<GLsizei>(end - top),
-                  GL_RG_INTEGER, GL_UNSIGNED_INT, &entries_[size_t{top} * entries_row]);
+                  GL_RGB_INTEGER, GL_UNSIGNED_INT, &entries_[size_t{top} * entries_row]);
 }
 
 void PieceVolumes::upload_instances(const ScenePieces& pieces) {

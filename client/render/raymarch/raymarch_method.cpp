@@ -14,7 +14,6 @@
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gpu_timers.h"
 #include "client/render/gl/lighting.h"
-#include "client/render/gl/material_source.h"
 #include "client/render/gl/shader_sources.h"
 #include "client/render/pieces/piece_volumes.h"
 #include "client/render/raymarch/march_targets.h"
@@ -33,11 +32,11 @@ struct RaymarchPrograms {
   gl::Program composite;
 };
 
-/// Links a program of shaders/ files and the table of materials.
+/// Links a program of shaders/ files.
 Result<gl::Program> link(std::string_view name, std::initializer_list<std::string_view> vertex,
                          std::initializer_list<std::string_view> fragment) {
   const auto sources = [](std::initializer_list<std::string_view> files) {
-    std::vector<std::string_view> texts{material_source()};
+    std::vector<std::string_view> texts;
     for (const std::string_view file : files) texts.push_back(shader_source(file));
     return texts;
   };
@@ -48,14 +47,15 @@ Result<RaymarchPrograms> link_raymarch_programs() {
   Result<gl::Program> cone =
       link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"});
   if (!cone) return fail(cone.error().message);
-  Result<gl::Program> march = link("raymarch", {"raymarch.vert"},
-                                   {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl",
-                                    "clouds.glsl", "haze.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"});
+  Result<gl::Program> march =
+      link("raymarch", {"raymarch.vert"},
+           {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl", "haze.glsl",
+            "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"});
   if (!march) return fail(march.error().message);
-  Result<gl::Program> piece =
-      link("piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
-           {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl",
-            "haze.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
+  Result<gl::Program> piece = link(
+      "piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
+      {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl",
+       "haze.glsl", "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
   if (!piece) return fail(piece.error().message);
   Result<gl::Program> shadow = link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
                                     {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"});

@@ -40,13 +40,6 @@ constexpr Throw throw_of(PieceEventKind kind) {
   return {};
 }
 
-/// The colour of the dust; rock as generated is sandstone (client/shaders/rock.glsl).
-glm::vec3 colour_of(Material material) {
-  if (material == material::rock) return {0.58F, 0.37F, 0.21F};
-  const auto& [r, g, b] = traits_of(material).albedo;
-  return {r, g, b};
-}
-
 std::array<uint8_t, 4> bytes(glm::vec3 colour, float opacity) {
   const auto byte = [](float part) {
     return static_cast<uint8_t>(std::clamp(part, 0.0F, 1.0F) * 255.0F + 0.5F);
@@ -75,8 +68,7 @@ glm::vec3 anywhere(Random& random) {
 /// How hard it was, 0..1: a blow of 6 m/s is as hard as any. Cracks and merges have no speed of their own.
 float hardness(const PieceEvent& event) {
   if (event.kind != PieceEventKind::strike) return 1.0F;
-  const float mass_kg = event.size_m * event.size_m * event.size_m * traits_of(event.material).density_kg_m3;
-  return std::clamp(event.impulse_n_s / std::max(mass_kg, 1e-3F) / 6.0F, 0.1F, 1.0F);
+  return std::clamp(event.impulse_n_s / std::max(event.mass_kg, 1e-3F) / 6.0F, 0.1F, 1.0F);
 }
 
 int count_of(float per_metre, float size_m) {
@@ -115,7 +107,7 @@ void Dust::throw_puffs(const PieceEvent& event, int count, double now_s) {
                       glm::vec3(out.x, down > 0.0F ? 0.25F * random.unit() : 0.6F * out.y, out.z);
     grain.first.radius_m = half_m * (0.7F + 0.6F * random.unit());
     const glm::vec3 shade(0.88F + 0.24F * random.unit());
-    grain.first.colour = bytes(colour_of(event.material) * shade, thrown.thickness * hardness(event));
+    grain.first.colour = bytes(event.dust * shade, thrown.thickness * hardness(event));
     grain.first.turn = 6.2831853F * random.unit();
     grain.spin = 0.5F * either_way(random);
     grain.begun_s = now_s;
@@ -137,7 +129,7 @@ void Dust::throw_chips(const PieceEvent& event, int count, double now_s) {
     const bool splinter = random.below(4) == 0;
     grain.first.radius_m = (splinter ? 0.05F : 0.018F) * (0.6F + random.unit());
     grain.first.slender = splinter ? 0.2F + 0.25F * random.unit() : 0.9F;
-    grain.first.colour = bytes(colour_of(event.material) * (0.55F + 0.45F * random.unit()), 1.0F);
+    grain.first.colour = bytes(event.dust * (0.55F + 0.45F * random.unit()), 1.0F);
     grain.first.turn = 6.2831853F * random.unit();
     grain.spin = 14.0F * either_way(random);
     grain.begun_s = now_s;

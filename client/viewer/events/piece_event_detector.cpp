@@ -22,23 +22,41 @@ constexpr float takes_place_m = 1.5F;
 
 }  // namespace
 
-PieceEventDetector::Known PieceEventDetector::seen(const ScenePiece& piece, float voxel_m) {
+PieceEventDetector::Known PieceEventDetector::seen(const ScenePiece& piece, float voxel_m,
+                                                   const Palette& palette) {
   const Volume& volume = *piece.volume;
-  const float voxels = static_cast<float>(volume.mass) / units_per_voxel;
-  const float volume_m3 = std::max(voxels, 0.0F) * voxel_m * voxel_m * voxel_m;
-  return {piece.pose.position_m, glm::vec3(0.0F),
-          std::cbrt(volume_m3),  volume_m3 * traits_of(volume.material).density_kg_m3,
-          volume.material,       false};
+  const float voxel_m3 = voxel_m * voxel_m * voxel_m;
+  const auto volume_m3 = [voxel_m3](MassUnits mass) {
+    return std::max(static_cast<float>(mass) / units_per_voxel, 0.0F) * voxel_m3;
+  };
+  float mass_kg = 0.0F;
+  for (const auto& [material, mass] : masses_of(volume))
+    mass_kg += volume_m3(mass) * palette.row_or_first(material).density_kg_m3;
+  return {piece.pose.position_m,
+          glm::vec3(0.0F),
+          std::cbrt(volume_m3(volume.mass)),
+          mass_kg,
+          main_material(volume),
+          false};
 }
 
-void PieceEventDetector::note_strike(PieceId id, const Known& before, const Known& now, float elapsed_s,
-                                     std::vector<PieceEvent>& events) {
-  if (!before.moved) return;
+PieceEvent PieceEventDetector::event_of(PieceEventKind kind, PieceId id, const Known& piece, float change_m_s,
+                                        const Palette& palette) {
+  PieceEvent event{kind, piece.place_m, piece.size_m, piece.mass_kg * change_m_s, piece.material, id};
+  const MaterialRow& row = palette.row_or_first(piece.material);
+  event.mass_kg = piece.mass_kg;
+  event.sound = row.sound;
+  const auto& [red, green, blue] = row.look.colour;
+  if (piece.material != palette.ground.bulk) event.dust = {red, green, blue};
+  return event;
+}
+
+std::optional<float> PieceEventDetector::blow_of(const Known& before, const Known& now, float elapsed_s) {
+  if (!before.moved) return std::nullopt;
   const float jump_m_s = glm::length(now.speed_m_s - before.speed_m_s - gravity_m_s2 * elapsed_s);
   // What lies still is held against gravity.
   const float blow = jump_m_s - glm::length(gravity_m_s2) * elapsed_s;
-  if (blow > blow_m_s)
-    events.push_back({PieceEventKind::strike, now.place_m, now.size_m, now.mass_kg * blow, now.material, id});
+  return blow > blow_m_s ? std::optional(blow) : std::nullopt;
 }
 
 bool PieceEventDetector::replaces_predicted(PieceId id, const ScenePieces& pieces) const {
@@ -49,30 +67,30 @@ bool PieceEventDetector::replaces_predicted(PieceId id, const ScenePieces& piece
   });
 }
 
-std::vector<PieceEvent> PieceEventDetector::step(const ScenePieces& pieces, float voxel_m, double now_s) {
+std::vector<PieceEvent> PieceEventDetector::step(const ScenePieces& pieces, float voxel_m, double now_s,
+                                                 const Palette& palette) {
   std::vector<PieceEvent> events;
   const auto elapsed_s = static_cast<float>(now_s - last_s_);
   if (known_ && elapsed_s <= 0.0F) return events;
   const bool continuous = known_ && static_cast<double>(elapsed_s) < gap_s;
   Table now;
   for (const auto& [id, piece] : pieces) {
-    Known one = seen(piece, voxel_m);
+    Known one = seen(piece, voxel_m, palette);
     const auto before = continuous ? known_->find(id) : Table::const_iterator();
     if (continuous && before != known_->end()) {
       one.speed_m_s = (one.place_m - before->second.place_m) / elapsed_s;
       one.moved = true;
-      note_strike(id, before->second, one, elapsed_s, events);
+      if (const auto blow = blow_of(before->second, one, elapsed_s))
+        events.push_back(event_of(PieceEventKind::strike, id, one, *blow, palette));
     } else if (continuous && !replaces_predicted(id, pieces)) {
-      events.push_back(
-          {PieceEventKind::crack, one.place_m, one.size_m, one.mass_kg * crack_m_s, one.material, id});
+      events.push_back(event_of(PieceEventKind::crack, id, one, crack_m_s, palette));
     }
     now.emplace(id, one);
   }
   if (continuous)
     for (const auto& [id, gone] : *known_)
       if (!now.contains(id) && !Predictions::is_predicted(id))
-        events.push_back({PieceEventKind::settle, gone.place_m, gone.size_m, gone.mass_kg * settle_m_s,
-                          gone.material, id});
+        events.push_back(event_of(PieceEventKind::settle, id, gone, settle_m_s, palette));
   known_ = std::move(now);
   last_s_ = now_s;
   std::ranges::stable_sort(events, std::ranges::greater(), &PieceEvent::impulse_n_s);

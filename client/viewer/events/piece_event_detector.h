@@ -16,7 +16,8 @@ class PieceEventDetector {
  public:
   /// What happened since the last step, the greatest impulse first, at most
   /// limits::piece_events_per_step_max. Nothing of a world that is shown for the first time, or after a gap.
-  std::vector<PieceEvent> step(const ScenePieces& pieces, float voxel_m, double now_s);
+  std::vector<PieceEvent> step(const ScenePieces& pieces, float voxel_m, double now_s,
+                               const Palette& palette = *plain_palette());
   /// Another world, or another moment of it.
   void begin() { known_.reset(); }
 
@@ -26,14 +27,16 @@ class PieceEventDetector {
     glm::vec3 speed_m_s{0.0F};
     float size_m = 0.0F;
     float mass_kg = 0.0F;
-    Material material = material::rock;
+    Material material{};
     bool moved = false;  ///< its speed is known
   };
   using Table = std::map<PieceId, Known>;
 
-  static Known seen(const ScenePiece& piece, float voxel_m);
-  static void note_strike(PieceId id, const Known& before, const Known& now, float elapsed_s,
-                          std::vector<PieceEvent>& events);
+  static Known seen(const ScenePiece& piece, float voxel_m, const Palette& palette);
+  static PieceEvent event_of(PieceEventKind kind, PieceId id, const Known& piece, float change_m_s,
+                             const Palette& palette);
+  /// The change of speed by a blow; nothing without one.
+  static std::optional<float> blow_of(const Known& before, const Known& now, float elapsed_s);
   bool replaces_predicted(PieceId id, const ScenePieces& pieces) const;
 
   std::optional<Table> known_;

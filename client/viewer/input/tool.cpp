@@ -24,6 +24,14 @@ T next(const std::array<T, n>& all, T one) {
   return found == all.end() || found + 1 == all.end() ? all.front() : *(found + 1);
 }
 
+/// Where a click fills, no name at all comes before the first.
+std::string next_material(const Tool& tool, const Palette& palette) {
+  const std::optional<Material> now = material_of(tool, palette);
+  const size_t next = now ? row_number(*now) + 1 : 0;
+  if (next < palette.rows.size()) return palette.rows[next].name;
+  return tool.use == ToolUse::paint ? palette.rows.front().name : std::string();
+}
+
 uint32_t scaled(uint32_t seeds, float factor) {
   const float wanted = std::round(static_cast<float>(seeds) * factor);
   return static_cast<uint32_t>(
@@ -58,15 +66,21 @@ uint32_t seeds_of(const Tool& tool) {
   return std::clamp(static_cast<uint32_t>(wanted), seeds_by_volume_min, seeds_by_volume_max);
 }
 
-Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t number) {
+std::optional<Material> material_of(const Tool& tool, const Palette& palette) {
+  if (tool.material.empty() && tool.use != ToolUse::paint) return std::nullopt;
+  return palette.named(tool.material).value_or(Material{});
+}
+
+Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t number,
+                   const Palette& palette) {
   const Shape shape = shape_of(tool, hit_m, direction);
   switch (tool.use) {
     case ToolUse::carve:
       break;
     case ToolUse::fill:
-      return FillRequest{shape};
+      return FillRequest{shape, material_of(tool, palette)};
     case ToolUse::paint:
-      return PaintRequest{shape, tool.material};
+      return PaintRequest{shape, *material_of(tool, palette)};
   }
   CarveRequest carve;
   carve.shape = shape;
@@ -87,14 +101,14 @@ std::string describe(const Tool& tool) {
   const auto radius_m = static_cast<double>(tool.radius_m);
   std::snprintf(numbers, sizeof numbers, ", radius %.2f m", radius_m);
   std::string text = std::string(name_of(tool.use)) + ": " + std::string(name_of(tool.kind)) + numbers;
-  if (tool.use == ToolUse::paint) text += ", " + std::string(name_of(tool.material));
+  if (tool.use != ToolUse::carve && !tool.material.empty()) text += ", " + tool.material;
   if (tool.use != ToolUse::carve) return text;
   std::snprintf(numbers, sizeof numbers, ", blast %.0f m/s, ", static_cast<double>(tool.blast_speed_m_s));
   return text + numbers + std::string(name_of(tool.pattern)) + ", about " + std::to_string(seeds_of(tool)) +
          " pieces";
 }
 
-void change(Tool& tool, Action action) {
+void change(Tool& tool, Action action, const Palette& palette) {
   const auto faster = [&](float by_m_s) {
     tool.blast_speed_m_s = std::clamp(tool.blast_speed_m_s + by_m_s, 0.0F, limits::blast_speed_max_m_s);
   };
@@ -118,7 +132,7 @@ void change(Tool& tool, Action action) {
       tool.use = next(all_kinds<ToolUse>, tool.use);
       break;
     case Action::next_material:
-      tool.material = next(all_kinds<Material>, tool.material);
+      tool.material = next_material(tool, palette);
       break;
     case Action::next_pattern:
       tool.pattern = next(tool_patterns, tool.pattern);

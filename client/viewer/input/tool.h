@@ -3,13 +3,14 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "client/viewer/input/actions.h"
 #include "proto/messages.h"
 #include "shared/base/kind_table.h"
-#include "shared/material/material.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -61,8 +62,8 @@ constexpr ToolRow row_of(ToolKind kind) {
 struct Tool {
   ToolKind kind = ToolKind::crater;
   ToolUse use = ToolUse::carve;
-  Material material = material::rock;  ///< to paint with
-  float radius_m = 2.0F;               ///< of a box: half its side; a tunnel is six times as long
+  std::string material;   ///< to fill or paint with, by name; empty: as the ground, or the first
+  float radius_m = 2.0F;  ///< of a box: half its side; a tunnel is six times as long
   float blast_speed_m_s = 6.0F;
   SeedPattern pattern = SeedPattern::radial;
   uint32_t seeds = 0;  ///< 0: by the volume, so that pieces are about as large at any size
@@ -85,14 +86,19 @@ Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction);
 /// Number of seeds of a strike.
 uint32_t seeds_of(const Tool& tool);
 
+/// What a tool fills or paints with; nothing: as the ground. A name that the world's palette lacks stands for
+/// its first row, and so does none in a tool that paints.
+std::optional<Material> material_of(const Tool& tool, const Palette& palette);
+
 /// What a click along `direction` (unit) that meets rock at `hit_m` asks for; `number` tells it from others.
-Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t number);
+Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t number,
+                   const Palette& palette = *plain_palette());
 
 /// Larger by that many notches of the wheel.
 void grow(Tool& tool, float notches);
 /// "carve: crater, radius 2.00 m, blast 6 m/s, radial, about 20 pieces".
 std::string describe(const Tool& tool);
-/// Changes the tool, if the action concerns it.
-void change(Tool& tool, Action action);
+/// Changes the tool, if the action concerns it. Materials are those of the palette.
+void change(Tool& tool, Action action, const Palette& palette = *plain_palette());
 
 }  // namespace scree

@@ -33,6 +33,7 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
     renderer_->set_terrain(session.mirror()->terrain());
   }
   if (session.mirror() == nullptr) return {};
+  renderer_->set_palette(session.mirror()->palette());
   return methods_.follow(step.changes, Scene{session.field(), session.pieces(now_s)}, camera);
 }
 

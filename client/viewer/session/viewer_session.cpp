@@ -26,10 +26,9 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
 }
 
 std::string told_of_paint(uint32_t bricks) {
-  if (bricks == 0)
-    return "Nothing was painted: paint goes by bricks of 8 voxels a side, and this shape reaches no other "
-           "rock";
-  return std::to_string(bricks) + (bricks == 1 ? " brick was painted" : " bricks were painted");
+  if (bricks == 0) return "Nothing was painted: in this shape there is no other material";
+  return "Painted, in " + std::to_string(bricks) + (bricks == 1 ? " brick" : " bricks") +
+         " of 8 voxels a side";
 }
 
 std::string told_of_reach(float away_m, float most_m) {
@@ -272,7 +271,7 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
   ++requests_;
   if (asked_s_.size() >= limits::own_requests_timed_max) asked_s_.erase(asked_s_.begin());
   asked_s_[requests_] = now_s;
-  client_.ask(request_of(tool, *hit_m, direction, requests_), requests_, now_s);
+  client_.ask(request_of(tool, *hit_m, direction, requests_, palette()), requests_, now_s);
 }
 
 std::string ViewerSession::description() const {

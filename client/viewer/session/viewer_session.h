@@ -108,6 +108,10 @@ class ViewerSession {
   bool gave_up() const { return gave_up_; }
   /// Seconds until the next attempt; nothing while there is a connection, or an attempt.
   std::optional<double> next_try_s(double now_s) const;
+  /// What the world is made of, as far as it has come.
+  const Palette& palette() const {
+    return client_.mirror() == nullptr ? *plain_palette() : *client_.mirror()->palette();
+  }
   /// The counters of the connection; nothing without one.
   std::optional<ConnectionCounters> traffic() const;
   /// The welcome of the connection; null without one.

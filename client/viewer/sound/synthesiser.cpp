@@ -11,24 +11,8 @@
 namespace scree {
 namespace {
 
-/// How a material sounds beside others of its size.
-struct Timbre {
-  float pitch_hz;  ///< of a cube of 1 m
-  float ring_s;    ///< until its modes are a third as loud, of a cube of 1 m
-  float noise;     ///< of the sound, rather than ringing
-};
-
-constexpr Timbre timbre_of(Material material) {
-  switch (material) {
-    case material::rock:
-      return {.pitch_hz = 190.0F, .ring_s = 0.05F, .noise = 0.6F};
-    case material::soil:
-      return {.pitch_hz = 70.0F, .ring_s = 0.03F, .noise = 0.85F};
-    case material::ice:
-      return {.pitch_hz = 420.0F, .ring_s = 0.12F, .noise = 0.4F};
-  }
-  return {};
-}
+/// Of the lowest mode of a cube of 1 m of rock, whose pitch is 1.
+constexpr float rock_pitch_hz = 190.0F;
 
 /// How a kind of event differs from a plain blow.
 struct Manner {
@@ -64,7 +48,7 @@ float decay_over(float seconds) {
 }  // namespace
 
 void Synthesiser::add(const PieceEvent& event, const Ears& ears) {
-  const Timbre timbre = timbre_of(event.material);
+  const MaterialSound& timbre = event.sound;
   const Manner manner = manner_of(event.kind);
   const float size_m = std::clamp(event.size_m, 0.05F, 8.0F);
   const glm::vec3 way_m = event.place_m - ears.place_m;
@@ -87,8 +71,9 @@ void Synthesiser::add(const PieceEvent& event, const Ears& ears) {
   voice.dull = std::min(1.0F, 2.0F * std::numbers::pi_v<float> * cut_hz / rate);
   for (size_t i = 0; i < modes; ++i) {
     const float pitch_hz =
-        std::min(timbre.pitch_hz / size_m * overtones[i] * (0.95F + 0.1F * voice.random.unit()), 0.2F * rate);
-    const float decay = decay_over(timbre.ring_s * size_m / overtones[i]);
+        std::min(timbre.pitch * rock_pitch_hz / size_m * overtones[i] * (0.95F + 0.1F * voice.random.unit()),
+                 0.2F * rate);
+    const float decay = decay_over(timbre.damping_s * size_m / overtones[i]);
     const float turn = 2.0F * std::numbers::pi_v<float> * pitch_hz / rate;
     const float start = manner.ringing * (1.0F - timbre.noise) / static_cast<float>(i + 1);
     voice.ringing[i] = {decay * std::cos(turn), decay * std::sin(turn), 0.0F, start};

@@ -9,6 +9,7 @@
 #include "client/viewer/base/json_depth.h"
 #include "client/viewer/base/limits.h"
 #include "shared/base/xdg_folder.h"
+#include "shared/material/material_members.h"
 
 namespace scree {
 namespace {
@@ -122,7 +123,10 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.flag("overlay_physics", settings.overlay.physics);
   reader.choice("tool", settings.tool.kind, all_kinds<ToolKind>);
   reader.choice("use", settings.tool.use, all_kinds<ToolUse>);
-  reader.choice("material", settings.tool.material, all_kinds<Material>);
+  reader.text("material", settings.tool.material);
+  // A world need not have it: then its first one is taken.
+  if (!settings.tool.material.empty() && !check_material_name(settings.tool.material))
+    reader.wrong("material", "is no name of a material");
   reader.number("radius_m", settings.tool.radius_m, tool_radius_min_m, tool_radius_max_m);
   reader.number("blast_speed_m_s", settings.tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s);
   reader.choice("pattern", settings.tool.pattern, tool_patterns);
@@ -153,7 +157,7 @@ std::string to_text(const Settings& settings) {
                    {"overlay_physics", settings.overlay.physics},
                    {"tool", name_of(settings.tool.kind)},
                    {"use", name_of(settings.tool.use)},
-                   {"material", name_of(settings.tool.material)},
+                   {"material", settings.tool.material},
                    {"radius_m", settings.tool.radius_m},
                    {"blast_speed_m_s", settings.tool.blast_speed_m_s},
                    {"pattern", name_of(settings.tool.pattern)},

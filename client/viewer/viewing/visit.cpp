@@ -11,20 +11,14 @@ namespace {
 constexpr LineColour beyond_reach_colour{140, 140, 140, 80};
 
 /// The colour of the shape in the person's hand.
-LineColour preview_colour(const Tool& tool) {
+LineColour preview_colour(const Tool& tool, const Palette& palette) {
   constexpr uint8_t opacity = 150;
-  switch (tool.use) {
-    case ToolUse::carve:
-      break;
-    case ToolUse::fill:
-      return {170, 255, 190, opacity};
-    case ToolUse::paint: {
-      const auto& [r, g, b] = traits_of(tool.material).albedo;
-      const auto bright = [](float part) { return static_cast<uint8_t>(255.0F * std::sqrt(part)); };
-      return {bright(r), bright(g), bright(b), opacity};
-    }
-  }
-  return {255, 236, 170, opacity};
+  if (tool.use == ToolUse::carve) return {255, 236, 170, opacity};
+  const std::optional<Material> material = material_of(tool, palette);
+  if (!material) return {170, 255, 190, opacity};
+  const auto& [r, g, b] = palette.row(*material).look.colour;
+  const auto bright = [](float part) { return static_cast<uint8_t>(255.0F * std::sqrt(part)); };
+  return {bright(r), bright(g), bright(b), opacity};
 }
 
 }  // namespace
@@ -115,7 +109,8 @@ Result<void> Visit::step(double now_s) {
 /// What they do is heard and seen.
 void Visit::follow_pieces(double now_s) {
   if (!listens_ && !particles_) return;
-  events_ = piece_events_.step(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, now_s);
+  events_ = piece_events_.step(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, now_s,
+                               session.palette());
   if (!particles_) return;
   dust_.add(events_, now_s);
   view->renderer().set_particles(dust_.at(now_s, camera.eye_m));
@@ -136,7 +131,7 @@ LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optio
   if (hit_m && !session.is_replay()) {
     const Shape shape = shape_of(tool, *hit_m, direction);
     const bool is_far = session.is_beyond_reach(shape, camera.eye_m);
-    lines.shape(shape, is_far ? beyond_reach_colour : preview_colour(tool));
+    lines.shape(shape, is_far ? beyond_reach_colour : preview_colour(tool, session.palette()));
   }
   session.figures(now_s).add_to(lines, camera.eye_m, looked_through);
   add_overlay(lines, overlay, now_s);

@@ -23,6 +23,7 @@ struct FrameParts {
 /// What the panel shows and changes.
 struct PanelValues {
   Tool& tool;
+  const Palette& palette;
   OverlayChoice& overlay;
   DrawOptionValues& method_options;
   bool& particles;

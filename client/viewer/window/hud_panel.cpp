@@ -1,6 +1,7 @@
 // The HUD's panel: the drawing method, and the tool.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <imgui/imgui.h>
 
 #include "client/viewer/base/limits.h"
@@ -66,9 +67,38 @@ void choose_quality(std::optional<Quality>& quality) {
   }
 }
 
-/// What a carve breaks into, or what is painted.
-void choose_use(Tool& tool) {
-  if (tool.use == ToolUse::paint) choose(tool.material, all_kinds<Material>);
+constexpr const char* as_the_ground = "as the ground";
+
+/// A line of the list: a swatch, and the name.
+bool material_line(const MaterialRow& row, bool chosen) {
+  const auto& [red, green, blue] = row.look.colour;
+  const auto bright = [](float part) { return std::sqrt(part); };  // linear to what a screen shows, about
+  const ImVec4 colour(bright(red), bright(green), bright(blue), 1.0F);
+  ImGui::PushID(row.name.c_str());
+  const float side = ImGui::GetTextLineHeight();
+  ImGui::ColorButton("##colour", colour, ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoDragDrop,
+                     ImVec2(side, side));
+  ImGui::SameLine();
+  const bool picked = ImGui::Selectable(row.name.c_str(), chosen);
+  ImGui::PopID();
+  return picked;
+}
+
+/// What is filled or painted with: the palette's rows, and before them nothing of one's own for a fill.
+void choose_material(Tool& tool, const Palette& palette) {
+  const std::optional<Material> chosen = material_of(tool, palette);
+  const std::string shown = chosen ? palette.row(*chosen).name : as_the_ground;
+  if (!ImGui::BeginCombo("material", shown.c_str())) return;
+  if (tool.use == ToolUse::fill && ImGui::Selectable(as_the_ground, !chosen)) tool.material.clear();
+  for (size_t i = 0; i < palette.rows.size(); ++i)
+    if (material_line(palette.rows[i], chosen == static_cast<Material>(i)))
+      tool.material = palette.rows[i].name;
+  ImGui::EndCombo();
+}
+
+/// What a carve breaks into, or what is filled or painted with.
+void choose_use(Tool& tool, const Palette& palette) {
+  if (tool.use != ToolUse::carve) choose_material(tool, palette);
   if (tool.use != ToolUse::carve) return;
   ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
   choose(tool.pattern, tool_patterns);
@@ -82,7 +112,7 @@ void choose_use(Tool& tool) {
 }  // namespace
 
 const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values) {
-  auto& [tool, overlay, method_options, particles, predict, hand, quality] = values;
+  auto& [tool, palette, overlay, method_options, particles, predict, hand, quality] = values;
   panels_.begin(PanelPlace::upper_right);
   ImGui::PushItemWidth(slider_width_in_text * ImGui::GetFontSize());
   const MethodEntry* picked = choose_method(chosen);
@@ -93,7 +123,7 @@ const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& valu
   choose(tool.use, all_kinds<ToolUse>);
   choose(tool.kind, all_kinds<ToolKind>);
   ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");
-  choose_use(tool);
+  choose_use(tool, palette);
   ImGui::Separator();
   ImGui::SliderFloat("field of view", &hand.field_of_view_degrees, field_of_view_min_degrees,
                      field_of_view_max_degrees, "%.0f degrees", ImGuiSliderFlags_AlwaysClamp);

@@ -62,6 +62,32 @@ export function parts(legend, names, choose) {
   return { element, show(chosen) { for (const [name, one] of buttons) one.setAttribute('aria-pressed', String(name === chosen)); } };
 }
 
+/** The same of things that have a colour and may become others: `list` of {name, colour}. The name '' is shown as `none`. */
+export function swatches(legend, none, choose) {
+  const row = make('div', { className: 'parts swatches', role: 'group', aria: { label: legend } });
+  const element = make('div', {}, make('h3', {}, legend), row);
+  let shown = '', buttons = new Map();
+  const rebuild = (list) => {
+    buttons = new Map(list.map(({ name, colour }) => {
+      const one = make('button', { type: 'button', aria: { pressed: 'false' } });
+      if (colour) one.append(make('i', { className: 'swatch', style: `background:${/^#[0-9a-f]{6}$/.test(colour) ? colour : 'none'}` }));
+      one.append(name || none);
+      one.addEventListener('click', () => choose(name));
+      return [name, one];
+    }));
+    row.replaceChildren(...buttons.values());
+  };
+  return {
+    element,
+    show(list, chosen) {
+      const text = JSON.stringify(list);
+      if (text !== shown) rebuild(list);
+      shown = text;
+      for (const [name, one] of buttons) one.setAttribute('aria-pressed', String(name === chosen));
+    },
+  };
+}
+
 export function check(label, explanation, change) {
   const input = make('input', { type: 'checkbox' });
   input.addEventListener('change', () => change(input.checked));

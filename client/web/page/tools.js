@@ -1,5 +1,5 @@
 // The tool in hand: its row below the picture, and its page in the panel.
-import { $, button, make, parts, slider, write } from './dom.js';
+import { $, button, make, parts, slider, swatches, write } from './dom.js';
 import { metres } from './words.js';
 
 const SIZE_STEP_M = 0.25;
@@ -50,13 +50,21 @@ export class Tools {
   }
 }
 
+/** What a tool may fill or paint with, and which of it is chosen: a world may lack what was kept. */
+export function materials_for(tool, materials) {
+  const fills = tool.use === 'fill';
+  const list = fills ? [{ name: '', colour: '' }, ...materials] : materials;
+  if (list.some(({ name }) => name === tool.material)) return { list, chosen: tool.material };
+  return { list, chosen: materials[0]?.name ?? '' };
+}
+
 /** The page of the panel. */
 export function tool_page(client, catalogue) {
   const { limits } = catalogue;
   const set = (name) => (value) => client.set(name, value);
   const kind = parts('Shape', in_order(catalogue.tools), set('tool'));
   const use = parts('A click does', catalogue.uses, set('use'));
-  const material = parts('Paints with', catalogue.materials, set('material'));
+  const material = swatches('Material', 'as the ground', set('material'));
   const pattern = parts('Cracks run', catalogue.patterns, set('pattern'));
   const range = (label, name, [least, most], step, say) => slider({ label, least, most, step, say, change: set(name) });
   const radius = range('Size', 'radius', limits.tool_radius_m, SIZE_STEP_M, metres);
@@ -66,11 +74,12 @@ export function tool_page(client, catalogue) {
   const element = make('section', {}, ...[kind, use, material, radius, blast, seeds, pattern].map((one) => one.element));
   return {
     title: 'Tool', icon: 'tool', element,
-    show({ tool }) {
+    show({ tool, materials }) {
       kind.show(tool.kind);
       use.show(tool.use);
-      material.show(tool.material);
-      material.element.hidden = tool.use !== 'paint';
+      const { list, chosen } = materials_for(tool, materials);
+      material.show(list, chosen);
+      material.element.hidden = tool.use === 'carve';
       for (const one of [blast, seeds, pattern]) one.element.hidden = tool.use !== 'carve';
       by_volume = tool.seeds_now;
       radius.show(tool.radius_m);

@@ -1,0 +1,33 @@
+#include "client/render/gl/material_table.h"
+
+#include <array>
+
+namespace scree {
+namespace {
+
+/// As client/shaders/material.glsl reads it: a column for each row of the palette.
+struct Texel {
+  float red, green, blue, alpha;
+};
+constexpr size_t table_columns = 256;
+constexpr size_t table_lines = 2;
+
+}  // namespace
+
+void MaterialTable::set(const Palette& palette) {
+  std::array<Texel, table_columns * table_lines> texels;
+  for (size_t row = 0; row < table_columns; ++row) {
+    const MaterialLook& look = palette.row_or_first(static_cast<Material>(row)).look;
+    const auto& [red, green, blue] = look.colour;
+    texels[row] = {red, green, blue, look.variation};
+    // Images of albedo and normals are to come: the last number is for where they lie.
+    texels[table_columns + row] = {look.roughness, static_cast<float>(look.pattern), look.pattern_m, 0.0F};
+  }
+  glBindTexture(GL_TEXTURE_2D, texture_.name());
+  glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, table_columns, table_lines, 0, GL_RGBA, GL_FLOAT, texels.data());
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+}  // namespace scree

@@ -1,0 +1,174 @@
+#include "client/render/levels/look_window.h"
+
+#include <algorithm>
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "shared/field/voxel_vector.h"
+
+namespace scree {
+namespace {
+
+/// Writes looks into a window, which stays empty as long as all look as the ground does.
+class Looks {
+ public:
+  Looks(const VoxelBox& box, Material bulk) : bulk_(said(bulk)) { looks_.box = box; }
+
+  uint8_t look_of(VoxelMaterial voxel) const { return voxel == bulk_ ? ground_own : voxel; }
+
+  void set(VoxelCoord voxel, Look look) {
+    if (looks_.each.empty() && look == Look{}) return;
+    if (looks_.each.empty()) looks_.each.resize(Window::count(looks_.box));
+    looks_.each[index(voxel)] = look;
+  }
+  /// What a cut lays bare where the voxel says nothing.
+  void set_bare(VoxelCoord voxel, uint8_t bare) {
+    if (bare == 0) return;
+    if (!looks_.each.empty() && looks_.each[index(voxel)].shown != 0) return;
+    set(voxel, {0, bare});
+  }
+  LookWindow&& take() { return std::move(looks_); }
+
+ private:
+  size_t index(VoxelCoord v) const {
+    const VoxelCoord size = looks_.box.size(), off = v - looks_.box.lo;
+    return (static_cast<size_t>(off.x) * static_cast<size_t>(size.y) + static_cast<size_t>(off.y)) *
+               static_cast<size_t>(size.z) +
+           static_cast<size_t>(off.z);
+  }
+
+  VoxelMaterial bulk_;
+  LookWindow looks_;
+};
+
+VoxelBox box_of(BrickCoord brick) {
+  const VoxelCoord first = first_voxel(brick);
+  return {first, first + VoxelCoord{brick_size, brick_size, brick_size}};
+}
+
+template <typename F>
+void for_each_voxel(const VoxelBox& box, F&& f) {
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z) f(VoxelCoord{x, y, z});
+}
+
+int index_in_brick(VoxelCoord v) {
+  return Brick::index(v.x & (brick_size - 1), v.y & (brick_size - 1), v.z & (brick_size - 1));
+}
+
+void add_stored(const Field& ground, const VoxelBox& box, Looks& looks) {
+  for_each_chunk(box, [&](ChunkCoord chunk) {
+    const auto stored = ground.chunk_bricks(chunk).generated.stored_materials;
+    if (stored == nullptr) return;
+    for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
+      const BrickMaterials& materials = (*stored)[static_cast<size_t>(i)];
+      if (materials.is_ground()) continue;
+      for_each_voxel(common(box_of(brick_in_chunk(chunk, i)), box), [&](VoxelCoord v) {
+        const uint8_t look = looks.look_of(materials.at(index_in_brick(v)));
+        looks.set(v, {look, look});
+      });
+    }
+  });
+}
+
+/// The samples of an edited brick, `home`, that lie in `part`, a box of the level's.
+void add_edited(const Field& field, const Field& ground, int level, BrickCoord home, const VoxelBox& part,
+                Looks& looks) {
+  const BrickMaterials materials = field.materials(home);
+  const BrickMaterials own = ground.ground_materials(brick_of(part.lo));
+  const bool bulk_alone = own.is_uniform() && looks.look_of(own.uniform()) == 0;
+  if (materials.is_ground() && bulk_alone) return;
+  for_each_voxel(part, [&](VoxelCoord v) {
+    const VoxelCoord in{v.x << level, v.y << level, v.z << level};
+    const VoxelMaterial voxel = materials.at(index_in_brick(in));
+    if (voxel == ground_own) return looks.set_bare(v, looks.look_of(own.at(index_in_brick(v))));
+    const uint8_t look = looks.look_of(voxel);
+    looks.set(v, {look, look});
+  });
+}
+
+void add_edits(const Field& field, const Field& ground, int level, const VoxelBox& box, Looks& looks) {
+  const auto fine = [level](VoxelCoord v) { return VoxelCoord{v.x << level, v.y << level, v.z << level}; };
+  // The first sample not below.
+  const auto sample = [level](VoxelCoord v) {
+    const int up = (1 << level) - 1;
+    return VoxelCoord{(v.x + up) >> level, (v.y + up) >> level, (v.z + up) >> level};
+  };
+  const VoxelBox around{fine(box.lo), fine(box.hi)};
+  for_each_chunk(around, [&](ChunkCoord chunk) {
+    if (!field.has_edits(chunk)) return;
+    for (const BrickCoord home : field.edited_bricks(chunk)) {
+      const VoxelBox brick = box_of(home);
+      const VoxelBox part = common({sample(brick.lo), sample(brick.hi)}, box);
+      if (!part.empty()) add_edited(field, ground, level, home, part, looks);
+    }
+  });
+}
+
+}  // namespace
+
+Look LookWindow::at(VoxelCoord voxel) const {
+  if (each.empty()) return {};
+  CHECK_DEBUG(box.holds(voxel));
+  const VoxelCoord size = box.size(), off = voxel - box.lo;
+  return each[(static_cast<size_t>(off.x) * static_cast<size_t>(size.y) + static_cast<size_t>(off.y)) *
+                  static_cast<size_t>(size.z) +
+              static_cast<size_t>(off.z)];
+}
+
+VoxelCoord beneath(const Window& now, glm::vec3 p, glm::vec3 normal) {
+  const glm::vec3 in_rock = p - 0.5F * normal;
+  const auto along = [](float v, int lo, int hi) { return std::clamp(floor_to_int(v), lo, hi - 2); };
+  const VoxelBox& box = now.box;
+  const VoxelCoord cell{along(p.x, box.lo.x, box.hi.x), along(p.y, box.lo.y, box.hi.y),
+                        along(p.z, box.lo.z, box.hi.z)};
+  VoxelCoord nearest = cell;
+  float least = 1e9F;
+  for (int i = 0; i < 8; ++i) {
+    const VoxelCoord corner = cell + VoxelCoord{i >> 2, (i >> 1) & 1, i & 1};
+    const glm::vec3 off = as_vector(corner) - in_rock;
+    // Solid ones before all others.
+    const float far = glm::dot(off, off) + (now.at(corner.x, corner.y, corner.z) < 0 ? 0.0F : 100.0F);
+    if (far >= least) continue;
+    least = far;
+    nearest = corner;
+  }
+  return nearest;
+}
+
+LookWindow gather_looks(const Field& field, const Field& ground, int level, const VoxelBox& box) {
+  Looks looks(box, field.source().rows.bulk);
+  add_stored(ground, box, looks);
+  add_edits(field, ground, level, box, looks);
+  return looks.take();
+}
+
+LookWindow looks_of(const Field& field, const Volume& piece) {
+  const VoxelBox& box = piece.window.box;
+  Looks looks(box, field.source().rows.bulk);
+  if (piece.materials.is_uniform() && looks.look_of(said(piece.materials.all)) == 0) return looks.take();
+  for_each_brick(box, [&](BrickCoord coord) {
+    const BrickMaterials own = field.ground_materials(coord);
+    const bool stored =
+        !field.chunk_bricks(chunk_of(coord)).generated.materials(index_in_chunk(coord)).is_ground();
+    for_each_voxel(common(box_of(coord), box), [&](VoxelCoord v) {
+      const VoxelMaterial voxel = said(piece.materials.at(v));
+      const uint8_t look = looks.look_of(voxel);
+      const bool is_layer = !stored && voxel == own.at(index_in_brick(v));
+      looks.set(v, {is_layer ? uint8_t{0} : look, look});
+    });
+  });
+  return looks.take();
+}
+
+bool stores_materials(const Field& ground, const VoxelBox& box) {
+  bool stores = false;
+  for_each_chunk(box, [&](ChunkCoord chunk) {
+    stores = stores || ground.chunk_bricks(chunk).generated.stored_materials != nullptr;
+  });
+  return stores;
+}
+
+}  // namespace scree
