@@ -25,7 +25,22 @@ StatusJson work_json(const WorkStatus& work) {
   return json;
 }
 
-StatusJson now_json(const StatusMessage& status) {
+StatusJson materials_json(const MaterialLedger& ledger, const Palette* palette) {
+  StatusJson json = StatusJson::object();
+  for (size_t i = 0; i < ledger.rows().size(); ++i) {
+    const MaterialLedger::Row& row = ledger.rows()[i];
+    if (row == MaterialLedger::Row{}) continue;
+    const bool is_named = palette != nullptr && i < palette->rows.size();
+    json[is_named ? palette->rows[i].name : std::to_string(i)] = {{"terrain", row.terrain},
+                                                                  {"pieces", row.pieces},
+                                                                  {"dust", row.dust},
+                                                                  {"poured", row.poured},
+                                                                  {"converted", row.converted}};
+  }
+  return json;
+}
+
+StatusJson now_json(const StatusMessage& status, const ServerFacts& facts) {
   StatusJson stages = StatusJson::object();
   for (const StageTime& stage : status.stages) stages[stage.name] = stage.ms;
   return {{"tick", status.tick},
@@ -36,6 +51,7 @@ StatusJson now_json(const StatusMessage& status) {
           {"stages_ms", std::move(stages)},
           {"latency_ms", latency_json(status.latency)},
           {"work", work_json(status.work)},
+          {"materials", materials_json(status.materials, facts.palette.get())},
           {"chunks_read", status.paging.chunks_read},
           {"saving", status.saving},
           {"saved_tick", status.saved_tick}};
@@ -65,7 +81,7 @@ std::string status_json(const ServerReport& report, const NetFigures& figures, c
   const StatusJson json{{"version", SCREE_VERSION},
                         {"tick_rate_hz", facts.tick_rate_hz},
                         {"replay", facts.replay},
-                        {"now", now_json(figures.status)},
+                        {"now", now_json(figures.status, facts)},
                         {"health", health_of(figures.health)},
                         {"sessions", std::move(sessions)},
                         {"report", StatusJson::parse(to_json(report))}};
