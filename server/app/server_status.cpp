@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "proto/work_rows.h"
+#include "server/app/world_facts.h"
 
 namespace scree {
 
@@ -25,21 +26,6 @@ StatusJson work_json(const WorkStatus& work) {
   return json;
 }
 
-StatusJson materials_json(const MaterialLedger& ledger, const Palette* palette) {
-  StatusJson json = StatusJson::object();
-  for (size_t i = 0; i < ledger.rows().size(); ++i) {
-    const MaterialLedger::Row& row = ledger.rows()[i];
-    if (row == MaterialLedger::Row{}) continue;
-    const bool is_named = palette != nullptr && i < palette->rows.size();
-    json[is_named ? palette->rows[i].name : std::to_string(i)] = {{"terrain", row.terrain},
-                                                                  {"pieces", row.pieces},
-                                                                  {"dust", row.dust},
-                                                                  {"poured", row.poured},
-                                                                  {"converted", row.converted}};
-  }
-  return json;
-}
-
 StatusJson now_json(const StatusMessage& status, const ServerFacts& facts) {
   StatusJson stages = StatusJson::object();
   for (const StageTime& stage : status.stages) stages[stage.name] = stage.ms;
@@ -51,7 +37,7 @@ StatusJson now_json(const StatusMessage& status, const ServerFacts& facts) {
           {"stages_ms", std::move(stages)},
           {"latency_ms", latency_json(status.latency)},
           {"work", work_json(status.work)},
-          {"materials", materials_json(status.materials, facts.palette.get())},
+          {"materials", StatusJson::parse(ledger_json(status.materials, *facts.palette))},
           {"chunks_read", status.paging.chunks_read},
           {"saving", status.saving},
           {"saved_tick", status.saved_tick}};

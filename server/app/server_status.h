@@ -13,7 +13,7 @@ namespace scree {
 struct ServerFacts {
   uint32_t tick_rate_hz = 0;
   bool replay = false;
-  std::shared_ptr<const Palette> palette{};  ///< for the names of its rows; null: their numbers
+  std::shared_ptr<const Palette> palette{};  ///< not null
 };
 
 std::string status_json(const ServerReport& report, const NetFigures& figures, const ServerFacts& facts);

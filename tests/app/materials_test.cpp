@@ -18,7 +18,7 @@
 namespace scree {
 namespace {
 
-const std::string good_token = "a-token-of-some-length";
+const std::string materials_token = "a-token-of-some-length";
 
 std::string refusal(const Palette& palette, const SettingValue& setting) {
   MaterialNumbers numbers;
@@ -87,14 +87,14 @@ class MaterialSession : public ::testing::Test {
   void start() {
     LiveConfig config;
     config.world = flat_world();
-    config.net.admin_token = good_token;
+    config.net.admin_token = materials_token;
     config.record_path = record_;
     config.world_path = world_;
     auto started = LiveServer::start(config);
     ASSERT_TRUE(started) << started.error().message;
     server_ = std::move(*started);
     target_.port = server_->port();
-    target_.token = good_token;
+    target_.token = materials_token;
     target_.within = std::chrono::seconds(60);
   }
 
