@@ -73,7 +73,9 @@ ContentMessage read(const wire::Content& from, FieldChecker& check) {
 std::string pack_ledger(const MaterialLedger& ledger) {
   std::vector<uint8_t> bytes;
   ByteWriter writer(bytes);
-  for (const MaterialLedger::Row& row : ledger.rows())
+  std::span<const MaterialLedger::Row> rows = ledger.rows();
+  while (!rows.empty() && rows.back() == MaterialLedger::Row{}) rows = rows.first(rows.size() - 1);
+  for (const MaterialLedger::Row& row : rows)
     for (const MassUnits mass : {row.terrain, row.pieces, row.dust, row.poured, row.converted})
       writer.zigzag(mass);
   return to_string(bytes);

@@ -20,7 +20,8 @@ AskContentMessage read(const wire::ContentRequest& from, FieldChecker& check);
 void write(wire::Content& to, const ContentMessage& from);
 ContentMessage read(const wire::Content& from, FieldChecker& check);
 
-/// Five zigzag varints for each row: terrain, pieces, dust, poured, converted.
+/// Five zigzag varints for each row: terrain, pieces, dust, poured, converted. Rows at the end without
+/// anything are left out: ledgers that say the same have the same bytes.
 std::string pack_ledger(const MaterialLedger& ledger);
 MaterialLedger unpack_ledger(const std::string& packed, FieldChecker& check);
 
