@@ -3,6 +3,7 @@
 
 #include "proto/admin_codec.h"
 #include "proto/codec.h"
+#include "proto/content_codec.h"
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/talk_codec.h"
@@ -65,6 +66,7 @@ struct Writing {
   void operator()(const GoodbyeMessage&) const { to.mutable_goodbye(); }
   void operator()(const AskHealthMessage&) const { to.mutable_ask_health(); }
   void operator()(const AskTilesMessage& from) const { write(*to.mutable_tiles(), from); }
+  void operator()(const AskContentMessage& from) const { write(*to.mutable_content(), from); }
   void operator()(const SayMessage& from) const { write(*to.mutable_say(), from); }
   void operator()(const AckMessage& from) const { to.mutable_ack()->set_tick(from.tick); }
   void operator()(const AdminMessage& from) const { write(*to.mutable_admin(), from); }
@@ -157,6 +159,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return AskHealthMessage{};
     case wire::ClientMessage::kTiles:
       return checked(read_tile_request(from.tiles(), check));
+    case wire::ClientMessage::kContent:
+      return checked(read(from.content(), check));
     case wire::ClientMessage::kSay:
       return checked(read(from.say(), check));
     case wire::ClientMessage::kAck:

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "proto/byte_stream.h"
+#include "proto/content_codec.h"
 #include "proto/height_wire.h"
 #include "shared/base/check.h"
 #include "shared/base/text.h"
@@ -93,6 +94,7 @@ void write(wire::Welcome& to, const WelcomeMessage& from) {
   to.set_ticket(from.ticket);
   to.set_resumed(from.resumed);
   if (from.heights) write(*to.mutable_heights(), *from.heights);
+  if (from.palette) to.set_palette(wire_digest(*from.palette));
   if (!from.spawn) return;
   write(*to.mutable_spawn(), from.spawn->eye_m);
   to.set_spawn_yaw_degrees(from.spawn->yaw_degrees);
@@ -122,6 +124,7 @@ WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
   welcome.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   welcome.resumed = from.resumed();
   if (from.has_heights()) welcome.heights = read_heights(from.heights(), check);
+  welcome.palette = read_any_digest(from.palette(), "palette", check);
   if (from.has_spawn())
     welcome.spawn = {check.vec3(from.spawn(), "spawn"),
                      check.finite(from.spawn_yaw_degrees(), "spawn_yaw_degrees"),

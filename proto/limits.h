@@ -45,6 +45,13 @@ inline constexpr size_t ground_chunks_max = 1024;
 /// them; a stored chunk has half of that. Above: refused.
 inline constexpr size_t tile_bytes_max = size_t{72} << 10;
 
+/// Bytes of one palette or image (limits::image_bytes_max), and of one part of it. Above: refused.
+inline constexpr uint32_t content_bytes_max = uint32_t{4} << 20U;
+inline constexpr size_t content_part_bytes_max = size_t{32} << 10;
+
+/// Contents that a client may ask for in one message, and wait for. Above: refused, and the connection ends.
+inline constexpr size_t contents_wanted_max = 64;
+
 /// How deep a layer of the ground may reach, metres. Above: refused.
 inline constexpr float layer_depth_max_m = 50.0F;
 

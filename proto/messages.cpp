@@ -84,10 +84,13 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const TileMessage& m) { return m.bytes.size(); },
+                     [](const ContentMessage& m) { return m.part.size(); },
+                     [](const PaletteChangedMessage&) { return size_t{0}; },
                      [](const ResetMessage&) { return size_t{0}; },
                      [](const ReplyMessage& m) { return m.refusal.size() + m.refusal_name.size(); },
                      [](const StatusMessage& m) {
-                       return bytes_of(m.settings) + bytes_of(m.refusals) + bytes_of(m.stages);
+                       return bytes_of(m.settings) + bytes_of(m.refusals) + bytes_of(m.stages) +
+                              bytes_of(m.materials.rows());
                      },
                      [](const CursorsMessage& m) { return bytes_of(m.cursors); },
                      [](const PersonsMessage& m) { return bytes_of(m.persons); },

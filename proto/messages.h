@@ -8,12 +8,14 @@
 #include <variant>
 #include <vector>
 
+#include "proto/content.h"
 #include "proto/cursor.h"
 #include "proto/health.h"
 #include "proto/marks.h"
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
 #include "proto/protocol_version.h"
+#include "proto/status_values.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
 #include "shared/base/ids.h"
@@ -152,7 +154,8 @@ struct AskTilesMessage {
 using ClientMessage =
     std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairMessage,
                  AckMessage, AdminMessage, CursorMessage, PhysicsSubscriptionMessage, AskGroundMessage,
-                 OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage, UnknownMessage>;
+                 OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
+                 AskContentMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -191,6 +194,7 @@ struct WelcomeMessage {
   std::optional<HeightGround> heights{};
   /// Where who has no place of its own begins. Servers of older releases say none.
   std::optional<Spawn> spawn{};
+  std::optional<Digest> palette{};  ///< SHA-256 of its bytes (proto/palette_codec.h)
 };
 
 /// The reason for which the server closes the connection.
@@ -269,39 +273,6 @@ struct ReplyMessage {
   std::optional<uint32_t> painted{};  ///< bricks of 8 voxels a side whose rock a paint changed
 };
 
-/// How long a stage of the tick took.
-struct StageTime {
-  std::string name;
-  float ms = 0.0F;
-
-  bool operator==(const StageTime&) const = default;
-};
-
-/// The work of the last second's ticks by the server's model, and the counts of work that did not fit.
-struct WorkStatus {
-  uint32_t budget_us = 0;         ///< of a tick; 0: not known, as in a replay
-  uint32_t worst_us = 0;          ///< largest work of a tick
-  uint32_t requests_waiting = 0;  ///< most at a tick's end
-  uint32_t merges_put_off = 0;    ///< most at a tick's end
-  uint32_t breaks_left_out = 0;   ///< in all
-  uint32_t dents_left_out = 0;    ///< in all
-  uint32_t ticks_cut_short = 0;   ///< in which any of these happened
-  uint32_t ticks_merging_sooner = 0;
-  uint32_t supports_put_off = 0;   ///< most bricks at a tick's end that await a search for support
-  uint32_t islands_put_off = 0;    ///< most islands at a tick's end that wait to fall
-  uint32_t islands_too_large = 0;  ///< components taken for ground, in all
-
-  bool operator==(const WorkStatus&) const = default;
-};
-
-/// How often a server gave one reason for refusing a request or a session.
-struct RefusalCount {
-  std::string reason;
-  uint64_t count = 0;
-
-  bool operator==(const RefusalCount&) const = default;
-};
-
 /// Once a second, for people.
 struct StatusMessage {
   Tick tick = 0;
@@ -330,6 +301,7 @@ struct StatusMessage {
   /// Edited chunks within this client's interest that it has not been sent as they are.
   uint32_t chunks_waiting = 0;
   PagingStatus paging;
+  MaterialLedger materials{};  ///< the ledger by material
 };
 
 /// A rigid body without its pose.
@@ -388,7 +360,8 @@ using ServerMessage =
     std::variant<WelcomeMessage, RefusalMessage, FrameMessage, ChunkMessage, PieceMessage, ResetMessage,
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
-                 MarksMessage, RecordedCursorsMessage, HealthMessage, UnknownMessage>;
+                 MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
+                 UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

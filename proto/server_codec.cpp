@@ -4,6 +4,7 @@
 #include "proto/admin_codec.h"
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
+#include "proto/content_codec.h"
 #include "proto/frame_codec.h"
 #include "proto/health_codec.h"
 #include "proto/height_wire.h"
@@ -76,6 +77,7 @@ void write(wire::Status& to, const StatusMessage& from) {
   to.set_chunks_read(from.paging.chunks_read);
   to.set_chunk_waits(from.paging.chunk_waits);
   to.set_requests_held(from.paging.requests_held);
+  to.set_materials(pack_ledger(from.materials));
   for (const RefusalCount& refusal : from.refusals) {
     wire::RefusalCount& added = *to.add_refusals();
     added.set_reason(showable(refusal.reason, limits::refusal_name_bytes_max));
@@ -112,6 +114,10 @@ struct Writing {
     ground.set_hash(from.hash);
   }
   void operator()(const TileMessage& from) const { write(*to.mutable_tile(), from); }
+  void operator()(const ContentMessage& from) const { write(*to.mutable_content(), from); }
+  void operator()(const PaletteChangedMessage& from) const {
+    to.mutable_palette_changed()->set_palette(wire_digest(from.palette));
+  }
   void operator()(const PieceMessage& from) const {
     wire::Piece& piece = *to.mutable_piece();
     piece.set_id(from.id);
@@ -283,6 +289,7 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.chunks_waiting = from.chunks_waiting();
   status.paging = {from.chunks_in(), from.chunks_out(), from.chunks_read(), from.chunk_waits(),
                    from.requests_held()};
+  status.materials = unpack_ledger(from.materials(), check);
   if (static_cast<size_t>(from.refusals_size()) > limits::refusal_counts_max)
     check.refuse(fmt::format("more than {} reasons for refusals", limits::refusal_counts_max));
   else
@@ -314,6 +321,10 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.ground(), check));
     case wire::ServerMessage::kTile:
       return checked(read_tile(from.tile(), check));
+    case wire::ServerMessage::kContent:
+      return checked(read(from.content(), check));
+    case wire::ServerMessage::kPaletteChanged:
+      return checked(PaletteChangedMessage{read_digest(from.palette_changed().palette(), "palette", check)});
     case wire::ServerMessage::kPiece:
       return checked(read(from.piece(), check));
     case wire::ServerMessage::kReset:

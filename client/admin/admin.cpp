@@ -1,5 +1,6 @@
 #include "client/admin/admin.h"
 
+#include "client/cache/received_content.h"
 #include "client/connection/connection.h"
 #include "client/connection/health_probe.h"
 
@@ -30,6 +31,16 @@ class Talk {
     for (;;) {
       const auto message = TRY(next_message(what));
       if (const T* wanted = std::get_if<T>(&message)) return *wanted;
+    }
+  }
+
+  /// The next of the two that are about the palette.
+  Result<ServerMessage> next_of_content() {
+    for (;;) {
+      auto message = TRY(next_message("palette"));
+      if (std::holds_alternative<ContentMessage>(message) ||
+          std::holds_alternative<PaletteChangedMessage>(message))
+        return message;
     }
   }
 
@@ -83,6 +94,23 @@ Result<SettingValues> settings_of_status(Talk& talk) {
   return std::move(status.settings);
 }
 
+/// The palette comes by its digest, as to any client.
+Result<Palette> palette_from(Talk& talk) {
+  if (!talk.welcome().palette) return fail("this server does not say what its world is made of");
+  ReceivedContent content(TileFolder(""), false);
+  content.begin_session(talk.welcome().palette);
+  for (;;) {
+    if (const AskContentMessage request = content.next_request(); !request.wanted.empty()) talk.send(request);
+    if (content.is_current()) return *content.palette();
+    if (!content.fault().empty()) return fail(content.fault());
+    const auto message = TRY(talk.next_of_content());
+    if (const auto* changed = std::get_if<PaletteChangedMessage>(&message))
+      content.change_palette(changed->palette);
+    else
+      content.accept(std::get<ContentMessage>(message));
+  }
+}
+
 /// Joins, asks, and waits for the answer: an error when it is a refusal.
 template <typename Answer>
 Result<std::pair<Answer, Talk>> ask(const AdminServer& server, AdminRequest act) {
@@ -111,6 +139,21 @@ Result<StatusMessage> read_status(const AdminServer& server) {
   return status;
 }
 
+/// The status comes first: a server that does not tell its materials has one, too.
+Result<NamedStatus> read_named_status(const AdminServer& server) {
+  auto status = TRY(read_status(server));
+  NamedStatus named{std::move(status), {}};
+  const Result<Palette> palette = read_materials(server);
+  if (palette)
+    for (const MaterialRow& row : palette->rows) named.materials.push_back(row.name);
+  return named;
+}
+
+Result<Palette> read_materials(const AdminServer& server) {
+  Talk talk = TRY(join(server));
+  return palette_from(talk);
+}
+
 Result<SettingValues> read_settings(const AdminServer& server) {
   Talk talk = TRY(join(server));
   return settings_of_status(talk);
@@ -120,6 +163,15 @@ Result<SettingValues> change_settings(const AdminServer& server, const SettingVa
   auto asked = TRY(ask<ReplyMessage>(server, SettingsRequest{changes}));
   // A reply follows its own tick's messages, so the next status is of a later one.
   return settings_of_status(asked.second);
+}
+
+Result<SettingValues> change_materials(const AdminServer& server, SettingValues changes) {
+  static const std::string prefix = "material.";
+  for (SettingValue& change : changes) change.name.insert(0, prefix);
+  auto settings = TRY(change_settings(server, changes));
+  std::erase_if(settings, [](const SettingValue& setting) { return !setting.name.starts_with(prefix); });
+  for (SettingValue& setting : settings) setting.name.erase(0, prefix.size());
+  return settings;
 }
 
 Result<std::vector<SessionRow>> list_sessions(const AdminServer& server) {

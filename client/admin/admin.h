@@ -11,6 +11,7 @@
 #include "client/connection/endpoint.h"
 #include "proto/messages.h"
 #include "shared/base/result.h"
+#include "shared/material/palette.h"
 
 namespace scree {
 
@@ -27,9 +28,29 @@ std::string health_lines(const HealthMessage& health);
 
 /// The server's next status, settings included. Needs no token where anonymous sessions are taken.
 Result<StatusMessage> read_status(const AdminServer& server);
-/// The status as JSON, or as lines of a name and a value.
-std::string status_json(const StatusMessage& status);
-std::string status_lines(const StatusMessage& status);
+/// The same with the names of the world's materials by row.
+struct NamedStatus {
+  StatusMessage status;
+  std::vector<std::string> materials;
+};
+Result<NamedStatus> read_named_status(const AdminServer& server);
+/// The status as JSON, or as lines of a name and a value. A material without a name is known by its number.
+std::string status_json(const StatusMessage& status, const std::vector<std::string>& materials = {});
+std::string status_lines(const StatusMessage& status, const std::vector<std::string>& materials = {});
+
+/// The materials of the server's world as they stand. Needs no token where anonymous sessions are taken.
+Result<Palette> read_materials(const AdminServer& server);
+/// All rows, with a few numbers each; or as JSON, with all.
+std::string materials_lines(const Palette& palette);
+std::string materials_json(const Palette& palette);
+/// All members of one row, with their units.
+std::string material_lines(const MaterialRow& row);
+std::string material_json(const MaterialRow& row);
+/// The material of that name; the error names the nearest one.
+Result<Material> material_named(const Palette& palette, const std::string& name);
+/// Changes these numbers, named "brick.strength", as settings: all or none. The error is the server's
+/// refusal. Returns all numbers that differ from the palette's own, by the same names.
+Result<SettingValues> change_materials(const AdminServer& server, SettingValues changes);
 
 /// All current settings. Needs no token where anonymous sessions are taken.
 Result<SettingValues> read_settings(const AdminServer& server);

@@ -26,7 +26,21 @@ Json json_of(const LatencyStatus& latency) {
   return json;
 }
 
-Json json_of(const StatusMessage& status) {
+Json json_of(const MaterialLedger& ledger, const std::vector<std::string>& names) {
+  Json json = Json::object();
+  for (size_t i = 0; i < ledger.rows().size(); ++i) {
+    const MaterialLedger::Row& row = ledger.rows()[i];
+    if (row == MaterialLedger::Row{}) continue;
+    json[i < names.size() ? names[i] : std::to_string(i)] = {{"terrain", row.terrain},
+                                                             {"pieces", row.pieces},
+                                                             {"dust", row.dust},
+                                                             {"poured", row.poured},
+                                                             {"converted", row.converted}};
+  }
+  return json;
+}
+
+Json json_of(const StatusMessage& status, const std::vector<std::string>& materials) {
   Json refusals = Json::object();
   uint64_t refused = 0;
   for (const RefusalCount& refusal : status.refusals) refused += refusal.count;
@@ -44,6 +58,7 @@ Json json_of(const StatusMessage& status) {
         {"dust", status.ledger_dust},
         {"poured", status.ledger_poured},
         {"moved", status.ledger_moved}}},
+      {"materials", json_of(status.materials, materials)},
       {"tick_ms", {{"median", status.tick_median_ms}, {"worst", status.tick_worst_ms}}},
       {"stage_ms", std::move(stages)},
       {"request_ms", json_of(status.latency)},
@@ -90,13 +105,13 @@ std::string health_lines(const HealthMessage& health) {
   return lines;
 }
 
-std::string status_json(const StatusMessage& status) {
-  return json_of(status).dump(2) + "\n";
+std::string status_json(const StatusMessage& status, const std::vector<std::string>& materials) {
+  return json_of(status, materials).dump(2) + "\n";
 }
 
-std::string status_lines(const StatusMessage& status) {
+std::string status_lines(const StatusMessage& status, const std::vector<std::string>& materials) {
   std::string lines;
-  const Json json = json_of(status);
+  const Json json = json_of(status, materials);
   for (const auto& [name, value] : json.items()) {
     if (!value.is_object()) lines += line(name, value);
     if (!value.is_object()) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <thread>
 
 #include "client/bot/limits.h"
@@ -11,6 +12,7 @@
 #include "client/session/edit_reach.h"
 #include "client/session/join_and_wait.h"
 #include "proto/spawn_direction.h"
+#include "shared/base/near_name.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/text.h"
 #include "shared/base/timing.h"
@@ -115,8 +117,30 @@ Result<void> Bot::step(std::chrono::milliseconds wait) {
     if (const auto* lost = std::get_if<Client::Lost>(&*event)) return reconnect(lost->end);
     if (const auto* applied = std::get_if<Client::Applied>(&*event)) receive(*applied);
   }
-  ask(Clock::now());
+  const Result<bool> may_paint = knows_paint();
+  if (!may_paint) report_.failure = may_paint.error().message;
+  TRY(may_paint);
+  if (*may_paint) ask(Clock::now());
   return {};
+}
+
+/// Whether the material to paint with is known, or none is wanted. An error: this world has none of that
+/// name.
+Result<bool> Bot::knows_paint() const {
+  if (config_.paint.empty()) return true;
+  const ReceivedContent& content = client_.rejoin().content();
+  if (!content.is_current()) {
+    if (!content.fault().empty()) return fail(content.fault() + " (--paint)");
+    if (!report_.welcome.palette) return fail("this server says no materials (--paint)");
+    return false;
+  }
+  const Palette& palette = *content.palette();
+  if (palette.named(config_.paint)) return true;
+  const std::vector<std::string_view> names = palette.names();
+  return fail(fmt::format("this world has no material '{}'{} (--paint); it has {}", config_.paint,
+                          did_you_mean(config_.paint, std::vector<std::string>(names.begin(), names.end()),
+                                       limits::bot_mistyped_max),
+                          fmt::join(names, ", ")));
 }
 
 void Bot::receive(const Client::Applied& applied) {

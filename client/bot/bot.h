@@ -77,6 +77,7 @@ class Bot {
   void receive_reply(const ReplyMessage& reply, Clock::time_point arrived);
   void receive_frame(const FrameMessage& frame, Clock::time_point arrived);
   void receive_status(const StatusMessage& status);
+  Result<bool> knows_paint() const;
   void ask(Clock::time_point now);
   void go_near(glm::vec3 place_m);
   bool scripted_work_done() const;

@@ -29,4 +29,7 @@ inline constexpr float bot_sight_m = 96.0F;
 /// servers allow by default (ServiceLimits::reach_m). A server that allows less has its own distance.
 inline constexpr float bot_reach_m = 48.0F;
 
+/// Letters by which the name of a material may differ from the one that is proposed. Above: none is.
+inline constexpr size_t bot_mistyped_max = 2;
+
 }  // namespace scree::limits

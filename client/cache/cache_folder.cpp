@@ -194,10 +194,10 @@ void CacheFolder::bound() const {
     if (std::chrono::duration<double>(now - file.written).count() > limits::unfinished_seconds_max)
       fs::remove(file.path, error);
   std::vector<CacheFile> files = files_in(path_, "", extension);
-  std::vector<CacheFile> tiles = files_in(path_, "", tile_extension);
-  std::erase_if(tiles, [](const CacheFile& file) { return !is_tile_name(file.path.filename().string()); });
   std::erase_if(files, [](const CacheFile& file) { return !is_ours(file.path.filename().string()); });
-  files.insert(files.end(), tiles.begin(), tiles.end());
+  for (const char* of_digests : {tile_extension, content_extension})
+    for (CacheFile& file : files_in(path_, "", of_digests))
+      if (is_tile_name(file.path.filename().string(), of_digests)) files.push_back(std::move(file));
   std::ranges::sort(files, std::less{});
   uintmax_t sum = 0;
   for (const CacheFile& file : files) sum += file.bytes;

@@ -36,8 +36,8 @@ class CacheFolder {
   Result<void> try_writing() const;
   /// Then calls bound().
   void write(const std::string& address, const CachedWorld& cached) const;
-  /// Removes the files written longest ago, as far as all, tiles of grounds among them, are more than the
-  /// bound.
+  /// Removes the files written longest ago, as far as all, tiles of grounds, palettes and images among
+  /// them, are more than the bound.
   void bound() const;
   const std::string& path() const { return path_; }
 

@@ -48,6 +48,11 @@ inline constexpr size_t tiles_read_at_once = 32;
 /// Tiles received between two times that the files are bounded.
 inline constexpr uint64_t tiles_between_bounds = 64;
 
+/// Palettes and images that are asked for at once, and their bytes in memory: all images of one palette, and
+/// a few palettes. Above: what comes is as if the server had none.
+inline constexpr size_t contents_asked_max = 8;
+inline constexpr size_t content_memory_max = size_t{65} << 20;
+
 /// Metres beyond the radius of interest up to which chunks are offered, for who moves.
 inline constexpr float offer_margin_m = 8.0F;
 

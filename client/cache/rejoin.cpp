@@ -4,12 +4,18 @@
 #include <utility>
 
 #include "client/cache/limits.h"
+#include "proto/limits.h"
 #include "shared/base/limits.h"
 
 namespace scree {
 
 Rejoin::Rejoin(const CacheConfig& config)
-    : config_(config), folder_(config.folder, config.bytes_max), cache_(config.bytes_max) {}
+    : config_(config),
+      folder_(config.folder, config.bytes_max),
+      cache_(config.bytes_max),
+      content_(TileFolder(config.bytes_max != 0 ? config.folder : std::string(), content_extension,
+                          limits::content_bytes_max),
+               config.images) {}
 
 void Rejoin::load(std::optional<uint64_t> world) {
   const auto cached = folder_.read(address_, world);
@@ -59,10 +65,24 @@ void Rejoin::ask_for_tiles(ServerChannel& connection) {
   if (!request.wanted.empty() || !request.held.empty()) connection.send(request);
 }
 
+void Rejoin::ask_for_content(ServerChannel& connection) {
+  const AskContentMessage request = content_.next_request();
+  if (!request.wanted.empty()) connection.send(request);
+}
+
+std::optional<Digest> Rejoin::take_content(const ServerMessage& message) {
+  if (const auto* changed = std::get_if<PaletteChangedMessage>(&message))
+    content_.change_palette(changed->palette);
+  if (const auto* part = std::get_if<ContentMessage>(&message)) return content_.accept(*part);
+  return std::nullopt;
+}
+
 std::unique_ptr<Mirror> Rejoin::begin(ServerChannel& connection) {
   const WelcomeMessage welcome = with_ground(connection.welcome());
   if (std::exchange(at_spawn_, false) && welcome.spawn) eye_m_ = welcome.spawn->eye_m;
   ask_for_tiles(connection);
+  content_.begin_session(welcome.palette);
+  ask_for_content(connection);
   ticket_ = welcome.ticket;
   to_pack_.clear();
   if (!enabled()) return std::make_unique<Mirror>(welcome);
@@ -126,6 +146,7 @@ void Rejoin::follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, ServerChann
 
 void Rejoin::tend(double now_s, Mirror& mirror, ServerChannel& connection) {
   ask_for_tiles(connection);
+  ask_for_content(connection);
   store_chunks(now_s, mirror);
 }
 

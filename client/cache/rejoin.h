@@ -13,6 +13,7 @@
 
 #include "client/cache/cache_folder.h"
 #include "client/cache/chunk_cache.h"
+#include "client/cache/received_content.h"
 #include "client/cache/received_tiles.h"
 #include "client/connection/server_channel.h"
 #include "client/mirror/mirror.h"
@@ -22,6 +23,7 @@ namespace scree {
 struct CacheConfig {
   std::string folder{};  ///< empty: kept until the program ends
   size_t bytes_max = 0;  ///< of the chunks in memory, and of all files
+  bool images = false;   ///< those of the palette's rows are wanted
 };
 
 class Rejoin {
@@ -47,10 +49,12 @@ class Rejoin {
   /// of no more use.
   Result<void> before(const ServerMessage& message, Mirror& mirror);
   void after(const ServerMessage& message, Mirror& mirror, ServerChannel& connection);
+  /// The palette, or the image, that is whole with this message.
+  std::optional<Digest> take_content(const ServerMessage& message);
   /// Sends the interest, and an offer of what is kept of what comes into it.
   void follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, ServerChannel& connection);
-  /// Call often: asks for tiles of the ground that were missed, packs a few chunks, and writes the file from
-  /// time to time, on another thread. Seconds, of any origin.
+  /// Call often: asks for tiles of the ground that were missed and for content, packs a few chunks, and
+  /// writes the file from time to time, on another thread. Seconds, of any origin.
   void tend(double now_s, Mirror& mirror, ServerChannel& connection);
   /// Whether the ground within the interest is known, as far as its heights go.
   bool has_near_ground() const { return tiles_ == nullptr || tiles_->has_near(eye_m_, radius_m_); }
@@ -66,6 +70,8 @@ class Rejoin {
   const ChunkCache& cache() const { return cache_; }
   /// Null when the ground has no tiles.
   const ReceivedTiles* tiles() const { return tiles_.get(); }
+  /// The palette and its images.
+  const ReceivedContent& content() const { return content_; }
 
  private:
   bool enabled() const { return config_.bytes_max != 0; }
@@ -74,6 +80,7 @@ class Rejoin {
   void offer(const Mirror& mirror, ServerChannel& connection);
   WelcomeMessage with_ground(const WelcomeMessage& welcome);
   void ask_for_tiles(ServerChannel& connection);
+  void ask_for_content(ServerChannel& connection);
   void store_chunks(double now_s, Mirror& mirror);
 
   CacheConfig config_;
@@ -83,6 +90,7 @@ class Rejoin {
   uint64_t world_ = 0;  ///< of the cache; 0: not known
   float voxel_size_m_ = 0.0F;
   std::shared_ptr<ReceivedTiles> tiles_;  ///< of the ground; kept for the next connection
+  ReceivedContent content_;
   std::string ticket_;
   glm::vec3 eye_m_{0.0F};
   float radius_m_ = 0.0F;

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include "crypto/sha256.h"
-#include "proto/limits.h"
 
 namespace scree {
 
@@ -16,10 +15,10 @@ namespace fs = std::filesystem;
 
 std::optional<std::vector<uint8_t>> TileFolder::read(const Digest& digest) const {
   if (path_.empty()) return std::nullopt;
-  const std::string file = fmt::format("{}/{}{}", path_, hex_of(digest), tile_extension);
+  const std::string file = fmt::format("{}/{}{}", path_, hex_of(digest), extension_);
   std::error_code error;
   const uintmax_t size = fs::file_size(file, error);
-  if (error || size > limits::tile_bytes_max) return std::nullopt;
+  if (error || size > bytes_max_) return std::nullopt;
   std::vector<uint8_t> bytes(size);
   std::ifstream in(file, std::ios::binary);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -32,7 +31,7 @@ void TileFolder::write(const Digest& digest, const std::vector<uint8_t>& bytes) 
   if (path_.empty()) return;
   std::error_code error;
   if (fs::create_directories(path_, error)) fs::permissions(path_, fs::perms::owner_all, error);
-  const std::string file = fmt::format("{}/{}{}", path_, hex_of(digest), tile_extension);
+  const std::string file = fmt::format("{}/{}{}", path_, hex_of(digest), extension_);
   const std::string partial = fmt::format("{}.{}.unfinished", file, getpid());
   std::ofstream out(partial, std::ios::binary | std::ios::trunc);
   out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -41,9 +40,9 @@ void TileFolder::write(const Digest& digest, const std::vector<uint8_t>& bytes) 
   if (!out || error) fs::remove(partial, error);
 }
 
-bool is_tile_name(const std::string& name) {
+bool is_tile_name(const std::string& name, const std::string& extension) {
   constexpr size_t digits = 2 * sizeof(Digest);
-  return name.size() > digits && name.substr(digits) == tile_extension &&
+  return name.size() > digits && name.substr(digits) == extension &&
          std::all_of(name.begin(), name.begin() + digits,
                      [](unsigned char c) { return std::isxdigit(c) != 0; });
 }

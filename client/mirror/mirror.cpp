@@ -89,6 +89,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const GroundMessage&) -> Done { return {}; },
           // For the ground (client/cache/received_tiles.h), which the field asks.
           [](const TileMessage&) -> Done { return {}; },
+          [](const ContentMessage&) -> Done { return {}; },
+          [](const PaletteChangedMessage&) -> Done { return {}; },
       },
       message);
   if (applied) applied = within_limits();

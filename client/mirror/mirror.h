@@ -30,6 +30,9 @@ struct MirrorChanges {
       bricks;  ///< codes or paint changed (or forgotten: generated again); some may come twice
   std::vector<PieceId> pieces_added;
   std::vector<PieceId> pieces_removed;
+  bool palette = false;  ///< Mirror::palette() is another one
+  /// An image of the palette has come whole (Client::content).
+  std::optional<Digest> image{};
 };
 
 /// A piece between two known poses.

@@ -88,6 +88,7 @@ Client::Joined Client::begin(std::unique_ptr<ServerChannel> channel) {
   channel_ = std::move(channel);
   predictions_.reset();
   mirror_ = rejoin_.begin(*channel_);
+  if (rejoin_.content().is_current()) mirror_->set_palette(rejoin_.content().palette());
   eye_m_ = rejoin_.eye_m();
   predictions_ = std::make_unique<Predictions>(*mirror_);
   playback_.start(channel_->welcome());
@@ -107,10 +108,22 @@ Client::Event Client::apply(Received received) {
   const Result<void> taken = rejoin_.before(message, *mirror_);
   Result<MirrorChanges> changes = taken ? mirror_->apply(message) : tl::unexpected(taken.error());
   if (!changes) return lose({{"the server's data cannot be applied: " + changes.error().message}, {}});
+  take_content(message, *changes);
   predictions_->notice(message);
   rejoin_.after(message, *mirror_, *channel_);
   while (const std::optional<RepairMessage> repair = mirror_->next_repair_request()) channel_->send(*repair);
   return Applied{std::move(received), std::move(*changes)};
+}
+
+void Client::take_content(const ServerMessage& message, MirrorChanges& changes) {
+  const std::optional<Digest> whole = rejoin_.take_content(message);
+  const ReceivedContent& content = rejoin_.content();
+  if (content.is_current() && content.palette() != mirror_->palette()) {
+    mirror_->set_palette(content.palette());
+    changes.palette = true;
+  } else {
+    changes.image = whole;
+  }
 }
 
 /// Once after each poll().

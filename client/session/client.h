@@ -3,8 +3,8 @@
 //
 // Use: poll() once a frame, or after each wait(); then next() until it returns nothing. An event is told when
 // the mirror is as of that event, before anything newer is applied. The client answers the server by itself:
-// it acknowledges frames, asks for repairs and for tiles of the ground, and offers the chunks that it has
-// kept (client/cache/rejoin.h). It never joins by itself: after Lost, its owner decides.
+// it acknowledges frames, asks for repairs, for tiles of the ground and for the palette, and offers the
+// chunks that it has kept (client/cache/rejoin.h). It never joins by itself: after Lost, its owner decides.
 //
 // Threads: one at a time; the connector may have more of its own. Time is an argument: seconds of
 // std::chrono::steady_clock, by which messages are stamped when they arrive. Lengths are in metres. A
@@ -106,7 +106,9 @@ class Client {
   bool loaded(double now_s) const;
   /// The tick, with its fraction, at which pieces are to be drawn; for delayed messages.
   double draw_tick(double now_s) { return playback_.draw_tick(now_s); }
-  /// The cache, and the tiles of the ground.
+  /// The bytes of an image that the palette names; null: it has not come, and perhaps never will.
+  ReceivedContent::Bytes content(const Digest& image) const { return rejoin_.content().find(image); }
+  /// The cache, the tiles of the ground, and the palette with its images.
   const Rejoin& rejoin() const { return rejoin_; }
   /// The server, for people.
   std::string where() const { return connector_->where(); }
@@ -117,6 +119,7 @@ class Client {
   void receive();
   std::optional<Received> next_due();
   Event apply(Received received);
+  void take_content(const ServerMessage& message, MirrorChanges& changes);
   void answer();
   void foresee(const Request& request, uint32_t number, double now_s);
 

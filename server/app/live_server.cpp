@@ -332,7 +332,7 @@ ServerReport LiveServer::State::report_now(const NetStats& stats, const LatencyC
 std::string LiveServer::State::status(const NetFigures& figures) const {
   if (!is_open) return {};
   return status_json(report_now(figures.stats, figures.latency), figures,
-                     {config.world.tick_rate_hz, config.net.replay});
+                     {config.world.tick_rate_hz, config.net.replay, config.net.palette});
 }
 
 ServerReport LiveServer::report() const {

@@ -41,6 +41,10 @@ struct LiveConfig {
   /// Limits of the machine (Setting::of_machine) that the server was told: they win over what the world that
   /// it continues has saved. `world` has them, too.
   SettingValues machine_limits;
+  /// With which a kept world goes on (SavedWorld::open), and images of its rows, or of those of a new world;
+  /// null: none were given. `world` has them, too.
+  std::shared_ptr<const Palette> materials;
+  std::shared_ptr<const ContentFiles> images;
   std::string trace_path;  ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
   double still_seconds = limits::still_seconds_max;  ///< without a tick: the simulation stands still

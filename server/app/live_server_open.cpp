@@ -3,6 +3,7 @@
 
 #include "server/app/ground_giver.h"
 #include "server/app/live_server_state.h"
+#include "server/app/world_materials.h"
 #include "server/world/settings.h"
 #include "server/world/world_snapshot.h"
 #include "shared/base/check.h"
@@ -45,6 +46,9 @@ Result<void> LiveServer::State::open() {
   config.net.takes_cursors = !config.record_path.empty();
   config.net.terrain = config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
+  config.net.palette = config.world.palette;
+  config.net.images = config.images;
+  tell_missing_images(*config.world.palette, config.images.get());
   period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
   TRY(open_events());
   // The port comes first: a server that cannot listen leaves no empty recording behind.
@@ -72,7 +76,7 @@ Result<void> LiveServer::State::open_world() {
   auto opened = path.empty() ? SavedWorld::open_temporary(config.world, config.sim_threads)
                              : SavedWorld::open(path, config.world, config.sim_threads,
                                                 ground_giver(path, config.world), config.bricks_in_max,
-                                                config.machine_limits);
+                                                config.machine_limits, config.materials);
   TRY(opened);
   saved_world = std::move(*opened);
   feed = feed_of(saved_world->release_world());

@@ -10,6 +10,7 @@
 #include "crypto/signing_key.h"
 #include "server/app/temporary_world.h"
 #include "server/app/terrain_pager.h"
+#include "server/app/world_materials.h"
 #include "server/store/limits.h"
 #include "server/store/stored_field.h"
 #include "server/work/memory.h"
@@ -29,15 +30,19 @@ void tell_differences(const std::string& path, const WorldConfig& asked, const W
                       const SettingValues& told) {
   if (!is_same_terrain(asked, saved_world) || asked.tick_rate_hz != saved_world.tick_rate_hz)
     spdlog::info("{}: terrain and tick rate come from the file", path);
-  const SettingValues wanted = print(asked), stand = print(saved_world);
-  for (size_t i = 0; i < stand.size(); ++i) {
-    if (stand[i] == wanted[i]) continue;
-    if (std::ranges::find(told, stand[i].name, &SettingValue::name) != told.end())
-      spdlog::info("{}: {} is {}, as this server was told, not {}, as it was saved", path, stand[i].name,
-                   wanted[i].value, stand[i].value);
+  const SettingValues wanted = print(asked);
+  for (const SettingValue& stands : differing(print(saved_world), asked)) {
+    const auto other = std::ranges::find(wanted, stands.name, &SettingValue::name);
+    if (other == wanted.end())  // a number of a material
+      spdlog::info(
+          "{}: {} is {}, as it was set before; scree admin materials set {}={} takes that of the "
+          "palette",
+          path, stands.name, stands.value, stands.name.substr(material_prefix.size()), own_number);
+    else if (std::ranges::find(told, stands.name, &SettingValue::name) != told.end())
+      spdlog::info("{}: {} is {}, as this server was told, not {}, as it was saved", path, stands.name,
+                   other->value, stands.value);
     else
-      spdlog::info("{}: {} is {}, as it was saved, not {}", path, stand[i].name, stand[i].value,
-                   wanted[i].value);
+      spdlog::info("{}: {} is {}, as it was saved, not {}", path, stands.name, stands.value, other->value);
   }
 }
 
@@ -68,7 +73,9 @@ Result<std::unique_ptr<World>> read_in_time(const std::function<Result<std::uniq
 
 Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, const WorldConfig& config,
                                                      size_t threads, const GroundGiver& ground,
-                                                     size_t bricks_max, const SettingValues& told) {
+                                                     size_t bricks_max, const SettingValues& told,
+                                                     std::shared_ptr<const Palette> materials) {
+  const Wanted wanted{bricks_max, told, std::move(materials)};
   auto lock = TRY(WorldLock::acquire(path));
   std::unique_ptr<SavedWorld> saved_world(new SavedWorld(path, std::move(lock)));
   std::error_code ignored;
@@ -83,7 +90,7 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
   size_t chunks = 0;
   const auto read = [&]() -> Result<std::unique_ptr<World>> {
     file = TRY(WorldFile::open(path));
-    return restored(*file, threads, ground, bricks_max, told, *saved_world, chunks);
+    return restored(*file, threads, ground, wanted, *saved_world, chunks);
   };
   auto world = read_in_time(read);
   if (!world) return fail(world.error().message + way_out(path, world.error()));
@@ -98,22 +105,23 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
 
 /// The world of the file; of its terrain as much as there is memory for.
 Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t threads,
-                                                    const GroundGiver& ground, size_t bricks_max,
-                                                    const SettingValues& told, SavedWorld& saved_world,
-                                                    size_t& chunks) {
+                                                    const GroundGiver& ground, const Wanted& wanted,
+                                                    SavedWorld& saved_world, size_t& chunks) {
   const std::string& path = file.path();
   auto rows = TRY(file.read_moment());
   RecordedHeader& header = rows.world.moment.config;
   if (auto given = give_ground(header.ground, header.terrain, ground); !given)
     return fail(path + ": " + given.error().message);
+  if (auto given = give_materials(header, wanted.materials); !given)
+    return fail(path + ": " + given.error().message);
   header.rules = rules::newest;  // the world goes on; what it was is in its recordings
   auto reader = TRY(chunk_reader(path));
   auto config = config_of(header);
-  if (config) TRY(set_all(*config, told));
+  if (config) TRY(set_all(*config, wanted.told));
   const uint32_t max_mb = config ? config->memory_max_mb : limits::memory_max_min_mb;
   GroundMasses masses;
-  const PagedTerrain terrain = terrain_of(file, std::move(reader), masses,
-                                          bricks_max != 0 ? bricks_max : bricks_within(max_mb, {}) / 2);
+  const size_t bricks_max = wanted.bricks_max != 0 ? wanted.bricks_max : bricks_within(max_mb, {}) / 2;
+  const PagedTerrain terrain = terrain_of(file, std::move(reader), masses, bricks_max);
   auto world = World::restore(rows.world, terrain, threads, masses);
   if (!world) return fail(path + ": damaged: " + world.error().message);
   chunks = (*world)->field().chunks_in().size() + (*world)->field().chunks_out();

@@ -19,9 +19,12 @@ class SavedWorld {
   /// world (World::create). `ground` gives the one that the file names. `bricks_max`: edited bricks that it
   /// takes into memory; 0: as memory-max says. `told`: limits of this machine (LiveConfig::machine_limits),
   /// which the caller gives the world in its first tick: the value in the file stays as it was recorded.
+  /// `materials`: the palette that the world goes on with; null: its own. Refuses one that is not the same
+  /// with other numbers or more rows.
   static Result<std::unique_ptr<SavedWorld>> open(const std::string& path, const WorldConfig& config,
                                                   size_t threads, const GroundGiver& ground,
-                                                  size_t bricks_max = 0, const SettingValues& told = {});
+                                                  size_t bricks_max = 0, const SettingValues& told = {},
+                                                  std::shared_ptr<const Palette> materials = nullptr);
   /// A new world in a file that is removed at the end, and after a crash by the next one that is opened.
   static Result<std::unique_ptr<SavedWorld>> open_temporary(const WorldConfig& config, size_t threads);
 
@@ -49,10 +52,16 @@ class SavedWorld {
   SaverStatus status() const { return saver_->status(); }
 
  private:
+  /// What a server wants of a world that goes on: the arguments of open().
+  struct Wanted {
+    size_t bricks_max = 0;
+    const SettingValues& told;
+    std::shared_ptr<const Palette> materials;
+  };
   SavedWorld(std::string path, WorldLock lock) : path_(std::move(path)), lock_(std::move(lock)) {}
   static Result<std::unique_ptr<World>> restored(WorldFile& file, size_t threads, const GroundGiver& ground,
-                                                 size_t bricks_max, const SettingValues& told,
-                                                 SavedWorld& saved_world, size_t& chunks);
+                                                 const Wanted& wanted, SavedWorld& saved_world,
+                                                 size_t& chunks);
   void complain(const SaverStatus& status);
   void tell_log_left() const;
 

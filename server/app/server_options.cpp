@@ -17,6 +17,7 @@
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
 #include "server/app/web_folder.h"
+#include "server/app/world_materials.h"
 #include "server/web/site.h"
 #include "server/world/limits.h"
 #include "server/world/settings.h"
@@ -39,9 +40,10 @@ struct Raw {
   std::string preset;  ///< empty: none
   DoorOptions doors;
   std::string durability = "second";
-  std::string ground;  ///< empty: generated
-  std::string web;     ///< empty: the folder beside the program
-  bool loop = false;   ///< of a replay
+  std::string ground;     ///< empty: generated
+  std::string materials;  ///< file of a palette; empty: the built-in one, or a kept world's
+  std::string web;        ///< empty: the folder beside the program
+  bool loop = false;      ///< of a replay
   bool end = false;
   std::string terrain = std::string(name_of(TerrainSource{}.kind));
 };
@@ -95,6 +97,11 @@ void add_world(CLI::App& app, Raw& raw) {
                  "ground file (scree import makes it), used instead of generated terrain; a saved world or a "
                  "recording finds its ground file in its own folder")
       ->excludes(terrain);
+  app.add_option(
+      "--materials", raw.materials,
+      "file of the world's materials (TOML; content/materials.toml is the built-in one); a saved "
+      "world continues with its own, or with this file: the same materials with other numbers, and "
+      "more at the end");
   bounded(app.add_option("--seed", world.terrain.random_seed, "random seed of the terrain"),
           whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->capture_default_str();
@@ -162,7 +169,8 @@ void add_recordings(CLI::App& app, Raw& raw) {
   CLI::Option* replay =
       app.add_option("--replay", live.replay.path, "plays this recording instead of a simulation");
   replay->excludes(record);
-  for (const char* of_the_recording : {"--terrain", "--seed", "--voxel-size", "--tick-rate", "--govern"})
+  for (const char* of_the_recording :
+       {"--terrain", "--materials", "--seed", "--voxel-size", "--tick-rate", "--govern"})
     replay->excludes(app.get_option(of_the_recording));
   bounded(app.add_option("--from", live.replay.from, "starts after this tick of the recording"),
           whole_within(0, whole_most))
@@ -236,6 +244,9 @@ void parse_world(Raw& raw) {
       throw CLI::ValidationError("--ground", taken.error().message);
   }
   world.terrain.kind = *kind_named<TerrainKind>(raw.terrain);
+  if (!raw.materials.empty())
+    if (const auto set = set_materials(raw.materials, raw.options.live); !set)
+      throw CLI::ValidationError("--materials", set.error().message);
   if (Result<void> valid = validate(world); !valid) throw CLI::ValidationError(valid.error().message);
 }
 
@@ -245,6 +256,7 @@ void refuse_shared_files(const Raw& raw, const std::string& config_path) {
   const AccessConfig& access = live.net.access;
   const std::array files = {NamedFile{"--config", config_path},
                             NamedFile{"--ground", raw.ground},
+                            NamedFile{"--materials", raw.materials},
                             NamedFile{"--replay", live.replay.path, false, true},
                             NamedFile{"--admin-token-file", raw.doors.token_path(), raw.doors.makes_token()},
                             NamedFile{"--tls-cert", access.tls_certificate_path},

@@ -199,6 +199,7 @@ std::string to_json(const ServerReport& report) {
                {"piece_bytes", sent.piece_bytes},
                {"ground_bytes", sent.ground_bytes},
                {"tile_bytes", sent.tile_bytes},
+               {"content_bytes", sent.content_bytes},
                {"kept_bytes", sent.kept_bytes},
                {"chunks_kept", sent.chunks_kept},
                {"bytes_per_carve", mean<CarveOperation>(sent)},

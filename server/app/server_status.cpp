@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "proto/work_rows.h"
+#include "server/app/world_facts.h"
 
 namespace scree {
 
@@ -25,7 +26,7 @@ StatusJson work_json(const WorkStatus& work) {
   return json;
 }
 
-StatusJson now_json(const StatusMessage& status) {
+StatusJson now_json(const StatusMessage& status, const ServerFacts& facts) {
   StatusJson stages = StatusJson::object();
   for (const StageTime& stage : status.stages) stages[stage.name] = stage.ms;
   return {{"tick", status.tick},
@@ -36,6 +37,7 @@ StatusJson now_json(const StatusMessage& status) {
           {"stages_ms", std::move(stages)},
           {"latency_ms", latency_json(status.latency)},
           {"work", work_json(status.work)},
+          {"materials", StatusJson::parse(ledger_json(status.materials, *facts.palette))},
           {"chunks_read", status.paging.chunks_read},
           {"saving", status.saving},
           {"saved_tick", status.saved_tick}};
@@ -65,7 +67,7 @@ std::string status_json(const ServerReport& report, const NetFigures& figures, c
   const StatusJson json{{"version", SCREE_VERSION},
                         {"tick_rate_hz", facts.tick_rate_hz},
                         {"replay", facts.replay},
-                        {"now", now_json(figures.status)},
+                        {"now", now_json(figures.status, facts)},
                         {"health", health_of(figures.health)},
                         {"sessions", std::move(sessions)},
                         {"report", StatusJson::parse(to_json(report))}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "server/app/server_report.h"
@@ -12,6 +13,7 @@ namespace scree {
 struct ServerFacts {
   uint32_t tick_rate_hz = 0;
   bool replay = false;
+  std::shared_ptr<const Palette> palette{};  ///< not null
 };
 
 std::string status_json(const ServerReport& report, const NetFigures& figures, const ServerFacts& facts);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "proto/byte_stream.h"
+#include "proto/content_codec.h"
 #include "proto/height_wire.h"
 #include "proto/palette_codec.h"
 #include "shared/base/check.h"
@@ -31,29 +31,11 @@ Ledger read(const recorded::Ledger& from) {
 }
 
 void write(recorded::MaterialLedger& to, const MaterialLedger& from) {
-  std::vector<uint8_t> bytes;
-  ByteWriter writer(bytes);
-  for (const MaterialLedger::Row& row : from.rows())
-    for (const MassUnits mass : {row.terrain, row.pieces, row.dust, row.poured, row.converted})
-      writer.zigzag(mass);
-  to.set_rows(to_string(bytes));
+  to.set_rows(pack_ledger(from));
 }
 
 MaterialLedger read(const recorded::MaterialLedger& from, FieldChecker& check) {
-  std::vector<MaterialLedger::Row> rows;
-  ByteReader reader(as_span(from.rows()), "ledger of the materials");
-  constexpr MassUnits mass_max = int64_t{1} << 62U;
-  while (!reader.at_end() && !reader.failed()) {
-    if (rows.size() == materials_max) {
-      reader.refuse("more rows than a palette has");
-      break;
-    }
-    MaterialLedger::Row& row = rows.emplace_back();
-    for (MassUnits* mass : {&row.terrain, &row.pieces, &row.dust, &row.poured, &row.converted})
-      *mass = reader.zigzag("mass", mass_max);
-  }
-  if (reader.failed()) check.refuse(reader.error().message);
-  return MaterialLedger(std::move(rows));
+  return unpack_ledger(from.rows(), check);
 }
 
 void write(recorded::Header& to, const RecordedHeader& from) {

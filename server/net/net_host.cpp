@@ -9,6 +9,7 @@
 #include "crypto/signing_key.h"
 #include "proto/codec.h"
 #include "server/doors/unix_time.h"
+#include "server/net/may_wait.h"
 #include "server/net/person_names.h"
 #include "server/net/talk_delivery.h"
 #include "server/net/welcome.h"
@@ -30,8 +31,13 @@ constexpr std::chrono::milliseconds timer_period_stopping{5};
 constexpr double stop_seconds_max = 0.5;
 
 PublisherConfig publisher_config(const NetConfig& config) {
-  return {config.terrain, std::max(1U, config.tick_rate_hz), std::max(1U, config.ticks_per_transform),
-          config.heartbeat_s, config.chunks};
+  return {config.terrain,
+          std::max(1U, config.tick_rate_hz),
+          std::max(1U, config.ticks_per_transform),
+          config.heartbeat_s,
+          config.chunks,
+          config.palette,
+          config.images};
 }
 
 /// Where strangers come by a proxy or under a name, a connection from loopback may be anybody's: then it has
@@ -107,7 +113,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   else
     TRY(find_room(session, grant, before, now_s));
   join(session, hello, *radius_m, grant, before);
-  WelcomeMessage welcome = welcome_of(config_, world_, publisher_.state().spawn());
+  WelcomeMessage welcome = welcome_of(config_, world_, publisher_);
   welcome.session = session.id();
   welcome.tick = publisher_.state().tick();
   welcome.interest_radius_m = *radius_m;
@@ -201,18 +207,16 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return {};
           },
           [&](const AskGroundMessage& ground) -> Done {
-            if (publisher_.ask_ground(session.id(), ground)) return {};
-            return refuse(Refusal::ground_waiting,
-                          fmt::format("more than {} chunks of ground asked for and not answered "
-                                      "(limits.ground_chunks_max)",
-                                      limits::ground_chunks_max));
+            return may_wait(publisher_.ask_ground(session.id(), ground), limits::ground_chunks_max,
+                            "chunks of ground", "ground_chunks_max");
           },
           [&](const AskTilesMessage& tiles) -> Done {
-            if (publisher_.ask_tiles(session.id(), tiles)) return {};
-            return refuse(Refusal::ground_waiting,
-                          fmt::format("more than {} tiles of the ground asked for and not answered "
-                                      "(limits.tiles_wanted_max)",
-                                      limits::tiles_wanted_max));
+            return may_wait(publisher_.ask_tiles(session.id(), tiles), limits::tiles_wanted_max,
+                            "tiles of the ground", "tiles_wanted_max");
+          },
+          [&](const AskContentMessage& content) -> Done {
+            return may_wait(publisher_.ask_content(session.id(), content), limits::contents_wanted_max,
+                            "palettes and images", "contents_wanted_max");
           },
       },
       message);

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "content/builtin_palette.h"
 #include "proto/event.h"
 #include "proto/talk.h"
 #include "server/doors/access.h"
@@ -100,7 +101,9 @@ struct NetConfig {
   bool chat = true;                     ///< whether persons' lines are passed on
   bool log_chat = false;                ///< whether they are logged, too
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig
-  size_t net_threads = 0;               ///< that encode and send; 0: as many as the machine has cores
+  std::shared_ptr<const Palette> palette = shared_builtin_palette();  ///< as of ContentStream
+  std::shared_ptr<const ContentFiles> images{};                       ///< likewise
+  size_t net_threads = 0;  ///< that encode and send; 0: as many as the machine has cores
   WebConfig web;
   /// status.json for operators (docs/browser.md); on the network thread. Empty, or an empty text: there is
   /// none.

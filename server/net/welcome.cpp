@@ -34,14 +34,15 @@ Result<float> granted_radius(glm::vec3 eye_m, float radius_m) {
   return std::min(radius_m, limits::interest_radius_max_m);
 }
 
-WelcomeMessage welcome_of(const NetConfig& config, uint64_t world, const std::optional<Spawn>& spawn) {
+WelcomeMessage welcome_of(const NetConfig& config, uint64_t world, const Publisher& publisher) {
   WelcomeMessage welcome;
   welcome.tick_rate_hz = config.tick_rate_hz;
   welcome.ticks_per_transform = config.ticks_per_transform;
   welcome.terrain = config.terrain;
   welcome.replay = config.replay;
   welcome.world = world;
-  welcome.spawn = spawn;
+  welcome.spawn = publisher.state().spawn();
+  welcome.palette = publisher.palette();
   if (const auto& ground = config.terrain.heights) {
     welcome.heights = HeightGround{ground->layout(), sha256(ground->packed(ground->layout().top())), {}};
     if (const auto& bricks = ground->bricks())

@@ -24,7 +24,7 @@ tl::expected<HelloMessage, Refused> placed(HelloMessage hello, const std::option
 Result<float> granted_radius(glm::vec3 eye_m, float radius_m);
 
 /// A welcome without the session's own part: number, tick, interest, role, ticket. `world`: as of
-/// WelcomeMessage.
-WelcomeMessage welcome_of(const NetConfig& config, uint64_t world, const std::optional<Spawn>& spawn);
+/// WelcomeMessage. The publisher knows spawn and palette.
+WelcomeMessage welcome_of(const NetConfig& config, uint64_t world, const Publisher& publisher);
 
 }  // namespace scree

@@ -47,6 +47,15 @@ inline constexpr int64_t physics_bytes_per_tick = 4 * 1024;
 /// file. One tile may go beyond. Above: the rest waits, each party in turn.
 inline constexpr int64_t tile_bytes_per_tick_all = 512 * 1024;
 
+/// Bytes of palettes and images sent to one client in a tick, 2 MB/s at 60 Hz, and to all clients together,
+/// 15 MB/s: 64 MiB of images take half a minute. One part may go beyond, and is made up for. Above: the rest
+/// waits, each party in turn.
+inline constexpr int64_t content_bytes_per_tick = 32 * 1024;
+inline constexpr int64_t content_bytes_per_tick_all = 256 * 1024;
+
+/// Bytes of a part by the slowest link. Less would be mostly its digest.
+inline constexpr size_t content_part_bytes_min = 512;
+
 /// Ground that the network thread generates in a tick for all clients together, at least: a chunk with a
 /// surface counts 8 and takes 1 to 2 ms with its encoding, another one counts 1 and takes 0.2 ms. The last
 /// one may go beyond. Above: the rest waits, each party in turn. An idle network thread generates more

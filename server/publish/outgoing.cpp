@@ -12,6 +12,7 @@ PublisherStats& PublisherStats::operator+=(const PublisherStats& other) {
   piece_bytes += other.piece_bytes;
   ground_bytes += other.ground_bytes;
   tile_bytes += other.tile_bytes;
+  content_bytes += other.content_bytes;
   operations += other.operations;
   operation_bytes += other.operation_bytes;
   repairs += other.repairs;

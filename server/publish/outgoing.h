@@ -28,6 +28,7 @@ struct PublisherStats {
   uint64_t piece_bytes = 0;
   uint64_t ground_bytes = 0;
   uint64_t tile_bytes = 0;
+  uint64_t content_bytes = 0;  ///< palettes and images
   uint64_t kept_bytes = 0;
   uint64_t chunks_kept = 0;         ///< that were offered, and not sent
   OperationCounts operations;       ///< operations published

@@ -30,6 +30,7 @@ Publisher::Publisher(const PublisherConfig& config, Workers& workers)
       motions_(no_motions(config)),
       ground_(config.terrain),
       tiles_(config.terrain.heights),
+      content_(config.palette, config.images),
       pager_(config.chunks),
       board_(config.tick_rate_hz) {}
 
@@ -57,6 +58,7 @@ void Publisher::leave(uint64_t session) {
   cursors_.erase(session);
   ground_.leave(session);
   tiles_.leave(session);
+  content_.leave(session);
   scan_turns_.leave(session);
 }
 
@@ -103,6 +105,11 @@ bool Publisher::ask_tiles(uint64_t session, const AskTilesMessage& request) {
   return client == nullptr || tiles_.ask(session, client->outlet().party(), request, client->view());
 }
 
+bool Publisher::ask_content(uint64_t session, const AskContentMessage& request) {
+  ClientFeed* const client = find(session);
+  return client == nullptr || content_.ask(session, client->outlet().party(), request);
+}
+
 const ClientView* Publisher::view(uint64_t session) const {
   const auto client = clients_.find(session);
   return client == clients_.end() ? nullptr : &client->second.view();
@@ -112,6 +119,7 @@ void Publisher::begin(const TickDelta& keyframe) {
   CHECK_EQ(state_.tick(), 0U, "the world begins once");
   CHECK(clients_.empty());
   state_.apply(keyframe);
+  take_palette(keyframe);
   motions_.track(keyframe, state_, rates_.has_poses(keyframe.tick));
 }
 
@@ -130,12 +138,22 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   cache_.start_tick();
   allow_scans();
   serve_all(changes, backlog);
+  take_palette(delta);
   pager_.page(state_, cache_);
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.kept_bytes + stats_.piece_bytes +
-            stats_.ground_bytes + stats_.tile_bytes <=
+            stats_.ground_bytes + stats_.tile_bytes + stats_.content_bytes <=
         stats_.sent_bytes);
   return std::exchange(out_, {});
+}
+
+/// Settings say which numbers of the palette stand. Clients are told after the tick's frames.
+void Publisher::take_palette(const TickDelta& delta) {
+  if (delta.settings.empty() || !content_.take_settings(delta.settings)) return;
+  ServedPart part;
+  const SharedBytes news = share(PaletteChangedMessage{*content_.palette()});
+  for (auto& [session, client] : clients_) client.outlet().send(news, part);
+  add(std::move(part));
 }
 
 /// A keyframe begins another past.
@@ -194,7 +212,7 @@ void Publisher::allow_scans() {
   scan_turns_.end();
 }
 
-/// The tick's frames do not count on ground and tiles; the next ones do.
+/// The tick's frames do not count on ground and tiles; the next ones do. Content decides nothing.
 std::vector<Outgoing> Publisher::stream(const std::function<Backlog(uint64_t)>& backlog) {
   ServedPart part;
   const auto reader_of = [&](uint64_t session) { return reader(session, backlog(session)); };
@@ -209,6 +227,16 @@ std::vector<Outgoing> Publisher::stream(const std::function<Backlog(uint64_t)>& 
   });
   tiles_.serve(reader_of, [&](uint64_t session, const SharedBytes& bytes) {
     part.stats.tile_bytes += bytes->size();
+    return send_to(session, bytes);
+  });
+  const auto room_of = [&](uint64_t session) -> size_t {
+    if (reader_of(session) == nullptr) return 0;
+    const Outlet& outlet = clients_.at(session).outlet();
+    return outlet.is_slow() ? static_cast<size_t>(std::max<int64_t>(1, outlet.room_bytes()))
+                            : limits::content_part_bytes_max;
+  };
+  content_.serve(room_of, [&](uint64_t session, const SharedBytes& bytes) {
+    part.stats.content_bytes += bytes->size();
     return send_to(session, bytes);
   });
   add(std::move(part));

@@ -2,9 +2,10 @@
 // selection share the encoded bytes; slow readers get less.
 //
 // It composes: PublishedState and Motions (what clients have in common), a ClientFeed for each client,
-// EncodeCache, GroundStream and TileStream, ChunkPager (chunks out of memory) and StatusBoard; publish() and
-// stream() are their order. Work that many clients can ask for, each as much as it likes, is done in the
-// parties' turns (SessionTurns): ground, tiles, chunks out of memory, and scans of interests that moved.
+// EncodeCache, GroundStream, TileStream and ContentStream, ChunkPager (chunks out of memory) and StatusBoard;
+// publish() and stream() are their order. Work that many clients can ask for, each as much as it likes, is
+// done in the parties' turns (SessionTurns): ground, tiles, content, chunks out of memory, and scans of
+// interests that moved.
 //
 // A client gets a frame of a tick in which something happened for it, and one every limits::heartbeat_s
 // anyway, by which it sees that time goes on. The frame of its tick comes
@@ -30,6 +31,7 @@
 #include "proto/messages.h"
 #include "server/publish/chunk_pager.h"
 #include "server/publish/client_feed.h"
+#include "server/publish/content_stream.h"
 #include "server/publish/encode_cache.h"
 #include "server/publish/ground_stream.h"
 #include "server/publish/limits.h"
@@ -46,8 +48,10 @@ struct PublisherConfig {
   TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
-  double heartbeat_s = limits::heartbeat_s;  ///< 0: a frame every tick
-  std::shared_ptr<ChunkSupply> chunks = {};  ///< null: all chunks stay in memory
+  double heartbeat_s = limits::heartbeat_s;     ///< 0: a frame every tick
+  std::shared_ptr<ChunkSupply> chunks = {};     ///< null: all chunks stay in memory
+  std::shared_ptr<const Palette> palette = {};  ///< as of ContentStream, as the next one
+  std::shared_ptr<const ContentFiles> images = {};
 };
 
 class Publisher {
@@ -70,6 +74,11 @@ class Publisher {
   [[nodiscard]] bool ask_ground(uint64_t session, const AskGroundMessage& request);
   /// Takes what the client has of the ground's tiles, and queues what it asks for (TileStream::ask).
   [[nodiscard]] bool ask_tiles(uint64_t session, const AskTilesMessage& request);
+
+  /// Queues content that the client asks for (ContentStream::ask).
+  [[nodiscard]] bool ask_content(uint64_t session, const AskContentMessage& request);
+  /// WelcomeMessage::palette.
+  const std::optional<Digest>& palette() const { return content_.palette(); }
 
   /// Sets how much ground a tick generates, as of GroundStream.
   void set_ground_work(int work_per_tick) { ground_.set_work(work_per_tick); }
@@ -99,7 +108,8 @@ class Publisher {
   /// every client.
   std::vector<Outgoing> publish(const TickDelta& delta, const std::function<Backlog(uint64_t)>& backlog);
 
-  /// Ground and tiles of the tick that was just published: they take longer than its frames, and follow them.
+  /// Ground, tiles and content of the tick that was just published: they take longer than its frames, and
+  /// follow them.
   std::vector<Outgoing> stream(const std::function<Backlog(uint64_t)>& backlog);
 
   /// The replies of the tick that was just published: they follow its frames. `latency(reply)`: the stages
@@ -118,9 +128,10 @@ class Publisher {
   using Clients = std::map<uint64_t, ClientFeed>;
   /// Null when there is no such client.
   ClientFeed* find(uint64_t session);
-  /// What GroundStream and TileStream ask: the session's view, or null while it gets nothing.
+  /// What the streams ask: the session's view, or null while it gets nothing.
   ClientView* reader(uint64_t session, const Backlog& backlog);
   void restart();
+  void take_palette(const TickDelta& delta);
   void count_operations(const TickDelta& delta);
   void serve_all(const TickChanges& changes, const std::function<Backlog(uint64_t)>& backlog);
   void allow_scans();
@@ -136,6 +147,7 @@ class Publisher {
   EncodeCache cache_;
   GroundStream ground_;
   TileStream tiles_;
+  ContentStream content_;
   ChunkPager pager_;
   SessionTurns scan_turns_;
   StatusBoard board_;

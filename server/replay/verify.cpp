@@ -23,7 +23,9 @@ Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
   if (!state->has_value() || !report.difference.empty()) return false;
   // The terrain comes chunk by chunk: the value has its hash.
   WorldMoment moment = world->moment();
-  moment.config.rules = (*state)->moment.config.rules;  // a newer program may have gone on
+  // A newer program may have gone on, and with another file of materials.
+  moment.config.rules = (*state)->moment.config.rules;
+  moment.config.palette = (*state)->moment.config.palette;
   const std::vector<uint8_t> own = encode(WorldSnapshot{std::move(moment), {}});
   const std::vector<uint8_t> said = encode(**state);
   if (own != said)

@@ -218,6 +218,10 @@ Outcome change(World::State& state, const SettingsRequest& request, TickDelta& d
   CHECK(delta.settings.size() <= limits::settings_max);
   if (!merges(before.methods.recombine) && merges(state.config.methods.recombine)) state.bodies.thaw_all();
   state.bodies.set_terrain_collider(state.config.methods.collider);
+  if (before.material_numbers != state.config.material_numbers) {
+    state.palette = palette_with(state.config.palette, state.config.material_numbers);
+    state.bodies.set_palette(state.palette);
+  }
   state.field.bound_generated(generated_bytes_within(state.config.memory_max_mb));
   state.work.allow(state.config.work_percent);
   state.requests.expect(client_us_per_s(state.work, state.config));

@@ -137,10 +137,11 @@ constexpr std::array table{
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
   const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent, methods,
-               service, spawn, ground, rules, palette] = world;
+               service, spawn, ground, rules, palette, material_numbers] = world;
   static_cast<void>(ground);  // names the terrain's
   static_cast<void>(rules);   // fixed from the start, as these three
   static_cast<void>(palette);
+  static_cast<void>(material_numbers);  // a setting each (material_settings.h)
   const auto& [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       methods;
   const auto& [sessions_max, requests_per_second, reach_m] = service;
@@ -213,11 +214,14 @@ std::span<const Setting> settings() {
 }
 
 Result<void> set(WorldConfig& config, const SettingValue& setting) {
+  if (is_material_setting(setting.name))
+    return set_material(*config.palette, config.material_numbers, setting);
   const auto row = std::ranges::find(table, setting.name, &Setting::name);
   if (row == table.end()) {
     std::string names;
     for (const Setting& known : table) names += (names.empty() ? "" : ", ") + std::string(known.name);
-    return fail("there is no setting '" + setting.name + "'; there are " + names);
+    return fail("there is no setting '" + setting.name + "'; there are " + names + " and " +
+                std::string(material_prefix) + "ROW.MEMBER");
   }
   const Result<void> parsed = row->parse(setting.value, config);
   if (!parsed) return fail(setting.name + " " + parsed.error().message + ", not '" + setting.value + "'");
@@ -249,6 +253,8 @@ Result<void> check_together(const WorldConfig& config) {
 SettingValues print(const WorldConfig& config) {
   SettingValues values;
   for (const Setting& setting : table) values.push_back({std::string(setting.name), setting.print(config)});
+  const SettingValues materials = print(config.material_numbers);
+  values.insert(values.end(), materials.begin(), materials.end());
   return values;
 }
 

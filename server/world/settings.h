@@ -70,7 +70,7 @@ Result<void> set(WorldConfig& config, const SettingValue& setting);
 Result<void> set_all(WorldConfig& config, const SettingValues& values);
 /// Refuses a setting without another that it needs.
 Result<void> check_together(const WorldConfig& config);
-/// Every setting, in the table's order.
+/// Every setting, in the table's order, and then those of changed materials (material_settings.h).
 SettingValues print(const WorldConfig& config);
 /// Those of `values` that the configuration does not have so.
 SettingValues differing(const SettingValues& values, const WorldConfig& config);

@@ -40,7 +40,8 @@ Result<void> check(const Bounded& bounded) {
 bool WorldConfig::operator==(const WorldConfig& other) const {
   const auto tied = [](const WorldConfig& c) {
     return std::tie(c.terrain, c.tick_rate_hz, c.pieces_max, c.memory_max_mb, c.merges_per_tick_max,
-                    c.work_percent, c.methods, c.service, c.spawn, c.ground, c.rules, *c.palette);
+                    c.work_percent, c.methods, c.service, c.spawn, c.ground, c.rules, *c.palette,
+                    c.material_numbers);
   };
   return tied(*this) == tied(other);
 }

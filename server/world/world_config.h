@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "content/builtin_palette.h"
+#include "server/world/material_settings.h"
 #include "server/world/methods.h"
 #include "server/world/rules.h"
 #include "server/world/service_limits.h"
@@ -36,6 +37,7 @@ struct WorldConfig {
   uint32_t rules = rules::newest;  ///< of service (rules.h); fixed from the start
   /// What the world is made of, to start with; not null. `terrain.rows` are its ground's.
   std::shared_ptr<const Palette> palette = shared_builtin_palette();
+  MaterialNumbers material_numbers{};  ///< that an administrator has changed of it
 
   bool operator==(const WorldConfig& other) const;
 };

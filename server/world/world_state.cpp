@@ -22,7 +22,7 @@ BodiesConfig bodies_config(const WorldConfig& config, size_t threads) {
   out.tick_rate_hz = config.tick_rate_hz;
   out.terrain_collider = config.methods.collider;
   out.threads = threads;
-  out.palette = config.palette;
+  out.palette = palette_with(config.palette, config.material_numbers);
   return out;
 }
 
@@ -70,7 +70,7 @@ float client_us_per_s(const WorkBudget& work, const WorldConfig& config) {
 
 World::State::State(const WorldConfig& world_config, size_t threads)
     : config(world_config),
-      palette(config.palette),
+      palette(palette_with(config.palette, config.material_numbers)),
       field(config.terrain),
       bodies(field, bodies_config(config, threads)),
       rest(RestConfig{}, config.tick_rate_hz),

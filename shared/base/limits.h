@@ -60,11 +60,16 @@ inline constexpr float voxel_size_max_m = 2.0F;
 /// Bytes of one message on the wire, either way. Above: the connection is refused.
 inline constexpr size_t message_bytes_max = size_t{1} << 20;
 
-/// Settings in one request to change them, and the length of a name and of a value, bytes: twice what there
-/// are and need. Above: refused.
-inline constexpr size_t settings_max = 32;
-inline constexpr size_t setting_name_bytes_max = 32;
+/// Settings in one request to change them, and in a status: those of the table and material_settings_max. The
+/// length of a name, of which "material.", a row and a member take 59 at most, and of a value, bytes. Above:
+/// refused.
+inline constexpr size_t settings_max = 128;
+inline constexpr size_t setting_name_bytes_max = 64;
 inline constexpr size_t setting_value_bytes_max = 64;
+
+/// Numbers of a palette that administrators have changed while the world ran: every status lists them. Above:
+/// refused; the palette's file has room for all.
+inline constexpr size_t material_settings_max = 96;
 
 /// Length of the token that lets a client change settings, bytes. Shorter ones could be guessed; both are
 /// refused.

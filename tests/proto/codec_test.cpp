@@ -264,10 +264,10 @@ TEST(Codec, counts_over_their_limit_are_refused_by_name) {
   EXPECT_TRUE(holds(client_refusal(repair), "2 hashes for 3 chunks"));
   const SettingValues many(limits::settings_max + 1);
   EXPECT_TRUE(holds(client_refusal(AdminMessage{1, "", SettingsRequest{many}}),
-                    "33 settings are over the limit of 32"));
+                    "129 settings are over the limit of 128"));
   StatusMessage status;
   status.settings = many;
-  EXPECT_TRUE(holds(server_refusal(status), "33 settings"));
+  EXPECT_TRUE(holds(server_refusal(status), "129 settings"));
   status.settings.clear();
   status.work.budget_us = limits::tick_budget_max_us + 1;
   EXPECT_TRUE(holds(server_refusal(status), "budget_us is 1000001"));

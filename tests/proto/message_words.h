@@ -255,6 +255,19 @@ inline Lines describe(const AskTilesMessage& m) {
 inline Lines describe(const TileMessage& m) {
   return {fmt::format("tile{}: {} bytes", words(std::vector{m.key}), m.bytes.size())};
 }
+inline Lines describe(const AskContentMessage& m) {
+  Lines lines{"content:"};
+  for (const Digest& digest : m.wanted) lines.push_back("digest: " + hex_of(digest));
+  return lines;
+}
+inline Lines describe(const ContentMessage& m) {
+  if (m.total == 0) return {"content: none of " + hex_of(m.digest)};
+  return {fmt::format("content: {} of {} bytes, from {} on, of {}", m.part.size(), m.total, m.offset,
+                      hex_of(m.digest))};
+}
+inline Lines describe(const PaletteChangedMessage& m) {
+  return {"palette changed: " + hex_of(m.palette)};
+}
 inline Lines describe(const WelcomeMessage& m) {
   Lines lines{
       fmt::format("welcome: protocol {}, session {}, tick {}, role {}", m.protocol, m.session, m.tick,
@@ -265,6 +278,7 @@ inline Lines describe(const WelcomeMessage& m) {
                   m.terrain.voxel_size_m),
       fmt::format("world 0x{:016x}, ticket {}, resumed: {}", m.world, words_of_bytes(m.ticket), m.resumed)};
   if (m.heights) append(lines, words(*m.heights));
+  if (m.palette) lines.push_back("palette: " + hex_of(*m.palette));
   if (m.spawn) lines.push_back("spawn: " + text_of(*m.spawn));
   return lines;
 }

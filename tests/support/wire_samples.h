@@ -115,7 +115,8 @@ inline StatusMessage status() {
   status.work = {12500, 40000, 3, 17, 5, 1, 60, 59, 7, 2, 1};
   status.refusals = {{"pieces_max", 3}, {"message_malformed", 1ULL << 40U}};
   status.latency = {{8000, 2100, 300}, {16000, 9000, limits::latency_max_us}};
-  status.settings = {{"impacts", "true"}, {"collider", "field"}};
+  status.settings = {{"impacts", "true"}, {"collider", "field"}, {"material.rock.strength", "12.5"}};
+  status.materials = MaterialLedger({{-5, 3, 2, 0, 0}, {}, {1LL << 40, 0, 7, (1LL << 40) + 9, -2}});
   return status;
 }
 
@@ -136,6 +137,7 @@ inline std::vector<ServerMessage> server_messages() {
   chunk.bricks = {{{-4, 8, 0}, noisy_brick(3), all_of(material::rock)}, {{-1, 11, 3}, noisy_brick(4)}};
   chunk.hash = 0xFEDCBA9876543210ULL;
   WelcomeMessage on_heights = welcome;
+  on_heights.palette = Digest{7, 6, 5};
   on_heights.spawn = Spawn{{-3.5F, 40.25F, 17.0F}, -120.5F, 12.0F};
   on_heights.heights = HeightGround{{87, 61, 10.0F, -512, 25600, {5.0F, 90.0F}},
                                     {1, 2, 255},
@@ -169,6 +171,9 @@ inline std::vector<ServerMessage> server_messages() {
       GroundMessage{{-1, 2, 0}, false, 1ULL << 62U, {{{-4, 8, 0}, noisy_brick(5)}}, 0x123456789ABCDEF0ULL},
       GroundMessage{.chunk = {7, -8, 9}, .beyond = true},
       TileMessage{{1, 2, 3}, {9, 8, 7}},
+      ContentMessage{{3, 1, 4}, 100, 40, {1, 5, 9, 2, 6}},
+      ContentMessage{{3, 1, 4}},
+      PaletteChangedMessage{{2, 7, 1, 8}},
       UnchangedChunksMessage{{{1, 2, 3}, {-4, 5, -6}}, {1, 0xFFFFFFFFFFFFFFFFULL}},
       AdminListMessage{
           3,
@@ -217,6 +222,7 @@ inline std::vector<ClientMessage> client_messages() {
           SayMessage{"mind the edge"},
           AskGroundMessage{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
           AskTilesMessage{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},
+          AskContentMessage{{{3, 1, 4}, {2, 7, 1, 8}}},
           OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}},
           GoodbyeMessage{},
           AskHealthMessage{},

@@ -23,7 +23,7 @@ struct Options {
   scree::AdminServer server;
   double timeout_s = 10.0;
   std::vector<std::string> changes;
-  std::string whom;  ///< a session's number, or an address
+  std::string whom;  ///< a session's number, an address, or a material
   uint32_t minutes = 0;
   std::string reason;
   std::vector<std::string> place;
@@ -47,15 +47,31 @@ int print(const scree::Result<scree::SettingValues>& settings, bool as_json) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const scree::SettingValue& setting : *settings) {
     json[setting.name] = setting.value;
-    if (!as_json) std::printf("%-14s %s\n", setting.name.c_str(), setting.value.c_str());
+    if (!as_json) std::printf("%-26s %s\n", setting.name.c_str(), setting.value.c_str());
   }
   if (as_json) std::printf("%s\n", json.dump(2).c_str());
   return 0;
 }
 
-int print(const scree::Result<scree::StatusMessage>& status, bool as_json) {
-  if (!status) return complain(status.error(), exit_failed);
-  std::fputs((as_json ? scree::status_json(*status) : scree::status_lines(*status)).c_str(), stdout);
+int print_status(const Options& options) {
+  const auto named = scree::read_named_status(options.server);
+  if (!named) return complain(named.error(), exit_failed);
+  const auto text = options.json ? scree::status_json : scree::status_lines;
+  std::fputs(text(named->status, named->materials).c_str(), stdout);
+  return 0;
+}
+
+int show_materials(const Options& options) {
+  const auto palette = scree::read_materials(options.server);
+  if (!palette) return complain(palette.error(), exit_failed);
+  if (options.whom.empty()) {
+    std::fputs((options.json ? scree::materials_json : scree::materials_lines)(*palette).c_str(), stdout);
+    return 0;
+  }
+  const auto material = scree::material_named(*palette, options.whom);
+  if (!material) return complain(material.error(), exit_failed);
+  const auto text = options.json ? scree::material_json : scree::material_lines;
+  std::fputs(text(palette->row(*material)).c_str(), stdout);
   return 0;
 }
 
@@ -81,6 +97,12 @@ int change(const Options& options) {
   const auto changes = parse(options.changes);
   if (!changes) return complain(changes.error(), exit_usage);
   return print(scree::change_settings(options.server, *changes), options.json);
+}
+
+int change_materials(const Options& options) {
+  const auto changes = parse(options.changes);
+  if (!changes) return complain(changes.error(), exit_usage);
+  return print(scree::change_materials(options.server, *changes), options.json);
 }
 
 /// "here", "here 7", "auto", or the numbers of a place.
@@ -198,6 +220,21 @@ void add_control_options(CLI::App* command, Options& options) {
 
 using Run = int (*)(const Options&);
 
+/// The subcommand of materials, which has two of its own.
+std::pair<CLI::App*, CLI::App*> add_material_commands(CLI::App& app, Options& options) {
+  CLI::App* materials = app.add_subcommand("materials", "shows and changes what the world is made of");
+  materials->require_subcommand(1);
+  materials->fallthrough();
+  CLI::App* show = materials->add_subcommand("show", "prints all materials, or all members of one");
+  show->add_option("NAME", options.whom, "name of a material");
+  CLI::App* set = materials->add_subcommand(
+      "set", "changes all of these numbers or none, and prints all that differ from the palette's own");
+  set->add_option("NAME.MEMBER=VALUE", options.changes,
+                  "such as brick.strength=12; the value default takes the palette's own again")
+      ->required();
+  return {show, set};
+}
+
 /// A row each: what to run when the subcommand was given.
 std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options& options) {
   const auto add = [&](const char* name, const char* what) { return app.add_subcommand(name, what); };
@@ -237,11 +274,14 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
     command->add_option("--reason", options.reason, "reason, which the client is shown");
   CLI::App* replay = add("replay", "controls a server's replay, and prints its position");
   add_control_options(replay, options);
+  const auto [show_material, set_material] = add_material_commands(app, options);
   CLI::App* bans = add("bans", "lists the bans");
   CLI::App* unban = add("unban", "lifts a ban");
   unban->add_option("WHOM", options.whom, "address, network, name or token, as `bans` lists it")->required();
   return {{show, [](const Options& o) { return print(scree::read_settings(o.server), o.json); }},
-          {status, [](const Options& o) { return print(scree::read_status(o.server), o.json); }},
+          {status, print_status},
+          {show_material, show_materials},
+          {set_material, change_materials},
           {healthy, health},
           {set, change},
           {spawn, place_spawn},

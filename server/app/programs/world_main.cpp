@@ -10,6 +10,7 @@
 #include "server/app/chunk_text.h"
 #include "server/app/ground_giver.h"
 #include "server/app/recorded_past.h"
+#include "server/app/world_facts.h"
 #include "server/store/ground_mass.h"
 #include "server/store/readable_rows.h"
 #include "server/store/stored_field.h"
@@ -39,10 +40,6 @@ struct Options {
   bool json = false;
 };
 
-std::string hex(uint64_t hash) {
-  return fmt::format("{:016x}", hash);
-}
-
 void print(const Json& json, bool as_json) {
   if (as_json) {
     std::printf("%s\n", json.dump(2).c_str());
@@ -57,41 +54,6 @@ void print(const Json& json, bool as_json) {
 int complain(const Error& error) {
   std::fprintf(stderr, "scree-world: error: %s\n", error.message.c_str());
   return failed;
-}
-
-/// Sums over the rows of chunks.
-struct ChunkSums {
-  uint64_t chunks = 0, bricks = 0, bytes = 0;
-};
-
-Json describe(const std::string& path, const WorldRows& rows, const ChunkSums& sums) {
-  const WorldMoment& moment = rows.world.moment;
-  Json settings = Json::object();
-  for (const SettingValue& setting : moment.config.settings) settings[setting.name] = setting.value;
-  settings[spawn_setting] = moment.config.spawn ? text_of(*moment.config.spawn) : "auto";
-  size_t waiting = 0;
-  for (const PartyValue& party : moment.requests.parties)
-    for (const SessionValue& session : party.sessions) waiting += session.requests.size();
-  std::error_code ignored;
-  return {{"file", path},
-          {"format", world_format},
-          {"made_by", rows.header.config.program},
-          {"terrain", terrain_text(moment.config.ground, moment.config.terrain)},
-          {"seed", moment.config.terrain.random_seed},
-          {"voxel_size_m", moment.config.terrain.voxel_size_m},
-          {"tick_rate_hz", moment.config.tick_rate_hz},
-          {"settings", std::move(settings)},
-          {"tick", moment.tick},
-          {"seconds", static_cast<double>(moment.tick) / moment.config.tick_rate_hz},
-          {"chunks_edited", sums.chunks},
-          {"bricks_edited", sums.bricks},
-          {"pieces_alive", moment.pieces.size()},
-          {"requests_waiting", waiting},
-          {"ledger_error", moment.ledger.error()},
-          {"field_hash", hex(moment.field_hash)},
-          {"state_hash", hex(moment.state_hash)},
-          {"bytes_of_rows", rows.bytes + sums.bytes},
-          {"bytes", std::filesystem::file_size(path, ignored)}};
 }
 
 /// What is read from now on is of one moment.
@@ -119,7 +81,7 @@ int info(const Options& options) {
   if (!rows) return complain(rows.error());
   const auto sums = sum_up(**file);
   if (!sums) return complain(sums.error());
-  print(describe(options.path, *rows, *sums), options.json);
+  print(Json::parse(world_facts(options.path, *rows, *sums)), options.json);
   return 0;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "content/palette_file.h"
 #include "proto/codec.h"
 #include "shared/base/check.h"
 #include "tests/fuzz/support/any_request.h"
@@ -113,7 +114,7 @@ AdminMessage any_admin(FuzzInput& input) {
 }
 
 ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
-  switch (input.below(14)) {
+  switch (input.below(15)) {
     case 0:
       return any_hello(input, server);
     case 1:
@@ -145,6 +146,13 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
     }
     case 12:
       return AskHealthMessage{};
+    case 13: {
+      AskContentMessage request;
+      for (uint32_t count = input.below(8); count > 0; --count)
+        request.wanted.push_back(input.flag() ? palette_digest(*shared_builtin_palette())
+                                              : Digest{static_cast<uint8_t>(input.byte())});
+      return request;
+    }
     case 11:
       return SayMessage{input.text(limits::line_bytes_max)};
     default: {

@@ -1,0 +1,157 @@
+#include "client/cache/received_content.h"
+
+#include <algorithm>
+
+#include "client/cache/limits.h"
+#include "crypto/sha256.h"
+#include "proto/palette_codec.h"
+#include "shared/material/material_image.h"
+
+namespace scree {
+
+ReceivedContent::ReceivedContent(TileFolder folder, bool images)
+    : folder_(std::move(folder)), images_(images) {}
+
+void ReceivedContent::begin_session(const std::optional<Digest>& palette) {
+  wanted_.clear();
+  asked_.clear();
+  given_up_.clear();
+  fault_.clear();
+  wanted_palette_.reset();
+  if (palette != current_) {  // of another world, whose content is in the folder
+    held_.clear();
+    held_bytes_ = 0;
+    current_.reset();
+    palette_ = plain_palette();
+  }
+  if (palette) change_palette(*palette);
+}
+
+void ReceivedContent::change_palette(const Digest& palette) {
+  if (wanted_palette_ && *wanted_palette_ != palette) {  // what is on its way of that is of no more use
+    std::erase(wanted_, *wanted_palette_);
+    if (asked_.erase(*wanted_palette_) > 0) given_up_.insert(*wanted_palette_);
+    given_up_.erase(palette);
+  }
+  wanted_palette_ = palette;
+  if (current_ == palette) {
+    use_palette();  // whose images may be missing
+    return;
+  }
+  want(palette);
+  if (find(palette) != nullptr) use_palette();
+}
+
+ReceivedContent::Bytes ReceivedContent::find(const Digest& digest) const {
+  const auto found = held_.find(digest);
+  return found == held_.end() ? nullptr : found->second;
+}
+
+void ReceivedContent::want(const Digest& digest) {
+  if (held_.contains(digest) || asked_.contains(digest) || given_up_.contains(digest)) return;
+  if (std::ranges::find(wanted_, digest) != wanted_.end() || read(digest)) return;
+  wanted_.push_back(digest);
+}
+
+bool ReceivedContent::read(const Digest& digest) {
+  auto bytes = folder_.read(digest);
+  if (!bytes || held_bytes_ + bytes->size() > limits::content_memory_max) return false;
+  held_bytes_ += bytes->size();
+  held_[digest] = std::make_shared<const std::vector<uint8_t>>(std::move(*bytes));
+  return true;
+}
+
+AskContentMessage ReceivedContent::next_request() {
+  AskContentMessage request;
+  while (!wanted_.empty() && asked_.size() < limits::contents_asked_max) {
+    const Digest digest = wanted_.front();
+    wanted_.erase(wanted_.begin());
+    asked_[digest];
+    request.wanted.push_back(digest);
+  }
+  return request;
+}
+
+/// It counts as if the server had none such.
+void ReceivedContent::drop(const Digest& digest, const std::string& fault) {
+  fault_ = fault;
+  asked_.erase(digest);
+  given_up_.insert(digest);
+}
+
+/// Empty: the part may be added.
+std::string ReceivedContent::fault_of(const ContentMessage& message, const Partial& partial) const {
+  if (message.total == 0) return " is not there";
+  const size_t most = message.digest == wanted_palette_ ? palette_bytes_max : limits::image_bytes_max;
+  if (message.total > most || held_bytes_ + message.total > limits::content_memory_max)
+    return " has too many bytes: " + std::to_string(message.total);
+  if (message.total != partial.total || message.offset != partial.bytes.size())
+    return " comes in parts that do not follow one another";
+  return {};
+}
+
+std::optional<Digest> ReceivedContent::accept(const ContentMessage& message) {
+  const Digest& digest = message.digest;
+  bytes_received_ += message.part.size();
+  const auto asked = asked_.find(digest);
+  if (asked == asked_.end()) {
+    if (!given_up_.contains(digest)) fault_ = "the server sends content that was not asked for";
+    return std::nullopt;
+  }
+  Partial& partial = asked->second;
+  if (message.offset > 0 && partial.bytes.empty()) return std::nullopt;  // of an earlier request
+  if (message.offset == 0) partial = {{}, message.total};
+  const std::string what =
+      digest == wanted_palette_ ? "the server's palette" : "an image of the server's palette";
+  if (const std::string fault = fault_of(message, partial); !fault.empty()) {
+    drop(digest, what + fault);
+    return std::nullopt;
+  }
+  partial.bytes.insert(partial.bytes.end(), message.part.begin(), message.part.end());
+  if (partial.bytes.size() < partial.total) return std::nullopt;
+  std::vector<uint8_t> bytes = std::move(partial.bytes);
+  if (sha256(bytes) != digest) {
+    drop(digest, what + " does not have the hash that names it");
+    return std::nullopt;
+  }
+  asked_.erase(digest);
+  const Digest whole = digest;
+  return take(whole, std::move(bytes)) ? std::optional(whole) : std::nullopt;
+}
+
+bool ReceivedContent::take(const Digest& digest, std::vector<uint8_t> bytes) {
+  if (digest != wanted_palette_)
+    if (const auto image = check_image(bytes); !image) {
+      drop(digest, "an image of the server's palette cannot be used: " + image.error().message);
+      return false;
+    }
+  folder_.write(digest, bytes);
+  held_bytes_ += bytes.size();
+  held_[digest] = std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+  return digest != wanted_palette_ || use_palette();
+}
+
+/// The one that is wanted, and has come.
+bool ReceivedContent::use_palette() {
+  const Bytes bytes = find(*wanted_palette_);
+  if (current_ != wanted_palette_) {
+    auto palette = decode_palette(*bytes);
+    if (!palette) {
+      drop(*wanted_palette_, "the server's palette cannot be used: " + palette.error().message);
+      return false;
+    }
+    palette_ = std::make_shared<const Palette>(std::move(*palette));
+    if (const Bytes before = current_ ? find(*current_) : nullptr) {
+      held_bytes_ -= before->size();
+      held_.erase(*current_);
+    }
+    current_ = wanted_palette_;
+  }
+  if (!images_) return true;
+  for (const MaterialRow& row : palette_->rows)
+    for (const std::optional<Digest>& image : {row.look.albedo, row.look.normal})
+      if (image) want(*image);
+  return true;
+}
+
+}  // namespace scree

@@ -1,0 +1,101 @@
+#include "proto/content_codec.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+#include "proto/byte_stream.h"
+#include "proto/limits.h"
+
+namespace scree {
+
+std::string wire_digest(const Digest& digest) {
+  return {digest.begin(), digest.end()};
+}
+
+Digest read_digest(const std::string& from, const char* what, FieldChecker& check) {
+  Digest digest{};
+  if (from.size() == digest.size())
+    std::ranges::copy(as_span(from), digest.begin());
+  else
+    check.refuse(fmt::format("{} of {} bytes, not {}", what, from.size(), digest.size()));
+  return digest;
+}
+
+std::optional<Digest> read_any_digest(const std::string& from, const char* what, FieldChecker& check) {
+  return from.empty() ? std::nullopt : std::optional(read_digest(from, what, check));
+}
+
+void write(wire::ContentRequest& to, const AskContentMessage& from) {
+  std::string wanted;
+  for (const Digest& digest : from.wanted) wanted += wire_digest(digest);
+  to.set_wanted(std::move(wanted));
+}
+
+AskContentMessage read(const wire::ContentRequest& from, FieldChecker& check) {
+  constexpr size_t size = sizeof(Digest);
+  const std::string& wanted = from.wanted();
+  AskContentMessage request;
+  if (wanted.size() > size * limits::contents_wanted_max)
+    check.refuse(
+        fmt::format("content is asked for with {} bytes of digests, over the limit of {} digests "
+                    "(limits.contents_wanted_max)",
+                    wanted.size(), limits::contents_wanted_max));
+  else if (wanted.size() % size != 0)
+    check.refuse(fmt::format("{} bytes are no digests of {}", wanted.size(), size));
+  else
+    for (size_t i = 0; i < wanted.size(); i += size)
+      request.wanted.push_back(read_digest(wanted.substr(i, size), "digest", check));
+  return request;
+}
+
+void write(wire::Content& to, const ContentMessage& from) {
+  to.set_digest(wire_digest(from.digest));
+  to.set_total(from.total);
+  to.set_offset(from.offset);
+  to.set_part(to_string(from.part));
+}
+
+ContentMessage read(const wire::Content& from, FieldChecker& check) {
+  ContentMessage content;
+  content.digest = read_digest(from.digest(), "digest of content", check);
+  content.total = check.within(from.total(), 0, limits::content_bytes_max, "bytes of content");
+  content.offset = check.within(from.offset(), 0, content.total, "offset of a part of content");
+  const std::string& part = from.part();
+  const size_t most = std::min<size_t>(content.total - content.offset, limits::content_part_bytes_max);
+  if (part.size() > most || part.empty() != (content.total == 0))
+    check.refuse(
+        fmt::format("a part of content of {} bytes at {} of {}", part.size(), content.offset, content.total));
+  else
+    content.part.assign(part.begin(), part.end());
+  return content;
+}
+
+std::string pack_ledger(const MaterialLedger& ledger) {
+  std::vector<uint8_t> bytes;
+  ByteWriter writer(bytes);
+  std::span<const MaterialLedger::Row> rows = ledger.rows();
+  while (!rows.empty() && rows.back() == MaterialLedger::Row{}) rows = rows.first(rows.size() - 1);
+  for (const MaterialLedger::Row& row : rows)
+    for (const MassUnits mass : {row.terrain, row.pieces, row.dust, row.poured, row.converted})
+      writer.zigzag(mass);
+  return to_string(bytes);
+}
+
+MaterialLedger unpack_ledger(const std::string& packed, FieldChecker& check) {
+  std::vector<MaterialLedger::Row> rows;
+  ByteReader reader(as_span(packed), "ledger of the materials");
+  constexpr MassUnits mass_max = int64_t{1} << 62U;
+  while (!reader.at_end() && !reader.failed()) {
+    if (rows.size() == materials_max) {
+      reader.refuse("more rows than a palette has");
+      break;
+    }
+    MaterialLedger::Row& row = rows.emplace_back();
+    for (MassUnits* mass : {&row.terrain, &row.pieces, &row.dust, &row.poured, &row.converted})
+      *mass = reader.zigzag("mass", mass_max);
+  }
+  if (reader.failed()) check.refuse(reader.error().message);
+  return MaterialLedger(std::move(rows));
+}
+
+}  // namespace scree
