@@ -22,6 +22,26 @@ constexpr Tick ticks = 180;
 constexpr Tick ticks_per_line = 30;
 const TerrainSource terrain{TerrainKind::noise, 3, 0.25F};
 
+/// Of three rows, as the ground's layers need.
+WorldConfig usual_config() {
+  auto palette = std::make_shared<Palette>();
+  for (const char* name : {"rock", "soil", "ice"}) palette->rows.emplace_back().name = name;
+  MaterialRow& soil = palette->rows[row_number(material::soil)];
+  soil.density_kg_m3 = 1700.0F;
+  soil.friction = 0.9F;
+  soil.strength_m_s = 7.0F;
+  soil.seed_density = 1.5F;
+  soil.dent_resistance_j_m3 = 2.5e5F;
+  soil.bearing = {4.0e5F, 1.0e5F, 5.0e4F, 1.0e5F};
+  MaterialRow& ice = palette->rows[row_number(material::ice)];
+  ice.density_kg_m3 = 920.0F;
+  ice.friction = 0.3F;
+  ice.breaks = BreakLook::shards;
+  WorldConfig config;
+  config.palette = std::move(palette);
+  return config;
+}
+
 /// On the ground of the session at x.
 glm::vec3 ground(float x_m) {
   return {x_m, ground_height_m(terrain, x_m, 0.0F), 0.0F};
@@ -113,7 +133,7 @@ bool play(const std::string& name, WorldConfig config, bool twins, Played& playe
 
 int run(bool twins) {
   Played usual;
-  if (!play("default", WorldConfig{}, twins, usual)) return 1;
+  if (!play("default", usual_config(), twins, usual)) return 1;
   const Happened& h = usual.happened;
   if (h.shatters == 0 || h.dents == 0 || h.islands == 0 || h.merges == 0) {
     std::fprintf(stderr, "the session lacks shatters, dents, islands or merges\n");
@@ -122,8 +142,8 @@ int run(bool twins) {
   int failures = 0;
   for (const Setting& setting : settings())
     for (const std::string_view value : setting.tried) {
-      WorldConfig config;
-      if (!setting.parse(value, config) || config == WorldConfig{}) continue;
+      WorldConfig config = usual_config();
+      if (!setting.parse(value, config) || config == usual_config()) continue;
       const std::string name = std::string(setting.name) + "=" + std::string(value);
       Played played;
       if (!play(name, config, twins, played)) return 1;

@@ -60,10 +60,10 @@ int index_in_brick(VoxelCoord v) {
 
 void add_stored(const Field& ground, const VoxelBox& box, Looks& looks) {
   for_each_chunk(box, [&](ChunkCoord chunk) {
-    const auto stored = ground.chunk_bricks(chunk).generated.stored_materials;
-    if (stored == nullptr) return;
+    const auto stored = stored_chunk(ground.source(), chunk).chunk;
+    if (stored == nullptr || stored->stored_materials == nullptr) return;
     for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
-      const BrickMaterials& materials = (*stored)[static_cast<size_t>(i)];
+      const BrickMaterials& materials = stored->stored_materials->at(i);
       if (materials.is_ground()) continue;
       for_each_voxel(common(box_of(brick_in_chunk(chunk, i)), box), [&](VoxelCoord v) {
         const uint8_t look = looks.look_of(materials.at(index_in_brick(v)));
