@@ -54,7 +54,7 @@ std::string world_facts(const std::string& path, const WorldRows& rows, const Ch
     for (const SessionValue& session : party.sessions) waiting += session.requests.size();
   std::error_code ignored;
   const Json json{{"file", path},
-                  {"format", world_format},
+                  {"format", sums.format},
                   {"made_by", rows.header.config.program},
                   {"terrain", terrain_text(moment.config.ground, moment.config.terrain)},
                   {"seed", moment.config.terrain.random_seed},

@@ -11,6 +11,7 @@ namespace scree {
 /// Sums over the rows of chunks.
 struct ChunkSums {
   uint64_t chunks = 0, bricks = 0, bytes = 0;
+  int64_t format = 0;  ///< of the file
 };
 
 /// One JSON object: the materials by name, with their part of the ledger, but for those that have none.

@@ -209,6 +209,11 @@ Result<void> WorldFile::hold_moment() {
   return mode && *mode == "wal" ? state_->database.execute("BEGIN", "cannot be read") : Result<void>();
 }
 
+Result<int64_t> WorldFile::format() {
+  const auto format = TRY(state_->database.number("PRAGMA user_version"));
+  return format.value_or(0);
+}
+
 Result<WorldRows> WorldFile::read_moment(LostRows* lost) {
   Database& file = state_->database;
   if (auto whole = check_pages(file); !whole) {
@@ -251,8 +256,9 @@ Result<std::vector<BrickPatch>> WorldFile::read_bricks(ChunkCoord chunk) {
 Result<void> WorldFile::State::begin_to_save() {
   if (put_moment != nullptr) return {};
   const std::string settings =
-      fmt::format("PRAGMA journal_mode = WAL; PRAGMA synchronous = {}; PRAGMA wal_autocheckpoint = {};",
-                  synchronous(durable), limits::wal_pages_max);
+      fmt::format("PRAGMA journal_mode = WAL; PRAGMA synchronous = {}; PRAGMA wal_autocheckpoint = {};"
+                  "PRAGMA user_version = {};",  // what is written is of the present format
+                  synchronous(durable), limits::wal_pages_max, world_format);
   TRY(database.execute(settings));
   const auto has_row = [this](PieceId id, std::span<const uint8_t>, bool) -> Result<void> {
     pieces.insert(id);

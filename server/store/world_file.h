@@ -64,6 +64,8 @@ class WorldFile {
   /// All that is read from now on is as of one moment, whatever is saved meanwhile, unless nobody has saved
   /// yet; the log beside the file grows until this object is gone. Not for who saves.
   Result<void> hold_moment();
+  /// The format of the file: of the program that saved it last.
+  Result<int64_t> format();
   /// As read(), but of the terrain nothing: the header, and the world's moment; the bytes are theirs.
   Result<WorldRows> read_moment(LostRows* lost = nullptr);
   /// Calls `visit` for each chunk, its bricks with it, in order of rows; ends at the first error, also one of

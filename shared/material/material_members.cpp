@@ -66,7 +66,7 @@ constexpr std::array numbers{
                                    "coefficient against itself; of two materials, the geometric mean counts"),
     of_row<&MaterialRow::restitution>(
         "restitution", {0.0F, 0.95F}, "",
-        "share of the speed that a blow gives back; of two materials, the larger counts"),
+        "share of the speed that a blow gives back; for two materials, the root of the product"),
     of_row<&MaterialRow::strength_m_s>("strength", {0.1F, 1000.0F}, "m/s",
                                        "change of speed in one contact that breaks a piece of 1 m³"),
     of_row<&MaterialRow::strength_by_size>(

@@ -36,7 +36,7 @@ class PieceFrame {
   glm::vec3 origin_{};
 };
 
-/// `material_of(voxel, was)`: of what fills it more than by half.
+/// `material_of(voxel, was)`: of what fills it by half or more.
 template <typename F>
 AddedMaterials add_materials(const MaterialReader& were, const Window& before, const Window& after,
                              F&& material_of) {
@@ -45,7 +45,7 @@ AddedMaterials add_materials(const MaterialReader& were, const Window& before, c
   std::array<MassUnits, 256> gains{};
   const auto at = [&](VoxelCoord voxel, int had, int has) {
     const Material was = were.at(voxel);
-    const Material is = has > 2 * had ? material_of(voxel, was) : was;
+    const Material is = has >= 2 * had ? material_of(voxel, was) : was;
     gains[row_number(was)] -= had;
     gains[row_number(is)] += has;
     if (is != was) added.changes.push_back({voxel, is});

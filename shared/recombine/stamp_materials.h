@@ -1,5 +1,5 @@
 // Which material the voxels of a merge or a fill are of. It is decided after the codes, by one rule for every
-// method: a voxel takes the new material where more than half of its mass is new; of a merged piece, that of
+// method: a voxel takes the new material where half of its mass or more is new; of a merged piece, that of
 // the piece's nearest solid voxel. Pure; deterministic.
 #pragma once
 

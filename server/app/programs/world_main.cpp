@@ -71,6 +71,7 @@ Result<ChunkSums> sum_up(WorldFile& file) {
   });
   TRY(bytes);
   sums.bytes = *bytes;
+  sums.format = TRY(file.format());
   return sums;
 }
 
