@@ -65,8 +65,8 @@ Marks bricks_at(vec3 p, vec3 n, float size, float broken, float pixel, float fin
   vec3 grey = vec3(1.15, 2.6, 3.2) * (0.86 + 0.28 * fine);
   marks.shade = mix(mix(tint, grey, mortar), vec3(1.0, 1.12, 1.16), far);
   // Mortar lies deeper, and edges are worn.
-  vec3 round = sign(off) * smoothstep(3.0 * width, width, edge) * (1.0 - far);
-  marks.bump = off_face(-0.55 * vec3(round.xy, 0.0), n) + broken * draw * 0.9 * (1.0 - mortar) * (1.0 - far);
+  vec3 worn = sign(off) * smoothstep(3.0 * width, width, edge) * (1.0 - far);
+  marks.bump = off_face(-0.55 * vec3(worn.xy, 0.0), n) + broken * draw * 0.9 * (1.0 - mortar) * (1.0 - far);
   marks.open = 1.0 - 0.35 * mortar * (1.0 - far);
   return marks;
 }
@@ -99,8 +99,8 @@ Marks planks_at(vec3 p, vec3 n, float size, float broken, float pixel, vec4 midd
   float shade = 1.0 + 0.40 * draw.y + near * (0.50 * (rings - 0.5) + 0.30 * (fibre - 0.5));
   shade *= mix(1.0, 1.25, broken);
   marks.shade = mix(vec3(shade) * mix(vec3(1.0), vec3(0.24, 0.20, 0.18), gap), vec3(0.94), far);
-  float round = sign(across) * smoothstep(0.10 * size, 0.03 * size, 0.5 * size - abs(across)) * (1.0 - far);
-  vec3 slope = vec3(0.0, -0.5 * round + near * 0.25 * (fibre - 0.5), 0.0);
+  float worn = sign(across) * smoothstep(0.10 * size, 0.03 * size, 0.5 * size - abs(across)) * (1.0 - far);
+  vec3 slope = vec3(0.0, -0.5 * worn + near * 0.25 * (fibre - 0.5), 0.0);
   marks.bump = end || flat_face ? slope.xzy : off_face(slope, n);
   marks.open = 1.0 - 0.4 * gap * (1.0 - far);
   return marks;

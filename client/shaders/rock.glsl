@@ -59,8 +59,8 @@ Rock stone_of(vec3 q, vec3 n, vec3 bed, vec3 bent, float fine, float gap, float 
   float deep = (1.0 - smoothstep(0.3 * width, width + pixel, edge)) * near;
   float rim = 1.0 - smoothstep(0.0, 0.24, edge);
   vec4 face = facet(q * 1.25 + stone.way * 9.0, bent * 0.06);
-  vec3 round = -0.9 * stone.off - 1.7 * rim * rim * stone.joint;
-  vec3 bump = stone.way * 1.1 + face.xyz * 1.0 + round + bent * 0.14;
+  vec3 bulge = -0.9 * stone.off - 1.7 * rim * rim * stone.joint;
+  vec3 bump = stone.way * 1.1 + face.xyz + bulge + bent * 0.14;
   vec3 tint = mix(vec3(0.82, 0.87, 0.94), vec3(1.15, 0.96, 0.80), smoothstep(0.15, 0.85, stone.way.y + 0.5));
   float shade = (0.66 + 0.70 * (stone.way.z + 0.5)) * (0.62 + 0.76 * fine);
   Rock rock;
