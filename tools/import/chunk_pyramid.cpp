@@ -44,8 +44,8 @@ void sample_levels(ChunkCoord at, const GeneratedChunk& fine, const VoxelBox& bo
       }
 }
 
-/// Of a brick, by the eight finer ones that it shows: each voxel is of what the one of them is that it has
-/// the code of, or if that says nothing, the one above: so a thin layer is not lost from afar.
+/// A brick's, by the eight finer ones that it shows. Each voxel is of what the voxel is that it has the code
+/// of. If that says nothing, it is of what the one above is, so that a thin layer is not lost from afar.
 BrickMaterials sampled_materials(const std::array<const BrickMaterials*, 8>& finer) {
   const BrickMaterials& one = *finer.front();
   const auto is_same = [&](const BrickMaterials* other) { return *other == one; };
@@ -63,7 +63,7 @@ BrickMaterials sampled_materials(const std::array<const BrickMaterials*, 8>& fin
   return BrickMaterials(voxels);
 }
 
-/// Of a chunk, by the chunks of the level below; where none is stored, it says nothing.
+/// A chunk's, by the chunks of the level below; where none is stored, it says nothing.
 std::shared_ptr<const PackedChunkMaterials> coarser_materials(ChunkCoord parent,
                                                               const ChunkPyramid::Level& fine) {
   static const BrickMaterials none;

@@ -40,7 +40,7 @@ class ImportPalette {
 /// A row of stone-like numbers that looks so.
 MaterialRow row_of_colour(std::string name, const std::array<float, 3>& linear);
 
-/// Of a part of a colour, 0 to 1 and 0 to 255: IEC 61966-2-1. Back and forth it is the same byte.
+/// A part of a colour, 0 to 1 and 0 to 255, by IEC 61966-2-1. Back and forth it is the same byte.
 float linear_of_srgb(uint8_t part);
 uint8_t srgb_of_linear(float part);
 

@@ -78,7 +78,7 @@ class SceneTriangles {
     return own_material(material, colour_of(*scene_.mMaterials[mesh.mMaterialIndex]));
   }
 
-  /// Of a material that is none of the palette's, one for each of its colours.
+  /// A material that is none of the palette's has a number for each of its colours.
   SceneMaterial own_material(const std::string& name, const SceneColour& colour) {
     std::array<int, 3> key{};
     for (size_t i = 0; i < 3; ++i) key[i] = srgb_of_linear(colour.linear[i]);
@@ -108,7 +108,7 @@ class SceneTriangles {
       materials.push_back(texel ? own_material(material, colour) : one);
     }
   }
-  /// Of 32 steps of brightness as it is seen.
+  /// Brightness in 32 steps, as it is seen.
   static float coarse(float linear) {
     return linear_of_srgb(static_cast<uint8_t>((srgb_of_linear(linear) & 0xF8) | 4));
   }

@@ -21,7 +21,7 @@ std::optional<aiString> picture_name(const aiMaterial& material) {
   return std::nullopt;
 }
 
-/// Of a picture in the scene itself: the bytes of its file, or the pixels.
+/// A picture in the scene itself has the bytes of its file, or pixels.
 Result<Picture> embedded(const aiTexture& texture) {
   if (texture.mHeight == 0)
     return read_picture({reinterpret_cast<const uint8_t*>(texture.pcData), texture.mWidth});

@@ -20,8 +20,8 @@ Palette without_images(Palette palette, const std::string& path, std::vector<std
 
 }  // namespace
 
-Result<MaterialChoice> read_choice(const MaterialOptions& options, const GroundFile* on) {
-  MaterialChoice choice;
+Result<ChosenMaterials> read_choice(const MaterialOptions& options, const GroundFile* on) {
+  ChosenMaterials choice;
   choice.palette = on != nullptr ? on->palette() : shared_builtin_palette();
   if (!options.palette.empty()) {
     PaletteContent content = TRY(read_palette_file(options.palette));

@@ -15,7 +15,7 @@ struct MaterialOptions {
   std::string material;  ///< a name; empty: none
 };
 
-struct MaterialChoice {
+struct ChosenMaterials {
   std::shared_ptr<const Palette> palette;
   MaterialMap map{};
   std::optional<Material> material{};
@@ -23,6 +23,6 @@ struct MaterialChoice {
 };
 
 /// `on`: the ground below, whose rows the palette must have; null: none.
-Result<MaterialChoice> read_choice(const MaterialOptions& options, const GroundFile* on);
+Result<ChosenMaterials> read_choice(const MaterialOptions& options, const GroundFile* on);
 
 }  // namespace scree

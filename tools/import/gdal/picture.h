@@ -17,7 +17,7 @@ struct Picture {
   std::vector<std::array<uint8_t, 3>> pixels;
 };
 
-/// Of the bytes of a PNG or a JPEG with 8 bits a part. Any other file is refused, and one with too many
+/// Reads the bytes of a PNG or a JPEG with 8 bits a part. Any other file is refused, and one with too many
 /// pixels (limits.picture_pixels_max).
 Result<Picture> read_picture(std::span<const uint8_t> file);
 

@@ -145,7 +145,7 @@ void read_metadata(const FloatGrid& grid, VdbHead& head) {
   head.told = static_cast<uint8_t>(head.told | static_cast<uint8_t>(VdbTold::chunks));
 }
 
-/// Of a text in the metadata; none if there is none.
+/// The bytes of a text in the metadata; none if there is none.
 std::vector<uint8_t> bytes_of(const openvdb::Int32Grid& grid, const char* name) {
   const auto meta = grid.getMetadata<openvdb::StringMetadata>(name);
   if (!meta) return {};

@@ -192,7 +192,7 @@ class VoxParser {
     }
   }
 
-  /// Of several frames the first one counts.
+  /// The first of several frames counts.
   static void read_transform(ByteReader& chunk, VoxNode& node) {
     node.children.push_back(std::bit_cast<int32_t>(chunk.u32("child of a node")));
     chunk.u32("reserved number");
