@@ -59,7 +59,7 @@ size_t ContentStream::waiting(uint64_t session) const {
   return queue == queues_.end() ? 0 : queue->second.wanted.size();
 }
 
-/// Of the one that is begun; as much as the session's room allows.
+/// The next bytes of the content that is begun, as many as the session's room allows.
 SharedBytes ContentStream::part_of(Queue& queue) {
   const std::vector<uint8_t>& bytes = *queue.bytes;
   const size_t most = std::clamp(queue.room, limits::content_part_bytes_min, limits::content_part_bytes_max);

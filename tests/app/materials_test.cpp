@@ -123,7 +123,7 @@ TEST_F(MaterialSession, numbers_are_shown_changed_and_taken_back) {
   EXPECT_TRUE(holds(material_named(*palette, "brik").error().message, "did you mean brick?"));
   const auto wrong = change_materials(target_, {{"brick.strength", "0"}, {"rock.strength", "9"}});
   ASSERT_FALSE(wrong);
-  EXPECT_TRUE(holds(wrong.error().message, "brick: strength 0 is under 0.1 m/s")) << wrong.error().message;
+  EXPECT_TRUE(holds(wrong.error().message, "brick: strength 0 is below 0.1 m/s")) << wrong.error().message;
   const auto none =
       change_materials(target_, {{"brick.strength", "default"}, {"brick.bearing.pressed", "default"}});
   ASSERT_TRUE(none);
@@ -156,6 +156,7 @@ TEST_F(MaterialSession, changes_are_recorded_kept_and_verified) {
   ASSERT_TRUE(server_->push({0, 0, carve}));
   ASSERT_TRUE(change_materials(target_, {{"rock.friction", "0.1"}}));
   ASSERT_TRUE(server_->stop());
+  server_.reset();
   start();  // and both go on
   const auto palette = read_materials(target_);
   ASSERT_TRUE(palette);
