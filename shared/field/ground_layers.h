@@ -27,8 +27,8 @@ class GroundLayers {
   int above() const { return std::max(soil_depth_, cap_depth_); }
   BrickMaterials bulk() const { return BrickMaterials(said(rows_.bulk)); }
 
-  /// Of a brick whose first row of voxels is `first_y`. `solid(x, y, z)`: whether that voxel of the brick, or
-  /// one above it, is undisturbed ground.
+  /// The materials of a brick whose first row of voxels is `first_y`. `solid(x, y, z)`: whether that voxel of
+  /// the brick, or one above it, is undisturbed ground.
   template <typename F>
   BrickMaterials of_brick(int first_y, F&& solid) const {
     VoxelMaterials voxels;

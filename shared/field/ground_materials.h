@@ -11,7 +11,7 @@
 
 namespace scree {
 
-/// Of a brick of that chunk of stored ground. Every voxel names a material.
+/// The materials of a brick of that chunk of stored ground. Every voxel names a material.
 BrickMaterials ground_materials_of(const TerrainSource& source, BrickCoord coord,
                                    const GeneratedChunk& generated);
 

@@ -23,7 +23,7 @@ struct CutPiece {
 struct Cut {
   std::vector<CutPiece> pieces;  ///< in the order of their first seeds
   MassUnits dust = 0;            ///< mass of a volume too small for any piece
-  /// Of a cutter that knows it: the mass that each voxel lost (units), the cell nearest to it, and the piece
+  /// Where the cutter knows it: the mass that each voxel lost (units), the cell nearest to it, and the piece
   /// of each cell. Else empty.
   std::vector<uint8_t> lost{};
   std::vector<uint16_t> cell_of_voxel{};

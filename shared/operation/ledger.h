@@ -52,9 +52,10 @@ class MaterialLedger {
   };
 
   MaterialLedger() = default;
-  /// Of these rows, by material; they need not balance.
+  /// Takes these rows, by material; they need not balance.
   explicit MaterialLedger(std::vector<Row> rows) : rows_(std::move(rows)) {}
-  /// Of a world whose ledger kept no materials: all counts for one, but for what its pieces are of.
+  /// The ledger of a world that kept none of its materials: all counts for one, but for what its pieces are
+  /// of.
   MaterialLedger(const Ledger& all, const MaterialMasses& pieces, Material material);
 
   /// Enters one operation's flows, whose sum leaves no dust less than nothing.

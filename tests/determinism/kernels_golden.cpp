@@ -1,8 +1,5 @@
 // Prints a hash of what each field kernel computes on fixed inputs, one "name hash" a line. The output must
 // be the same from every compiler at every optimisation (tests/determinism/CMakeLists.txt).
-#include <bit>
-#include <cinttypes>
-#include <cstdio>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -17,49 +14,11 @@
 #include "shared/fracture/slice_cutter.h"
 #include "shared/operation/operation.h"
 #include "shared/recombine/stamp_method.h"
+#include "tests/determinism/golden.h"
 #include "tests/support/memory_heights.h"
 
 namespace scree {
 namespace {
-
-/// FNV-1a, so that the hash under test (brick_hash) does not judge itself.
-class Digest {
- public:
-  void add(uint64_t value) {
-    for (int i = 0; i < 8; ++i) add_byte(static_cast<uint8_t>(value >> (8 * i)));
-  }
-  void add(float value) { add(uint64_t{std::bit_cast<uint32_t>(value)}); }
-  void add(glm::vec3 v) {
-    for (int i = 0; i < 3; ++i) add(v[i]);
-  }
-  void add(const Window& window) {
-    for (const int side : {window.box.lo.x, window.box.lo.y, window.box.lo.z, window.box.hi.x,
-                           window.box.hi.y, window.box.hi.z})
-      add(static_cast<uint64_t>(side));
-    for (const Code code : window.codes) add_byte(static_cast<uint8_t>(code));
-  }
-  void add(const Volume& volume) {
-    add(volume.window);
-    add(static_cast<uint64_t>(volume.mass));
-    add(volume.centre_voxels);
-  }
-  void add(const Cut& cut) {
-    for (const CutPiece& piece : cut.pieces) {
-      add(piece.volume);
-      for (const uint32_t seed : piece.seeds) add(uint64_t{seed});
-    }
-    add(static_cast<uint64_t>(cut.dust));
-  }
-  void add(const Pose& pose) {
-    add(pose.position_m);
-    for (int i = 0; i < 4; ++i) add(pose.rotation[i]);
-  }
-  void print(const std::string& name) const { std::printf("%-28s %016" PRIx64 "\n", name.c_str(), hash_); }
-
- private:
-  void add_byte(uint8_t byte) { hash_ = (hash_ ^ byte) * 0x100000001b3ULL; }
-  uint64_t hash_ = 0xcbf29ce484222325ULL;
-};
 
 /// Some rock with a surface through it: canyon terrain around the top of the ground at (x, z).
 Window terrain_window(float x_m, float z_m, int side) {
@@ -91,7 +50,7 @@ void print_generate() {
   for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::noise, TerrainKind::canyon}) {
     for (const uint32_t random_seed : {1U, 77U}) {
       const TerrainSource source{kind, random_seed, 0.25F};
-      Digest digest;
+      GoldenHash digest;
       for (const ChunkCoord chunk : {ChunkCoord{0, 0, 0}, ChunkCoord{-1, 0, 2}, ChunkCoord{3, -1, -4},
                                      ChunkCoord{-7, 1, 5}, ChunkCoord{120, 0, -333}}) {
         const GeneratedChunk generated = generate_chunk(source, chunk);
@@ -109,7 +68,7 @@ void print_heights() {
   const auto model = std::make_shared<const MemoryHeights>(300, 200, 3.7F, rough_height);
   for (const float voxel_m : {0.25F, 0.3F, 2.0F, 16.0F}) {
     const TerrainSource source{TerrainKind::flat, 1, voxel_m, model};
-    Digest digest;
+    GoldenHash digest;
     for (int x = -2; x < 2; ++x)
       for (int y = 0; y < 4; ++y) {
         const ChunkCoord chunk{x, y, 1 - x};
@@ -127,7 +86,7 @@ void print_heights() {
 void print_edits() {
   const Window before = terrain_window(3.0F, 11.0F, 40);
   for (const auto& [name, shape] : shapes_around(centre(before))) {
-    Digest carved, filled, extracted;
+    GoldenHash carved, filled, extracted;
     Window window = before;
     carve(window, codes_of(shape, window.box));
     carved.add(window);
@@ -149,7 +108,7 @@ void print_redistance() {
     levels.push_back(decode(code) * (0.5F + random.unit()));
     code = static_cast<Code>(code / 2);  // every distance wrong, every sign right
   }
-  Digest digest;
+  GoldenHash digest;
   redistance(window);
   digest.add(window);
   distances_from_levels(levels, window);
@@ -160,7 +119,7 @@ void print_redistance() {
 void print_sample() {
   MapField field({TerrainKind::canyon, 7, 0.25F});
   Random random(11);
-  Digest digest;
+  GoldenHash digest;
   for (int i = 0; i < 500; ++i) {
     // Braces: arguments in parentheses are evaluated in whatever order the compiler likes.
     const glm::vec3 p{random.unit() * 60.0F - 30.0F, random.unit() * 40.0F, random.unit() * 60.0F - 30.0F};
@@ -180,7 +139,7 @@ struct Fracture {
   Cut cut;
 };
 
-Fracture fracture(Cutter cutter, SeedPattern pattern, uint32_t count, Digest& digest) {
+Fracture fracture(Cutter cutter, SeedPattern pattern, uint32_t count, GoldenHash& digest) {
   Fracture result;
   result.before = terrain_window(3.0F, 11.0F, 32);
   const glm::vec3 c = centre(result.before);
@@ -194,14 +153,14 @@ Fracture fracture(Cutter cutter, SeedPattern pattern, uint32_t count, Digest& di
   return result;
 }
 
-Fracture fracture(SeedPattern pattern, uint32_t count, Digest& digest) {
+Fracture fracture(SeedPattern pattern, uint32_t count, GoldenHash& digest) {
   return fracture(Cutter::field, pattern, count, digest);
 }
 
 void print_fracture() {
   for (const SeedPattern pattern : {SeedPattern::uniform, SeedPattern::radial}) {
     for (const uint32_t count : {1U, 8U, 64U}) {
-      Digest digest;
+      GoldenHash digest;
       digest.add(fracture(pattern, count, digest).cut);
       digest.print(std::string(pattern == SeedPattern::uniform ? "cut_uniform_" : "cut_radial_") +
                    std::to_string(count));
@@ -211,7 +170,7 @@ void print_fracture() {
 
 void print_seed_patterns() {
   const Window rock = terrain_window(3.0F, 11.0F, 32);
-  Digest digest;
+  GoldenHash digest;
   for (const uint32_t count : {5U, 300U})
     for (const glm::vec3& seed : scatter_seeds(rock, SeedPattern::clustered, count, 17, centre(rock)))
       digest.add(seed);
@@ -226,7 +185,7 @@ void print_seed_patterns() {
 
 void print_polygon_cutters() {
   const auto print = [](Cutter cutter, const PolygonCutting& cutting, const char* name) {
-    Digest digest;
+    GoldenHash digest;
     const Fracture fractured = fracture(cutter, SeedPattern::radial, 40, digest);
     digest.add(fractured.cut);
     for (const PolygonMesh& part : cut_polygons(cutting, fractured.volume, fractured.seeds).parts)
@@ -238,17 +197,9 @@ void print_polygon_cutters() {
   print(Cutter::conform, conform_cutting, "cut_conform");
 }
 
-/// Some pose near `position_m`, turned anyhow.
-QuantisedPose some_pose(glm::vec3 position_m, Random& random) {
-  return {static_cast<int32_t>(position_m.x * pose_steps_per_m) + static_cast<int32_t>(random.below(2000)),
-          static_cast<int32_t>(position_m.y * pose_steps_per_m) + static_cast<int32_t>(random.below(2000)),
-          static_cast<int32_t>(position_m.z * pose_steps_per_m) + static_cast<int32_t>(random.below(2000)),
-          random.next()};
-}
-
 void print_poses() {
   Random random(21);
-  Digest digest;
+  GoldenHash digest;
   for (int i = 0; i < 1000; ++i) {
     const Pose pose = dequantise(some_pose({100.0F, -20.0F, 3.0F}, random));
     digest.add(pose);
@@ -261,7 +212,7 @@ void print_poses() {
 
 void print_stamp(StampMethod method, const std::string& name) {
   constexpr float voxel_size_m = 0.25F;
-  Digest unused, digest;
+  GoldenHash unused, digest;
   const Fracture fractured = fracture(SeedPattern::uniform, 8, unused);
   MapField field({TerrainKind::canyon, 7, voxel_size_m});
   Random random(31);
@@ -283,7 +234,7 @@ void print_shatter(Cutter cutter, const std::string& name) {
   PieceTable pieces;
   const glm::vec3 ground(9.0F, ground_height_m(field.source(), 9.0F, 4.0F), 4.0F);
   apply(CarveOperation{sphere(ground, 2.0F), SeedPattern::uniform, 3, 5, ground, 1}, field, pieces);
-  Digest digest;
+  GoldenHash digest;
   const PieceTable parents = pieces;
   for (const auto& [id, parent] : parents) {
     const glm::vec3 impact = parent->centre_voxels - glm::vec3(0.0F, 3.0F, 0.0F);
@@ -299,7 +250,7 @@ void print_shatter(Cutter cutter, const std::string& name) {
 void print_islands() {
   MapField field({TerrainKind::noise, 5, 0.25F});
   PieceTable pieces;
-  Digest digest;
+  GoldenHash digest;
   for (PieceId id = 1; id <= 4; ++id) {
     const float x_m = 5.0F * static_cast<float>(id);
     const glm::vec3 foot(x_m, ground_height_m(field.source(), x_m, 2.0F), 2.0F);
@@ -327,7 +278,7 @@ void print_session(TerrainKind kind) {
   MapField field(source);
   PieceTable pieces;
   Random random(41);
-  Digest digest;
+  GoldenHash digest;
   PieceId next_piece = 1;
   for (int round = 0; round < 6; ++round) {
     const glm::vec2 at{random.unit() * 12.0F - 6.0F, random.unit() * 12.0F - 6.0F};
@@ -357,57 +308,6 @@ void print_session(TerrainKind kind) {
   digest.print("session_" + std::string(name_of(kind)));
 }
 
-void add(const Volume& volume, Digest& digest) {
-  digest.add(volume);
-  for (size_t i = 0; i < volume.window.codes.size(); ++i)
-    digest.add(uint64_t{row_number(volume.materials.at(i))});
-  for (const MaterialMass& one : masses_of(volume)) {
-    digest.add(uint64_t{row_number(one.material)});
-    digest.add(static_cast<uint64_t>(one.mass));
-  }
-}
-
-/// A wall of two materials on soil: carved, broken, merged by each method, painted, with all that follows.
-void print_materials(TerrainKind kind) {
-  const TerrainSource source{kind, 3, 0.25F};
-  MapField field(source);
-  PieceTable pieces;
-  Random random(43);
-  Digest digest;
-  PieceId next_piece = 1;
-  constexpr Material brick{7}, concrete{6}, glass{9};
-  for (const StampMethod method : all_kinds<StampMethod>) {
-    const float x_m = 11.0F * static_cast<float>(method);
-    const glm::vec3 foot(x_m, ground_height_m(source, x_m, 1.0F), 1.0F);
-    apply(FillOperation{box(foot, {2.0F, 2.1F, 0.6F}), brick}, field, pieces);
-    apply(FillOperation{box(foot + glm::vec3(0.0F, 2.3F, 0.0F), {2.0F, 0.4F, 0.6F}), concrete}, field,
-          pieces);
-    apply(PaintOperation{sphere(foot + glm::vec3(0.6F, 1.0F, 0.0F), 0.7F), glass}, field, pieces);
-    const glm::vec3 blow = foot + glm::vec3(0.2F, 1.0F, 0.4F);
-    const Applied carved =
-        apply(CarveOperation{sphere(blow, 1.7F), SeedPattern::radial, 9, random.next(), blow, next_piece},
-              field, pieces);
-    next_piece += 9;
-    for (const CreatedPiece& piece : carved.created) add(*pieces.at(piece.id), digest);
-    const PieceId broken = pieces.begin()->first;
-    apply(ShatterOperation{broken, SeedPattern::uniform, 3, 7, pieces.at(broken)->centre_voxels, next_piece},
-          field, pieces);
-    next_piece += 3;
-    while (!pieces.empty()) {
-      const PieceId id = pieces.begin()->first;
-      const Applied merged = apply(
-          StampOperation{id, some_pose(blow, random), static_cast<int32_t>(random.below(32)) - 8, method},
-          field, pieces);
-      for (const MaterialFlow& flow : merged.flows) {
-        digest.add(uint64_t{row_number(flow.material)});
-        digest.add(static_cast<uint64_t>(flow.terrain));
-      }
-      digest.add(field.hash());
-    }
-  }
-  digest.print("materials_" + std::string(name_of(kind)));
-}
-
 }  // namespace
 }  // namespace scree
 
@@ -431,7 +331,6 @@ int main() {
   scree::print_islands();
   for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
     scree::print_session(kind);
-  for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
-    scree::print_materials(kind);
+  scree::print_materials();
   return 0;
 }

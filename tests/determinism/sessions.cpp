@@ -22,7 +22,7 @@ constexpr Tick ticks = 180;
 constexpr Tick ticks_per_line = 30;
 const TerrainSource terrain{TerrainKind::noise, 3, 0.25F};
 
-/// Of three rows, as the ground's layers need.
+/// A world of three rows, as the ground's layers need.
 WorldConfig usual_config() {
   auto palette = std::make_shared<Palette>();
   for (const char* name : {"rock", "soil", "ice"}) palette->rows.emplace_back().name = name;

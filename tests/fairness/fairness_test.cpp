@@ -143,7 +143,8 @@ TEST(fairness, plates_filled_in_the_air_do_not_keep_anothers_tower_from_falling)
 /// A table whose leg the honest client carves until it cannot carry the slab.
 TEST(fairness, support_is_searched_though_others_islands_wait) {
   const auto broke_after = [](uint32_t rules) {
-    WorldConfig config = flat_world_by(rules);
+    WorldConfig config = rock_world();  // soil would give way under the table
+    config.rules = rules;
     config.methods.support = true;
     World world(config);
     PlateFillers attackers(4);

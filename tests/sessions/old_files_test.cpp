@@ -27,7 +27,8 @@ struct OldFiles {
   Tick tick;  ///< at which the world was saved, the last of the recordings
   uint64_t field_hash;
   uint64_t state_hash;
-  bool has_log;  ///< of events, in each recording
+  bool has_log;   ///< of events, in each recording
+  bool verifies;  ///< the simulation is still the one that recorded it
 };
 
 const std::vector<OldFiles>& old_files() {
@@ -40,6 +41,7 @@ const std::vector<OldFiles>& old_files() {
        119,
        0xF952F7D9DD608F1E,
        0x1A69C3DF94A34FD2,
+       false,
        false},
       {"0.2.0",
        "dune",
@@ -49,7 +51,8 @@ const std::vector<OldFiles>& old_files() {
        86,
        0xF5F11B4E3CEB51C5,
        0x301B0EFA3581E0D8,
-       true}};
+       true,
+       false}};
   return all;
 }
 
@@ -93,12 +96,14 @@ TEST_P(OldFilesTest, its_world_is_whole_and_a_server_goes_on_with_it) {
     EXPECT_EQ(server.end(0, 60.0), 0);  // it ends by itself, after its ticks
   }
   EXPECT_GT(said(program, "info " + world()).at("tick"), GetParam().tick);
+  EXPECT_EQ(said(program, "info " + world()).at("format"), world_format) << "what saves it brings it up to date";
+  if (!GetParam().verifies) return;
   const auto report = said(SCREE_REPLAY_PROGRAM, "verify " + recording);
   EXPECT_EQ(report.at("agrees"), true) << "the recording goes on, too";
   EXPECT_EQ(report.at("restarts"), 1);
 }
 
-TEST_P(OldFilesTest, its_recordings_verify_and_play_to_the_same_hashes) {
+TEST_P(OldFilesTest, its_recordings_play_to_the_same_hashes) {
   for (const std::string name : GetParam().recordings) {
     SCOPED_TRACE(name);
     const auto giver = ground_giver(file(name), WorldConfig());
@@ -107,17 +112,22 @@ TEST_P(OldFilesTest, its_recordings_verify_and_play_to_the_same_hashes) {
     EXPECT_EQ((*reader)->last_tick(), GetParam().tick);
     EXPECT_TRUE((*reader)->is_ended());
     EXPECT_TRUE(!GetParam().has_log || (*reader)->events_from().has_value());
-    const auto report = verify(**reader, {}, giver);
-    ASSERT_TRUE(report.has_value()) << report.error().message;
-    EXPECT_TRUE(report->agrees()) << report->difference;
-    EXPECT_EQ(report->field_hash, GetParam().field_hash);
-    EXPECT_EQ(report->state_hash, GetParam().state_hash);
+    if (GetParam().verifies) {
+      const auto report = verify(**reader, {}, giver);
+      ASSERT_TRUE(report.has_value()) << report.error().message;
+      EXPECT_TRUE(report->agrees()) << report->difference;
+      EXPECT_EQ(report->field_hash, GetParam().field_hash);
+      EXPECT_EQ(report->state_hash, GetParam().state_hash);
+    }
     auto source = ReplaySource::open(file(name), (*reader)->first_tick(), giver);
     ASSERT_TRUE(source.has_value()) << source.error().message;
-    uint64_t field_hash = 0;
-    for (auto tick = (*source)->next(); tick && *tick; tick = (*source)->next())
+    uint64_t field_hash = 0, state_hash = 0;
+    for (auto tick = (*source)->next(); tick && *tick; tick = (*source)->next()) {
       field_hash = (*tick)->field_hash;
+      state_hash = (*tick)->state_hash;
+    }
     EXPECT_EQ(field_hash, GetParam().field_hash);
+    EXPECT_EQ(state_hash, GetParam().state_hash);
   }
 }
 
