@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* ground_hash = "02ef571e351c683da0bc4abe8a96636cc0744de9e0d035501d277dcd5556cae3";
+constexpr const char* ground_hash = "df7ccc8990e9032ce40c652e4f85d7be0dfe688ef6a7fb5c54730150f2bf8b31";
 
 class WorldProgramTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* name : {"hills.ground", "hills.world", "hills.scree", "hills_cut.scree"})
-      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_1" / name, folder / name);
+      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_2" / name, folder / name);
     ::setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
   }
   void TearDown() override { ::unsetenv("XDG_DATA_HOME"); }
@@ -98,7 +98,7 @@ TEST_F(WorldProgramTest, files_of_this_version_are_opened_and_go_on) {
   expect_whole(world);
   const Ran before = run("info " + world);
   ASSERT_EQ(before.code, 0) << before.said;
-  EXPECT_EQ(before.json.at("format"), 1);
+  EXPECT_EQ(before.json.at("format"), 2);
   EXPECT_EQ(before.json.at("terrain"), std::string("ground ") + ground_hash);
   EXPECT_EQ(before.json.at("ledger_error"), 0);
   EXPECT_GT(before.json.at("chunks_edited"), 0);
