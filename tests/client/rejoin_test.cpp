@@ -63,7 +63,9 @@ class RejoinTest : public ::testing::Test {
     return bot.report();
   }
   std::filesystem::path file() const {
-    return std::filesystem::directory_iterator(folder_ / "cache")->path();
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "cache"))
+      if (entry.path().extension() == ".chunks") return entry.path();
+    return {};
   }
 
   const TestFolder folder_;
