@@ -387,9 +387,9 @@ TEST(Codec, an_admins_text_over_its_limit_is_refused_by_name) {
   EXPECT_TRUE(decode_client(with_lengths({0x3A, 131, 1, 0x12, 128, 1}, 128)));
   EXPECT_TRUE(holds(decode_client(with_lengths({0x3A, 132, 1, 0x12, 129, 1}, 129)).error().message,
                     "token has 129 bytes, over the limit of 128"));
-  EXPECT_TRUE(decode_client(with_lengths({0x3A, 36, 0x1A, 34, 0x0A, 32}, 32)));
-  EXPECT_TRUE(holds(decode_client(with_lengths({0x3A, 37, 0x1A, 35, 0x0A, 33}, 33)).error().message,
-                    "name of a setting has 33 bytes"));
+  EXPECT_TRUE(decode_client(with_lengths({0x3A, 68, 0x1A, 66, 0x0A, 64}, 64)));
+  EXPECT_TRUE(holds(decode_client(with_lengths({0x3A, 69, 0x1A, 67, 0x0A, 65}, 65)).error().message,
+                    "name of a setting has 65 bytes"));
   EXPECT_TRUE(holds(decode_client(with_lengths({0x3A, 69, 0x1A, 67, 0x12, 65}, 65)).error().message,
                     "value of a setting has 65 bytes"));
 }
