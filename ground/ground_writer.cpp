@@ -30,7 +30,8 @@ bool is_of_format_1(const GeneratedChunk& chunk) {
 VoxelMaterial last_material(const GeneratedChunk& chunk) {
   VoxelMaterial last = ground_own;
   if (chunk.stored_materials != nullptr)
-    for (const BrickMaterials& brick : chunk.stored_materials->distinct()) last = std::max(last, brick.list().back());
+    for (const BrickMaterials& brick : chunk.stored_materials->distinct())
+      last = std::max(last, brick.list().back());
   return last;
 }
 

@@ -255,10 +255,10 @@ Result<std::vector<BrickPatch>> WorldFile::read_bricks(ChunkCoord chunk) {
 /// The log, the statements, and which pieces the file has, once.
 Result<void> WorldFile::State::begin_to_save() {
   if (put_moment != nullptr) return {};
-  const std::string settings =
-      fmt::format("PRAGMA journal_mode = WAL; PRAGMA synchronous = {}; PRAGMA wal_autocheckpoint = {};"
-                  "PRAGMA user_version = {};",  // what is written is of the present format
-                  synchronous(durable), limits::wal_pages_max, world_format);
+  const std::string settings = fmt::format(
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = {}; PRAGMA wal_autocheckpoint = {};"
+      "PRAGMA user_version = {};",  // what is written is of the present format
+      synchronous(durable), limits::wal_pages_max, world_format);
   TRY(database.execute(settings));
   const auto has_row = [this](PieceId id, std::span<const uint8_t>, bool) -> Result<void> {
     pieces.insert(id);

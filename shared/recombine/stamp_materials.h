@@ -27,8 +27,8 @@ struct AddedMaterials {
   std::vector<VoxelOf> changes;  ///< voxels that are of another material now, in a window's order
 };
 
-/// The materials of a merge that turned `before` into `after`, both over the reader's box. `bring`: the voxels take the
-/// pieces' materials; else they stay what they were.
+/// The materials of a merge that turned `before` into `after`, both over the reader's box. `bring`: the
+/// voxels take the pieces' materials; else they stay what they were.
 AddedMaterials merge_materials(const MaterialReader& were, const Window& before, const Window& after,
                                std::span<const MergedPiece> pieces, bool bring, float voxel_size_m);
 

@@ -22,6 +22,7 @@ trap cleanup EXIT
 mkdir "$folder/page" "$folder/home"
 cd "$folder/page"
 ln -s "$source/data" data
+ln -s "$source/content" content
 printf '#!/usr/bin/env bash\nexec "%s/scree_shim.sh" "%s" "%s" "$@"\n' "$here" "$source" "$bin" >scree
 chmod +x scree
 unset DISPLAY WAYLAND_DISPLAY "${!SCREE_@}" "${!XDG_@}" http_proxy all_proxy

@@ -27,8 +27,7 @@ constexpr uint64_t honest = 1;
 constexpr uint64_t first_attacker = 2;
 constexpr Tick second = 60;
 
-WorldConfig flat_world_by(uint32_t rules) {
-  WorldConfig config = flat_world();
+WorldConfig flat_world_by(uint32_t rules, WorldConfig config = flat_world()) {
   config.rules = rules;
   return config;
 }
@@ -143,8 +142,7 @@ TEST(fairness, plates_filled_in_the_air_do_not_keep_anothers_tower_from_falling)
 /// A table whose leg the honest client carves until it cannot carry the slab.
 TEST(fairness, support_is_searched_though_others_islands_wait) {
   const auto broke_after = [](uint32_t rules) {
-    WorldConfig config = rock_world();  // soil would give way under the table
-    config.rules = rules;
+    WorldConfig config = flat_world_by(rules, rock_world());  // soil would give way
     config.methods.support = true;
     World world(config);
     PlateFillers attackers(4);

@@ -10,7 +10,6 @@ import { World } from './world.js';
 
 const [document, proto] = process.argv.slice(2);
 const ServerMessage = new protobuf.Root().loadSync(proto, { keepCase: true }).lookupType('scree.wire.ServerMessage');
-const MATERIALS = ['rock', 'soil', 'ice'];
 const wordsOf = (coord) => `(${coord.join(', ')})`;
 const hex = (number, digits) => '0x' + number.toString(16).padStart(digits, '0');
 
@@ -19,9 +18,14 @@ function codesInWords(codes) {
   return `codes ${codes.slice(0, 3).join(' ')} … ${codes.at(-1)}`;
 }
 
-function brickInWords({ coord, codes, paint }) {
-  const painted = paint === null ? 'not painted' : `painted ${MATERIALS[paint]}`;
-  return `brick: ${wordsOf(coord)}, ${painted}, ${codesInWords(codes)}, hash ${hex(brickHash(coord, codes, paint), 16)}`;
+function materialsInWords(materials) {
+  if (materials === null) return "the ground's materials";
+  return typeof materials === 'number' ? `material ${materials}` : `voxels of ${new Set(materials).size} kinds`;
+}
+
+function brickInWords({ coord, codes, materials }) {
+  const hash = hex(brickHash(coord, codes, materials), 16);
+  return `brick: ${wordsOf(coord)}, ${materialsInWords(materials)}, ${codesInWords(codes)}, hash ${hash}`;
 }
 
 const poseInWords = ({ id, position, rotation }) => `pose: piece ${id} ${wordsOf(position)}, rotation ${hex(rotation, 8)}`;

@@ -4,6 +4,7 @@ import { decompress } from 'fzstd';
 
 export const BRICK_VOXELS = 512;
 export const SIDE_MAX = 128;
+const MIXED = 255; // where a material stands: each voxel says its own
 
 export class Reader {
   constructor(bytes, subject) {
@@ -74,13 +75,14 @@ export class Reader {
     return before.map((from) => from + this.zigzag());
   }
 
-  /** One zstd frame that fills the rest: so many codes. */
-  codes(count) {
-    const codes = new Uint8Array(count);
-    const got = decompress(this.rest(), codes);
-    if (got.length !== count) this.fail(`${got.length} codes instead of ${count}`);
+  /** One zstd frame that fills the rest: so many codes, then so many bytes of materials. */
+  voxels(count, materialCount = 0) {
+    const bytes = new Uint8Array(count + materialCount);
+    const got = decompress(this.rest(), bytes);
+    if (got.length !== bytes.length) this.fail(`${got.length} bytes of voxels instead of ${bytes.length}`);
+    const codes = bytes.subarray(0, count);
     if (codes.includes(0x80)) this.fail('a code is -128');
-    return new Int8Array(codes.buffer);
+    return { codes: new Int8Array(bytes.buffer, 0, count), materials: bytes.subarray(count) };
   }
 }
 
@@ -117,7 +119,10 @@ export function unpackCoords(bytes) {
   return list;
 }
 
-/** Frame.patches, Chunk.bricks and Ground.bricks: [{coord, codes, paint}], paint null where there is none. */
+/**
+ * Frame.patches, Chunk.bricks and Ground.bricks: [{coord, codes, materials}]. Materials: null for the ground's own, a row of
+ * the palette, or 512 bytes, for each voxel 0 for the ground's own or 1 + row.
+ */
 export function unpackBricks(bytes) {
   if (bytes.length === 0) return [];
   const reader = new Reader(bytes, 'bricks');
@@ -125,20 +130,36 @@ export function unpackBricks(bytes) {
   const bricks = [];
   for (let i = 0, before = [0, 0, 0]; i < count; i++) {
     before = reader.coord(before);
-    bricks.push({ coord: before, codes: null, paint: null });
+    bricks.push({ coord: before, codes: null, materials: null });
   }
   let next = 0;
-  for (let painted = reader.count(count); painted > 0; painted--) {
+  for (let said = reader.count(count); said > 0; said--) {
     next += reader.count(count);
-    if (next >= count) reader.fail('paint beyond the last brick');
-    bricks[next++].paint = reader.u8();
+    if (next >= count) reader.fail('a material beyond the last brick');
+    bricks[next++].materials = reader.u8();
   }
-  const codes = reader.codes(count * BRICK_VOXELS);
-  bricks.forEach((brick, i) => (brick.codes = codes.subarray(i * BRICK_VOXELS, (i + 1) * BRICK_VOXELS)));
+  const mixed = bricks.filter(({ materials }) => materials === MIXED);
+  const voxels = reader.voxels(count * BRICK_VOXELS, mixed.length * BRICK_VOXELS);
+  const ofBrick = (all, i) => all.subarray(i * BRICK_VOXELS, (i + 1) * BRICK_VOXELS);
+  bricks.forEach((brick, i) => (brick.codes = ofBrick(voxels.codes, i)));
+  mixed.forEach((brick, i) => (brick.materials = ofBrick(voxels.materials, i)));
   return bricks;
 }
 
-/** Piece.volume. */
+/** The masses of a volume of several materials, by row. */
+function unpackMasses(reader, mass) {
+  const masses = new Map();
+  for (let left = reader.count(MIXED), last = -1; left > 0; left--) {
+    const row = reader.u8();
+    if (row <= last) reader.fail('materials out of order');
+    masses.set((last = row), reader.varint());
+  }
+  const sum = [...masses.values()].reduce((a, b) => a + b, 0n);
+  if (sum !== mass) reader.fail(`masses of ${sum} in a volume of ${mass}`);
+  return masses;
+}
+
+/** Piece.volume. `materials`: the row of each voxel, or null where all are of the first of `masses`. */
 export function unpackVolume(bytes) {
   const reader = new Reader(bytes, 'volume');
   const first = reader.coord([0, 0, 0]);
@@ -146,7 +167,11 @@ export function unpackVolume(bytes) {
   const mass = reader.varint();
   const centre = [0, 0, 0].map(() => reader.f32());
   const material = reader.u8();
-  return { first, size, mass, centre, material, codes: reader.codes(size[0] * size[1] * size[2]) };
+  const isMixed = material === MIXED;
+  const masses = isMixed ? unpackMasses(reader, mass) : new Map([[material, mass]]);
+  const count = size[0] * size[1] * size[2];
+  const { codes, materials } = reader.voxels(count, isMixed ? count : 0);
+  return { first, size, mass, centre, masses, codes, materials: isMixed ? materials : null };
 }
 
 /** Frame.removed_pieces. */

@@ -2,7 +2,7 @@
 const SPHERE = 0;
 const BOX = 1;
 const RADIAL = 1;
-const MATERIALS = [1, 2]; // soil, ice
+const MATERIALS = [1, 2]; // rows of the palette
 const asPoint = ([x, y, z]) => ({ x, y, z });
 
 /** Numbers in [0, 1) from a seed (mulberry32). */

@@ -18,7 +18,7 @@ const demand = (holds, why) => {
 };
 
 export class World {
-  edits = new Map(); // by chunk: {hash, bricks by coordinate: {coord, codes, paint, hash}}
+  edits = new Map(); // by chunk: {hash, bricks by coordinate: {coord, codes, materials, hash}}
   ground = new Map(); // codes by brick, of every chunk in groundChunks
   groundChunks = new Map(); // by chunk: its coordinate
   pieces = new Map(); // by id: {volume, position, rotation}
@@ -168,12 +168,12 @@ export class World {
     return false;
   }
 
-  edit(key, { coord, codes, paint }) {
+  edit(key, { coord, codes, materials }) {
     if (!this.edits.has(key)) this.edits.set(key, { hash: 0n, bricks: new Map() });
     const chunk = this.edits.get(key);
-    const hash = brickHash(coord, codes, paint);
+    const hash = brickHash(coord, codes, materials);
     const before = chunk.bricks.get(keyOf(coord))?.hash ?? 0n;
-    chunk.bricks.set(keyOf(coord), { coord, codes, paint, hash });
+    chunk.bricks.set(keyOf(coord), { coord, codes, materials, hash });
     chunk.hash = wrapped(chunk.hash + hash - before);
   }
 }
