@@ -1,6 +1,6 @@
 #include "content/builtin_palette.h"
 
-#include "content/palette_file.h"
+#include "content/palette_text.h"
 #include "shared/base/check.h"
 
 namespace scree {

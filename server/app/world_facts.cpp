@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "content/builtin_palette.h"
-#include "content/palette_file.h"
+#include "content/files/palette_file.h"
 #include "server/app/ground_giver.h"
 #include "server/world/settings.h"
 

@@ -4,7 +4,7 @@
 #include <spdlog/spdlog.h>
 
 #include "content/builtin_palette.h"
-#include "content/palette_file.h"
+#include "content/files/palette_file.h"
 
 namespace scree {
 

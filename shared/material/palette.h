@@ -1,4 +1,4 @@
-// The palette: the materials of a world, as a table that comes from a file (content/palette_file.h).
+// The palette: the materials of a world, as a table that comes from a file (content/palette_text.h).
 //
 // A world, a recording and a welcome carry it by its digest (proto/palette_codec.h). Rows can be added, but
 // never removed or renumbered, because voxels hold their numbers. No kernel that decides bits of the field

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "client/admin/admin.h"
-#include "content/palette_file.h"
 #include "server/app/live_server.h"
 #include "server/app/saved_world.h"
 #include "server/app/server_options.h"

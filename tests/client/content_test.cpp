@@ -9,7 +9,6 @@
 #include "client/cache/received_content.h"
 #include "client/session/join_and_wait.h"
 #include "content/builtin_palette.h"
-#include "content/palette_file.h"
 #include "crypto/sha256.h"
 #include "proto/palette_codec.h"
 #include "server/app/live_server.h"

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <regex>
 
-#include "content/palette_file.h"
+#include "content/palette_text.h"
 #include "shared/material/material_members.h"
 
 namespace scree {

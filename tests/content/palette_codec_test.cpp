@@ -10,7 +10,7 @@
 #include <regex>
 
 #include "content/builtin_palette.h"
-#include "content/palette_file.h"
+#include "content/files/palette_file.h"
 #include "crypto/sha256.h"
 #include "shared/material/material_members.h"
 #include "tests/content/small_palette.h"

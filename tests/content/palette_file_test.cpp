@@ -1,5 +1,6 @@
 // Palettes as files: what people may write, and what each mistake is answered.
-#include "content/palette_file.h"
+#include "content/files/palette_file.h"
+#include "content/palette_text.h"
 
 #include <cmath>
 #include <fstream>

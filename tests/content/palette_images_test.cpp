@@ -5,7 +5,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include "content/palette_file.h"
+#include "content/files/palette_file.h"
+#include "content/palette_text.h"
 #include "crypto/sha256.h"
 #include "shared/material/material_image.h"
 #include "tests/support/test_folder.h"

@@ -20,6 +20,7 @@
 #include "tests/fuzz/support/any_request.h"
 #include "tests/fuzz/support/fuzz_server.h"
 #include "tests/fuzz/support/scratch_file.h"
+#include "tests/support/vox_bytes.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {
@@ -303,6 +304,18 @@ void write_config(Corpora& corpora) {
                             .bytes);
 }
 
+void write_vox(Corpora& corpora) {
+  VoxBytes plain;
+  plain.model({3, 4, 5}, {{0, 0, 0, 1}, {2, 3, 4, 255}});
+  VoxBytes scene = plain;
+  scene.transform(0, 1, {});
+  scene.group(1, {2, 4});
+  scene.transform(2, 3, {{"_r", "17"}, {"_t", "-3 40 -100"}}, {{"_name", "part"}}, 0);
+  scene.shape(3, 0);
+  scene.transform(4, 3, {}, {{"_hidden", "1"}});
+  for (const std::string& file : {plain.file(), scene.file(200)}) corpora.add("vox", Seed().text(file).bytes);
+}
+
 /// Targets that take bytes for choices alone: any bytes are a beginning.
 void write_choices(Corpora& corpora) {
   Random random(20261122);
@@ -331,6 +344,7 @@ int main(int argc, char** argv) {
   write_saved_values(corpora);
   write_texts(corpora);
   write_config(corpora);
+  write_vox(corpora);
   write_web(corpora);
   write_choices(corpora);
   corpora.print();

@@ -3,7 +3,7 @@
 // Holds: what is taken keeps all bounds, and survives its bytes; what is refused has a reason.
 #include <vector>
 
-#include "content/palette_file.h"
+#include "content/palette_text.h"
 #include "proto/palette_codec.h"
 #include "shared/base/check.h"
 #include "tests/fuzz/support/target.h"

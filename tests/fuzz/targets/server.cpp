@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <array>
 
-#include "content/palette_file.h"
+#include "content/files/palette_file.h"
 #include "proto/codec.h"
 #include "shared/base/check.h"
 #include "tests/fuzz/support/any_request.h"

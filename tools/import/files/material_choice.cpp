@@ -1,7 +1,7 @@
 #include "tools/import/files/material_choice.h"
 
 #include "content/builtin_palette.h"
-#include "content/palette_file.h"
+#include "content/files/palette_file.h"
 
 namespace scree {
 

@@ -10,7 +10,7 @@
 namespace scree {
 
 struct MaterialOptions {
-  std::string palette;  ///< a file (content/palette_file.h); empty: that of the ground below, or the built-in
+  std::string palette;  ///< a file (content/palette_text.h); empty: that of the ground below, or the built-in
   std::string map;      ///< a file (read_material_map); empty: none
   std::string material;  ///< a name; empty: none
 };

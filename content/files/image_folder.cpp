@@ -1,4 +1,4 @@
-#include "content/image_folder.h"
+#include "content/files/image_folder.h"
 
 #include <algorithm>
 #include <fstream>

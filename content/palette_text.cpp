@@ -1,8 +1,7 @@
-#include "content/palette_file.h"
+#include "content/palette_text.h"
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
 #include <optional>
 
@@ -27,10 +26,7 @@ struct BrokenPrecondition {};
 
 #include "content/limits.h"
 #include "content/toml_lines.h"
-#include "crypto/sha256.h"
-#include "proto/palette_codec.h"
 #include "shared/base/near_name.h"
-#include "shared/base/regular_file.h"
 #include "shared/base/text.h"
 #include "shared/material/material_members.h"
 
@@ -142,8 +138,8 @@ size_t line_of_break(std::string_view text) {
 /// Reads one file. Errors leave it as TRY hands them on.
 class PaletteReader {
  public:
-  /// Without a folder, images are refused.
-  PaletteReader(std::string name, ImageFolder* images) : name_(std::move(name)), images_(images) {}
+  PaletteReader(std::string name, const ReadImage& read_image)
+      : name_(std::move(name)), read_image_(read_image) {}
 
   Result<Palette> run(std::string_view text) {
     if (text.size() > limits::palette_file_bytes_max)
@@ -196,7 +192,7 @@ class PaletteReader {
   Result<void> read_depth(const toml::key& key, const toml::node& node);
 
   std::string name_;
-  ImageFolder* images_;
+  const ReadImage& read_image_;
   std::string subject_;  ///< the row that is being read, in words
   Palette palette_;
 };
@@ -277,9 +273,8 @@ Result<void> PaletteReader::read_member(MaterialRow& row, const std::string& nam
 Result<void> PaletteReader::read_image(MaterialRow& row, const ImageMember& image, const toml::node& node) {
   const std::string member(image.name);
   if (!node.is_string()) return refuse_type(node, member, "a text");
-  if (images_ == nullptr)
-    return refuse(node.source(), member + " is of a palette's file, which has a folder");
-  const Result<Digest> digest = images_->read(node.as_string()->get());
+  if (!read_image_) return refuse(node.source(), member + " is of a palette's file, which has a folder");
+  const Result<Digest> digest = read_image_(node.as_string()->get());
   if (!digest) return refuse(node.source(), member + ": " + digest.error().message);
   row.look.*image.member = *digest;
   return {};
@@ -331,32 +326,10 @@ Result<void> PaletteReader::read_depth(const toml::key& key, const toml::node& n
   return refuse_name(key, key.str(), known);
 }
 
-Result<std::string> read_text(const std::string& path) {
-  TRY(check_is_small_file(path, limits::palette_file_bytes_max));
-  std::ifstream in(path, std::ios::binary);
-  std::string text(limits::palette_file_bytes_max + 1, '\0');
-  if (!in) return fail(path + ": it cannot be read");
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) return fail(path + ": it cannot be read");
-  text.resize(static_cast<size_t>(in.gcount()));
-  return text;
-}
-
 }  // namespace
 
-Result<Palette> read_palette(std::string_view text, const std::string& name) {
-  return PaletteReader(name, nullptr).run(text);
-}
-
-Result<PaletteContent> read_palette_file(const std::string& path) {
-  const std::string text = TRY(read_text(path));
-  ImageFolder images(std::filesystem::path(path).parent_path());
-  Palette palette = TRY(PaletteReader(path, &images).run(text));
-  return PaletteContent{std::move(palette), std::move(images).files()};
-}
-
-Digest palette_digest(const Palette& palette) {
-  return sha256(encode_palette(palette));
+Result<Palette> read_palette(std::string_view text, const std::string& name, const ReadImage& read_image) {
+  return PaletteReader(name, read_image).run(text);
 }
 
 }  // namespace scree
