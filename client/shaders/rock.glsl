@@ -90,8 +90,8 @@ Rock rubble_at(vec3 p, vec3 n, vec3 bed, vec3 bent, float fine, float sand, floa
 }
 
 // At p in the frame of the rock, whose patterns stay with a piece that moves. `worn`: how far the field as generated was
-// from here, x where rock has gone, y where it has come; `look`: 0, or 1 + a row of the palette; `in_cleft`: 1 on an open
-// face, less where other rock is near above it; `away`: metres from the eye.
+// from here, x where rock has gone, y where it has come. `look`: 0, or 1 + a row of the palette. `in_cleft`: 1 on an open
+// face, less where other rock is near above it. `away`: metres from the eye.
 Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, float away) {
   vec4 coarse = noise(p * 0.16);
   vec4 middle = noise(p * 1.3 + 17.0);

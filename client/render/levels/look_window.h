@@ -37,10 +37,10 @@ struct LookWindow {
 /// the slope in that cell. `p` in voxels, in the window.
 VoxelCoord beneath(const Window& now, glm::vec3 p);
 
-/// Of a box of samples of that level, which `ground` generates: on level 0 the field itself.
+/// The looks of a box of samples of that level, which `ground` generates: on level 0 the field itself.
 LookWindow gather_looks(const Field& field, const Field& ground, int level, const VoxelBox& box);
 
-/// Of a piece, over its volume's box. `field` knows what the ground was where the piece is from.
+/// A piece's looks, over its volume's box. `field` knows what the ground was where the piece is from.
 LookWindow looks_of(const Field& field, const Volume& piece);
 
 /// Whether the ground stores materials in one of the chunks that the box touches.

@@ -49,7 +49,7 @@ class Parted {
       return mean;
     });
   }
-  /// Of a triangle, no two of whose corners look alike.
+  /// The middle of a triangle, no two of whose corners look alike.
   uint32_t middle(const std::array<uint32_t, 3>& corners, uint8_t look) {
     const auto& all = mesh_.vertices;
     SurfaceVertex vertex = mean_of(mean_of(all[corners[0]], all[corners[1]]), all[corners[2]]);
