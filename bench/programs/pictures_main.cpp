@@ -49,8 +49,9 @@ class Film {
   Film(Stage& stage, std::string folder, const WorldConfig& config = canyon_world())
       : stage_(stage), folder_(std::move(folder)), world_(config) {
     world_.want_physics(true);
-    piece_events_.step(pieces_, voxel_m(), -1.0 / world_.config().tick_rate_hz);
+    piece_events_.step(pieces_, voxel_m(), -1.0 / world_.config().tick_rate_hz, *world_.config().palette);
     stage_.renderer->set_terrain(config.terrain);
+    stage_.renderer->set_palette(config.palette);
   }
 
   /// Builds the scene that the configuration is of.
@@ -107,7 +108,7 @@ class Film {
     for (const PieceState& piece : delta->pieces)
       pieces_[piece.id] = {volumes_.at(piece.id), dequantise(piece.pose)};
     if (delta->physics) physics_ = delta->physics;
-    dust_.add(piece_events_.step(pieces_, voxel_m(), now_s()), now_s());
+    dust_.add(piece_events_.step(pieces_, voxel_m(), now_s(), *world_.config().palette), now_s());
   }
   float voxel_m() const { return world_.config().terrain.voxel_size_m; }
   double now_s() const { return static_cast<double>(world_.tick()) / world_.config().tick_rate_hz; }

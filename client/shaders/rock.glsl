@@ -90,8 +90,8 @@ Rock rubble_at(vec3 p, vec3 n, vec3 bed, vec3 bent, float fine, float sand, floa
 }
 
 // At p in the frame of the rock, whose patterns stay with a piece that moves. `worn`: how far the field as generated was
-// from here, x where rock has gone, y where it has come; `look`: 0, or 1 + a row of the palette; `in_cleft`: 1 on an open
-// face, less where other rock is near above it; `away`: metres from the eye.
+// from here, x where rock has gone, y where it has come. `look`: 0, or 1 + a row of the palette. `in_cleft`: 1 on an open
+// face, less where other rock is near above it. `away`: metres from the eye.
 Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, float away) {
   vec4 coarse = noise(p * 0.16);
   vec4 middle = noise(p * 1.3 + 17.0);
@@ -137,8 +137,8 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
   }
   // The slopes bend the normal, less with distance, where they would only flicker.
   Rock rock = Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain), open, 1.0);
-  // Rubble is stones, whatever shape the field has room for.
-  float piled = bare * worn.y / max(worn.x + worn.y, 1e-3);
+  // Rubble is stones, whatever shape the field has room for; a layer thinner than a voxel has room for none.
+  float piled = bare * worn.y / max(worn.x + worn.y, 1e-3) * smoothstep(0.12, 0.40, worn.y);
   if (piled > 0.0) {
     vec3 bed = mix(vec3(0.46, 0.235, 0.12), vec3(0.56, 0.36, 0.21), coarse.x);
     Rock rubble = rubble_at(p, shape_normal, bed, middle.yzw, uneven, 1.0 + fine - uneven, in_cleft, away);

@@ -72,7 +72,7 @@ class LeafRules {
 };
 
 struct LeafPoint {
-  Leaf leaf;                       ///< a leaf that holds the point
+  Leaf leaf;                       ///< a leaf that holds the point, or as much of one as its edge is long
   std::array<int32_t, 3> steps{};  ///< surface_steps_per_voxel to a side of 1, from the grid's origin
 };
 

@@ -16,12 +16,12 @@ namespace {
 
 constexpr uint32_t no_vertex = 0xFFFFFFFFU;
 
-/// The place where an edge is crossed, in 1/256 of it: never at its ends, where other edges' crossings may
-/// be.
+/// The place where an edge is crossed, in 1/256 of it: so far off its ends that between it and the crossings
+/// of other edges there is a place that is neither.
 int crossing_steps(float from, float to) {
   CHECK_DEBUG((from < 0.0F) != (to < 0.0F));
   const auto along = static_cast<int>(from / (from - to) * surface_steps_per_voxel + 0.5F);
-  return std::clamp(along, 1, surface_steps - 1);
+  return std::clamp(along, 2, surface_steps - 2);
 }
 
 class CubesBuilder {
@@ -155,7 +155,7 @@ class LeafFiller {
                                    edge.from.z * surface_steps};
       steps[static_cast<size_t>(edge.axis)] +=
           crossing_steps(grid_.distance_at(edge.from), grid_.distance_at(edge.to())) * edge.length;
-      mesh_.points.push_back({leaf, steps});
+      mesh_.points.push_back({edge.length == leaf.side ? leaf : Leaf{edge.from, edge.length}, steps});
     }
     return found->second;
   }

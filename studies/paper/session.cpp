@@ -50,6 +50,7 @@ Camera high_camera() {
 PaperSession::PaperSession(Stage& stage, const WorldConfig& config, PictureSize picture, const Camera& camera)
     : stage_(stage), world_(config), picture_(picture), camera_(camera) {
   stage_.renderer->set_terrain(config.terrain);
+  stage_.renderer->set_palette(config.palette);
   generate_around(world_);
 }
 

@@ -80,7 +80,7 @@ class Materials : public OffscreenTest, public testing::WithParamInterface<std::
     EXPECT_TRUE(write_png(std::string(folder) + "/" + GetParam() + "_" + name + ".png", image));
     return image;
   }
-  /// Of a point of the wall's face.
+  /// At a point of the wall's face.
   int column_of(float x_m) const {
     const float half = std::tan(camera_.field_of_view * 0.5F) * (camera_.eye_m.z - face_z_m);
     return static_cast<int>(0.5F * width + (x_m - camera_.eye_m.x) / half * 0.5F * height);

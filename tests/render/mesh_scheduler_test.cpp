@@ -67,7 +67,8 @@ class Watched : public testing::Test {
         for (int z = -2; z < 2; ++z) {
           const SurfaceNode node{0, {x, y, z}};
           const VoxelBox owned = samples_of(node);
-          const SurfaceMesh now = surface_nets(gather(field_, owned.grown(surface_nets_apron)), owned);
+          const std::optional<BlockWindows> windows = gather_windows(field_, owned);
+          const SurfaceMesh now = windows ? windows->mesh() : SurfaceMesh{};
           const auto shown = nodes_.find(node);
           ASSERT_EQ(now.empty(), shown == nodes_.end());
           if (now.empty()) continue;

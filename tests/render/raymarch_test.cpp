@@ -1,4 +1,5 @@
 // The raymarcher's copy of the field stays the field's, whatever happens to it.
+#include "content/builtin_palette.h"
 #include "shared/base/random.h"
 #include "tests/support/offscreen_fixture.h"
 
@@ -73,6 +74,7 @@ class RaymarchPiece : public Raymarch {
  protected:
   void SetUp() override {
     Raymarch::SetUp();
+    renderer_->set_palette(shared_builtin_palette());
     camera_.eye_m = {0.4F, ground_m_ + 2.6F, 2.8F};
     camera_.pitch = -0.65F;
   }

@@ -11,11 +11,12 @@
 namespace scree {
 
 Result<std::unique_ptr<FrameDrawer>> FrameDrawer::create(const DrawChoice& drawn,
-                                                         const TerrainSource& terrain) {
+                                                         const RecordedScene& scene) {
   auto context = TRY(EglContext::create(false));
   auto renderer = TRY(Renderer::create(drawn.view_radius_m));
   renderer->set_fineness(traits_of(drawn.quality).fineness);
-  renderer->set_terrain(terrain);
+  renderer->set_terrain(scene.field().source());
+  renderer->set_palette(scene.palette());
   std::unique_ptr<FrameDrawer> drawer(new FrameDrawer(drawn, std::move(context), std::move(renderer)));
   TRY(drawer->methods_.choose(*drawn.method));
   drawer->methods_.set_options(drawn.method_options);

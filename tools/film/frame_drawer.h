@@ -26,8 +26,9 @@ struct DrawChoice {
 
 class FrameDrawer {
  public:
-  /// Fails where there is no EGL, no fit OpenGL, or not what the method needs.
-  static Result<std::unique_ptr<FrameDrawer>> create(const DrawChoice& drawn, const TerrainSource& terrain);
+  /// For pictures of that scene, or of others of the same terrain and palette. Fails where there is no EGL,
+  /// no fit OpenGL, or not what the method needs.
+  static Result<std::unique_ptr<FrameDrawer>> create(const DrawChoice& drawn, const RecordedScene& scene);
 
   /// `changes`: of the scene since the last picture. Waits for the terrain in view; asks meanwhile whether it
   /// shall stop, which is an error.

@@ -70,7 +70,7 @@ void RecordedScene::show(std::shared_ptr<const TickDelta> delta, MirrorChanges& 
   for (const SpawnedPiece& piece : now_->spawned) volumes_[piece.id] = piece.volume;
   update_pieces(changes);
   const double now_s = seconds_of(static_cast<double>(now_->tick));
-  dust_.add(piece_events_.step(pieces_, field_.source().voxel_size_m, now_s), now_s);
+  dust_.add(piece_events_.step(pieces_, field_.source().voxel_size_m, now_s, *palette()), now_s);
 }
 
 /// The pieces alive after the tick, where they are then.

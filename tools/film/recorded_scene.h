@@ -28,7 +28,10 @@ class RecordedScene {
 
   /// As of the last moment.
   Field& field() { return field_; }
+  const Field& field() const { return field_; }
   const ScenePieces& pieces() const { return pieces_; }
+  /// The recording's, as it starts. Not null.
+  const std::shared_ptr<const Palette>& palette() const { return source_->header().world.palette; }
   /// In the air; the farthest from the eye first.
   std::vector<Particle> particles(glm::vec3 eye_m) { return dust_.at(seconds_of(moment_), eye_m); }
 

@@ -38,7 +38,7 @@ Result<RenderedFilm> render_film(const FilmOptions& options, const Stopped& stop
   auto plan = TRY(plan_film(options.order, options.recording, *ground));
   const auto sink = TRY(open_sink(options.format, stopped));
   const auto scene = TRY(RecordedScene::open(options.recording, plan.span.from_tick, *ground));
-  const auto drawer = TRY(FrameDrawer::create(options.drawn, scene->field().source()));
+  const auto drawer = TRY(FrameDrawer::create(options.drawn, *scene));
   TRY(render_frames(plan, options, *scene, *drawer, *sink, stopped, progress));
   return RenderedFilm{std::move(plan), stopwatch.lap_ms() / 1000.0};
 }

@@ -25,7 +25,7 @@ class BrickAtlas {
   void replace(AtlasSlot slot, const AtlasBrick& brick);
   void remove(AtlasSlot slot) { free_.push_back(slot); }
 
-  /// Of bricks whose voxels look unlike each other.
+  /// The looks of bricks whose voxels look unlike each other.
   LookAtlas& looks() { return looks_; }
   const LookAtlas& looks() const { return looks_; }
 

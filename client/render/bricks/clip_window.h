@@ -24,7 +24,7 @@ struct ClipEntry {
 
   uint32_t field = 0;   ///< kind << 24 | slot z << 16 | y << 8 | x
   uint32_t before = 0;  ///< the generated field: kind << 24, and the slot of a mixed brick
-  /// Of a stored brick: how all of it looks, shown | bare << 8; or looks_mixed << 24 and a slot of the looks'
+  /// How all of a stored brick looks, shown | bare << 8; or looks_mixed << 24 and a slot of the looks'
   /// atlas.
   uint32_t looks = 0;
 

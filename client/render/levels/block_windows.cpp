@@ -74,14 +74,12 @@ struct Survey {
   bool air = true;
   bool rock = true;
   bool edited = false;
-  bool stores = false;  ///< materials
 };
 
 Survey survey(const Field& field, const VoxelBox& box) {
   Survey seen;
   for_each_chunk(box, [&](ChunkCoord chunk) {
     const Field::ChunkBricks bricks = field.chunk_bricks(chunk);
-    seen.stores = seen.stores || bricks.generated.stored_materials != nullptr;
     for_each_brick_in(chunk, box, [&](BrickCoord coord, int index) {
       const bool edited = is_bit(bricks.edited, index);
       const Brick* brick = edited ? &field.brick(coord) : bricks.generated.bricks[static_cast<size_t>(index)];
@@ -127,16 +125,19 @@ void copy_brick(BrickCoord coord, const Brick& brick, Window& window) {
 
 SurfaceMesh BlockWindows::mesh(const CellMask* mask, const SheetPlace* place) const {
   const Window* then = before ? &*before : nullptr;
-  SurfaceMesh made = place == nullptr ? surface_nets(now, owned, then, mask)
-                                      : surface_nets_placed(now, owned, then, mask, *place);
-  set_looks(made);
-  return made;
+  return finished(place == nullptr ? surface_nets(now, owned, then, mask)
+                                   : surface_nets_placed(now, owned, then, mask, *place));
 }
 
 SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {
-  SurfaceMesh made = marching_cubes(now, owned, before ? &*before : nullptr, mask);
+  return finished(marching_cubes(now, owned, before ? &*before : nullptr, mask));
+}
+
+SurfaceMesh BlockWindows::finished(SurfaceMesh&& made) const {
   set_looks(made);
-  return made;
+  set_worn(made);
+  if (!looks.is_ground()) part_looks(made);
+  return std::move(made);
 }
 
 /// Signed: below 0 rock has gone from there, above it rock has come.
@@ -151,16 +152,20 @@ int BlockWindows::worn(const SurfaceVertex& vertex, glm::vec3 p) const {
 }
 
 void BlockWindows::set_looks(SurfaceMesh& mesh) const {
-  if (!before && looks.is_ground()) return;  // nothing was edited here
-  scree::set_looks(mesh, now, looks);
+  // Where nothing was edited, a vertex has no part in a cut that passes by, however far off the surface it
+  // is.
+  scree::set_looks(mesh, now, looks, [&](const SurfaceVertex&, glm::vec3 p) {
+    return before && !are_same(now, *before, cell_at(now.box, p)) && trilinear(*before, p) < cut_begins;
+  });
+}
+
+void BlockWindows::set_worn(SurfaceMesh& mesh) const {
+  if (!before) return;  // nothing was edited here
   const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
-  if (before) {
-    for (SurfaceVertex& vertex : mesh.vertices) {
-      const glm::vec3 in_mesh(vertex.position[0], vertex.position[1], vertex.position[2]);
-      vertex.before = packed_worn(worn(vertex, origin + in_mesh / surface_steps_per_voxel));
-    }
+  for (SurfaceVertex& vertex : mesh.vertices) {
+    const glm::vec3 in_mesh(vertex.position[0], vertex.position[1], vertex.position[2]);
+    vertex.before = packed_worn(worn(vertex, origin + in_mesh / surface_steps_per_voxel));
   }
-  if (!looks.is_ground()) part_looks(mesh);
 }
 
 std::optional<BlockWindows> gather_windows(const Field& field, const VoxelBox& owned) {
@@ -168,7 +173,7 @@ std::optional<BlockWindows> gather_windows(const Field& field, const VoxelBox& o
   Survey seen = survey(field, box);
   if (seen.air || seen.rock) return std::nullopt;
   BlockWindows windows{owned, Window(box), std::nullopt, {}};
-  if (seen.edited || seen.stores) windows.looks = gather_looks(field, field, 0, box);
+  if (seen.edited || stores_materials(field, box)) windows.looks = gather_looks(field, field, 0, box);
   if (seen.edited) windows.before.emplace(box);
   for_each_chunk(box, [&](ChunkCoord chunk) {
     const Field::ChunkBricks bricks = field.chunk_bricks(chunk);

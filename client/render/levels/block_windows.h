@@ -20,10 +20,15 @@ struct BlockWindows {
   SurfaceMesh mesh(const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
   /// The same by marching_cubes.h.
   SurfaceMesh mesh_by_cubes(const CellMask* mask) const;
-  /// Sets SurfaceVertex::look and `before` of a mesh in this window's voxels (surface_looks.h).
+  /// Whether all looks as the ground does that nobody touched.
+  bool is_untouched() const { return !before && looks.is_ground(); }
+  /// Sets SurfaceVertex::look of a mesh in this window's voxels (surface_looks.h).
   void set_looks(SurfaceMesh& mesh) const;
+  /// Packs SurfaceVertex::before for a shader.
+  void set_worn(SurfaceMesh& mesh) const;
 
  private:
+  SurfaceMesh finished(SurfaceMesh&& made) const;
   int worn(const SurfaceVertex& vertex, glm::vec3 p) const;
 };
 

@@ -23,7 +23,7 @@ struct BrickLooks {
   std::unique_ptr<LookBrick> each;  ///< null: all alike
 };
 
-/// Of the brick that begins at `first`; what is beyond the windows is air. They have the same box.
+/// The looks of the brick that begins at `first`; what is beyond the windows is air. They have the same box.
 BrickLooks looks_of(const LookWindow& looks, const Window& now, VoxelCoord first);
 
 struct LevelBrick {

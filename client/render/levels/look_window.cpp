@@ -58,12 +58,19 @@ int index_in_brick(VoxelCoord v) {
   return Brick::index(v.x & (brick_size - 1), v.y & (brick_size - 1), v.z & (brick_size - 1));
 }
 
+/// What a ground of stored chunks says of materials there; its layers are no part of it. Or null.
+std::shared_ptr<const PackedChunkMaterials> stored_materials(const TerrainSource& source, ChunkCoord chunk) {
+  if (source.heights == nullptr || !source.heights->bricks()) return nullptr;
+  const auto stored = stored_chunk(source, chunk).chunk;
+  return stored == nullptr ? nullptr : stored->stored_materials;
+}
+
 void add_stored(const Field& ground, const VoxelBox& box, Looks& looks) {
   for_each_chunk(box, [&](ChunkCoord chunk) {
-    const auto stored = stored_chunk(ground.source(), chunk).chunk;
-    if (stored == nullptr || stored->stored_materials == nullptr) return;
+    const auto stored = stored_materials(ground.source(), chunk);
+    if (stored == nullptr) return;
     for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i) {
-      const BrickMaterials& materials = stored->stored_materials->at(i);
+      const BrickMaterials& materials = stored->at(i);
       if (materials.is_ground()) continue;
       for_each_voxel(common(box_of(brick_in_chunk(chunk, i)), box), [&](VoxelCoord v) {
         const uint8_t look = looks.look_of(materials.at(index_in_brick(v)));
@@ -107,6 +114,22 @@ void add_edits(const Field& field, const Field& ground, int level, const VoxelBo
   });
 }
 
+/// Unit length: the way out of the rock at f, 0..1, in a cell.
+glm::vec3 up_in(const Window& now, VoxelCoord cell, glm::vec3 f) {
+  glm::vec3 slope(0.0F);
+  for (int i = 0; i < 8; ++i) {
+    const VoxelCoord bit{i >> 2, (i >> 1) & 1, i & 1};
+    const VoxelCoord at = cell + bit;
+    const auto code = static_cast<float>(now.at(at.x, at.y, at.z));
+    const glm::vec3 part(bit.x != 0 ? f.x : 1.0F - f.x, bit.y != 0 ? f.y : 1.0F - f.y,
+                         bit.z != 0 ? f.z : 1.0F - f.z);
+    const glm::vec3 sign = 2.0F * as_vector(bit) - 1.0F;
+    slope += code * sign * glm::vec3(part.y * part.z, part.x * part.z, part.x * part.y);
+  }
+  const float length = glm::length(slope);
+  return length > 0.0F ? slope / length : glm::vec3(0.0F, 1.0F, 0.0F);
+}
+
 }  // namespace
 
 Look LookWindow::at(VoxelCoord voxel) const {
@@ -118,12 +141,12 @@ Look LookWindow::at(VoxelCoord voxel) const {
               static_cast<size_t>(off.z)];
 }
 
-VoxelCoord beneath(const Window& now, glm::vec3 p, glm::vec3 normal) {
-  const glm::vec3 in_rock = p - 0.5F * normal;
+VoxelCoord beneath(const Window& now, glm::vec3 p) {
   const auto along = [](float v, int lo, int hi) { return std::clamp(floor_to_int(v), lo, hi - 2); };
   const VoxelBox& box = now.box;
   const VoxelCoord cell{along(p.x, box.lo.x, box.hi.x), along(p.y, box.lo.y, box.hi.y),
                         along(p.z, box.lo.z, box.hi.z)};
+  const glm::vec3 in_rock = p - 0.5F * up_in(now, cell, p - as_vector(cell));
   VoxelCoord nearest = cell;
   float least = 1e9F;
   for (int i = 0; i < 8; ++i) {
@@ -151,8 +174,8 @@ LookWindow looks_of(const Field& field, const Volume& piece) {
   if (piece.materials.is_uniform() && looks.look_of(said(piece.materials.all)) == 0) return looks.take();
   for_each_brick(box, [&](BrickCoord coord) {
     const BrickMaterials own = field.ground_materials(coord);
-    const bool stored =
-        !field.chunk_bricks(chunk_of(coord)).generated.materials(index_in_chunk(coord)).is_ground();
+    const auto said_there = stored_materials(field.source(), chunk_of(coord));
+    const bool stored = said_there != nullptr && !said_there->at(index_in_chunk(coord)).is_ground();
     for_each_voxel(common(box_of(coord), box), [&](VoxelCoord v) {
       const VoxelMaterial voxel = said(piece.materials.at(v));
       const uint8_t look = looks.look_of(voxel);
@@ -165,9 +188,8 @@ LookWindow looks_of(const Field& field, const Volume& piece) {
 
 bool stores_materials(const Field& ground, const VoxelBox& box) {
   bool stores = false;
-  for_each_chunk(box, [&](ChunkCoord chunk) {
-    stores = stores || ground.chunk_bricks(chunk).generated.stored_materials != nullptr;
-  });
+  for_each_chunk(
+      box, [&](ChunkCoord chunk) { stores = stores || stored_materials(ground.source(), chunk) != nullptr; });
   return stores;
 }
 

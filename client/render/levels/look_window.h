@@ -33,14 +33,14 @@ struct LookWindow {
   Look at(VoxelCoord voxel) const;
 };
 
-/// The solid voxel of the cell around a place that is the nearest to a point half a voxel beneath it. `p` in
-/// voxels, in the window; `normal` of unit length.
-VoxelCoord beneath(const Window& now, glm::vec3 p, glm::vec3 normal);
+/// The solid voxel of the cell around a place that is the nearest to a point half a voxel beneath it, against
+/// the slope in that cell. `p` in voxels, in the window.
+VoxelCoord beneath(const Window& now, glm::vec3 p);
 
-/// Of a box of samples of that level, which `ground` generates: on level 0 the field itself.
+/// The looks of a box of samples of that level, which `ground` generates: on level 0 the field itself.
 LookWindow gather_looks(const Field& field, const Field& ground, int level, const VoxelBox& box);
 
-/// Of a piece, over its volume's box. `field` knows what the ground was where the piece is from.
+/// A piece's looks, over its volume's box. `field` knows what the ground was where the piece is from.
 LookWindow looks_of(const Field& field, const Volume& piece);
 
 /// Whether the ground stores materials in one of the chunks that the box touches.

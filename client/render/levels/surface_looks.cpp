@@ -36,13 +36,20 @@ SurfaceVertex mean_of(const SurfaceVertex& a, const SurfaceVertex& b) {
 /// Vertices of a mesh, of which some are made of others.
 class Parted {
  public:
-  explicit Parted(SurfaceMesh& mesh) : mesh_(mesh) {}
+  Parted(SurfaceMesh& mesh, const std::vector<bool>& coarse) : mesh_(mesh), coarse_(coarse) {}
 
   uint32_t between(uint32_t a, uint32_t b, uint8_t look) {
     if (a > b) std::swap(a, b);
-    return made({a, b, look}, [&] { return mean_of(mesh_.vertices[a], mesh_.vertices[b]); });
+    return made({a, b, look}, [&] {
+      SurfaceVertex mean = mean_of(mesh_.vertices[a], mesh_.vertices[b]);
+      if (is_coarse(a) && is_coarse(b)) {
+        for (size_t i = 0; i < 3; ++i)
+          mean.position[i] = coarse_mean(mesh_.vertices[a].position[i], mesh_.vertices[b].position[i]);
+      }
+      return mean;
+    });
   }
-  /// Of a triangle, no two of whose corners look alike.
+  /// The middle of a triangle, no two of whose corners look alike.
   uint32_t middle(const std::array<uint32_t, 3>& corners, uint8_t look) {
     const auto& all = mesh_.vertices;
     SurfaceVertex vertex = mean_of(mean_of(all[corners[0]], all[corners[1]]), all[corners[2]]);
@@ -71,7 +78,12 @@ class Parted {
     return found->second;
   }
 
+  bool is_coarse(uint32_t vertex) const { return vertex < coarse_.size() && coarse_[vertex]; }
+  /// As mean_of() rounds in steps of twice the size.
+  static uint16_t coarse_mean(int a, int b) { return static_cast<uint16_t>((a / 2 + b / 2 + 1) / 2 * 2); }
+
   SurfaceMesh& mesh_;
+  const std::vector<bool>& coarse_;
   std::map<Key, uint32_t> made_;
 };
 
@@ -107,21 +119,21 @@ int unpacked_worn(Code packed) {
   return ((bits >> 4) - (bits & worn_steps)) * worn_all / worn_steps;
 }
 
-void set_looks(SurfaceMesh& mesh, const Window& now, const LookWindow& looks) {
+void set_looks(SurfaceMesh& mesh, const Window& now, const LookWindow& looks, const IsCut& is_cut) {
   if (looks.is_ground()) return;
   const glm::vec3 origin(mesh.origin.x, mesh.origin.y, mesh.origin.z);
   for (SurfaceVertex& vertex : mesh.vertices) {
     const glm::vec3 in_mesh(vertex.position[0], vertex.position[1], vertex.position[2]);
     const glm::vec3 p = origin + in_mesh / surface_steps_per_voxel;
-    const Look look = looks.at(beneath(now, p, normal_of(vertex)));
-    vertex.look = vertex.before < cut_begins ? look.bare : look.shown;
+    const Look look = looks.at(beneath(now, p));
+    vertex.look = look.bare != look.shown && is_cut(vertex, p) ? look.bare : look.shown;
   }
 }
 
-void part_looks(SurfaceMesh& mesh) {
+void part_looks(SurfaceMesh& mesh, const std::vector<bool>& coarse) {
   const auto look = [&](uint32_t vertex) { return mesh.vertices[vertex].look; };
   const auto parts = [&](const uint32_t* t) { return look(t[0]) != look(t[1]) || look(t[0]) != look(t[2]); };
-  Parted parted(mesh);
+  Parted parted(mesh, coarse);
   std::vector<uint32_t> more;
   size_t kept = 0;
   for (size_t i = 0; i < mesh.indices.size(); i += 3) {

@@ -2,6 +2,9 @@
 // rock has gone from there, or has come.
 #pragma once
 
+#include <functional>
+#include <vector>
+
 #include "client/render/levels/look_window.h"
 #include "shared/surface/surface_mesh.h"
 
@@ -16,11 +19,16 @@ Code packed_worn(int worn);
 /// What was packed, signed, in codes.
 int unpacked_worn(Code packed);
 
-/// Sets SurfaceVertex::look. `before` must still be the code of the field as generated.
-void set_looks(SurfaceMesh& mesh, const Window& now, const LookWindow& looks);
+/// Whether a cut laid the surface bare where the vertex lies, at p in the window's voxels.
+using IsCut = std::function<bool(const SurfaceVertex&, glm::vec3 p)>;
+
+/// Sets SurfaceVertex::look. It depends on the vertex's place and the window, but not on its normal, which
+/// meshes that share a vertex may round each its own way.
+void set_looks(SurfaceMesh& mesh, const Window& now, const LookWindow& looks, const IsCut& is_cut);
 
 /// Divides triangles between vertices of different looks half-way, so that every triangle has one. Edges of
-/// two triangles stay edges of two.
-void part_looks(SurfaceMesh& mesh);
+/// two triangles stay edges of two. Between two vertices in `coarse`, which may be empty, half-way is a place
+/// that the mesh of the next coarser level can have, too.
+void part_looks(SurfaceMesh& mesh, const std::vector<bool>& coarse = {});
 
 }  // namespace scree

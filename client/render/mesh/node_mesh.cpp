@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "client/render/levels/surface_looks.h"
 #include "shared/surface/leaf_surface.h"
 #include "shared/surface/marching_cubes.h"
 #include "shared/surface/sharp_vertex.h"
@@ -188,8 +189,45 @@ std::vector<Leaf> touched_leaves(const NodeJob& job, const CellMask& plain) {
   return leaves;
 }
 
+/// The points whose place the samples of the node's own level tell.
+std::vector<bool> coarse_points(const LeafMesh& leaves) {
+  std::vector<bool> coarse;
+  for (const LeafPoint& point : leaves.points) coarse.push_back(point.leaf.side == own_side);
+  return coarse;
+}
+
+/// The looks of coarse points by the node's own samples, as meshes have them that know no others.
+void set_coarse_looks(const LeafMesh& leaves, const std::vector<bool>& coarse, const BlockWindows& own,
+                      SurfaceMesh& mesh) {
+  SurfaceMesh points{own.now.box.lo, {}, {}};
+  const std::array<int, 3> lo{points.origin.x, points.origin.y, points.origin.z};
+  for (size_t p = 0; p < coarse.size(); ++p) {
+    if (!coarse[p]) continue;
+    SurfaceVertex& vertex = points.vertices.emplace_back();
+    for (size_t i = 0; i < 3; ++i)
+      vertex.position[i] =
+          static_cast<uint16_t>(leaves.points[p].steps[i] / own_side - lo[i] * surface_steps);
+  }
+  own.set_looks(points);
+  auto next = points.vertices.begin();
+  for (size_t p = 0; p < coarse.size(); ++p)
+    if (coarse[p]) mesh.vertices[p].look = (next++)->look;
+}
+
+void set_looks(const LeafMesh& leaves, const BlockWindows& own, const BlockWindows& finer,
+               SurfaceMesh& mesh) {
+  if (own.is_untouched() && finer.is_untouched()) return;
+  finer.set_looks(mesh);
+  finer.set_worn(mesh);
+  if (own.looks.is_ground() && finer.looks.is_ground()) return;
+  const std::vector<bool> coarse = coarse_points(leaves);
+  set_coarse_looks(leaves, coarse, own, mesh);
+  part_looks(mesh, coarse);
+}
+
 /// Placed and shaded by a window in the grid's units.
-SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows& windows) {
+SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows& own,
+                   const BlockWindows& windows) {
   SurfaceMesh mesh;
   mesh.origin = origin;
   mesh.indices = leaves.indices;
@@ -210,7 +248,7 @@ SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows
     vertices.push_back(placed);
   }
   add_placed_vertices(windows.now, windows.before ? &*windows.before : nullptr, vertices, mesh.vertices);
-  windows.set_looks(mesh);
+  set_looks(leaves, own, windows, mesh);
   return mesh;
 }
 static_assert(surface_steps_per_voxel == 256.0F);
@@ -262,7 +300,7 @@ SurfaceMesh mesh_border(const NodeJob& job, const CellMask& plain) {
   const LeafMesh leaves = border_polygons(job, plain, coarse.now, finer.now);
   // Below all that mesh_inside makes of the node, too.
   const VoxelCoord origin = scaled(own, own_side).grown(known_around).lo;
-  return leaves.indices.empty() ? SurfaceMesh{} : shaded(leaves, origin, finer);
+  return leaves.indices.empty() ? SurfaceMesh{} : shaded(leaves, origin, coarse, finer);
 }
 
 /// The mesh by the node's own samples.

@@ -12,7 +12,8 @@ PieceJob gather_piece(const Field& field, PieceId id, const ScenePiece& piece) {
 PieceMesh mesh_piece(const PieceJob& job) {
   const Window& now = job.piece.volume->window;
   PieceMesh done{job.id, job.piece, surface_nets_closed(now, &job.before)};
-  set_looks(done.mesh, now, job.looks);
+  set_looks(done.mesh, now, job.looks,
+            [](const SurfaceVertex& vertex, glm::vec3) { return vertex.before < cut_begins; });
   for (SurfaceVertex& vertex : done.mesh.vertices) vertex.before = packed_worn(vertex.before);
   if (!job.looks.is_ground()) part_looks(done.mesh);
   return done;

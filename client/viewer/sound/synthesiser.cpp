@@ -11,7 +11,7 @@
 namespace scree {
 namespace {
 
-/// Of the lowest mode of a cube of 1 m of rock, whose pitch is 1.
+/// The frequency of the lowest mode of a cube of 1 m of rock, whose pitch is 1.
 constexpr float rock_pitch_hz = 190.0F;
 
 /// How a kind of event differs from a plain blow.
