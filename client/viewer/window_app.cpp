@@ -190,7 +190,8 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
                      choice_.graphs);
     if (choice_.panel)
       picked = hud_.panel(viewing_.view->methods().chosen(),
-                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, predict_, hand_, quality_});
+                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, predict_,
+                           hand_, quality_});
     hud_.help(choice_.help, window_.has_gamepad(),
               viewing_.session.is_replay() ? ControlsOf::replay : ControlsOf::live);
     hud_.timeline(viewing_.session.timeline(), now_s);

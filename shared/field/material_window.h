@@ -51,7 +51,8 @@ using BrickRock = std::array<Material, brick_voxels>;
 std::optional<Material> one_material_of(const Field& field, BrickCoord coord);
 BrickRock materials_of(const Field& field, BrickCoord coord);
 
-/// Reads the materials of single voxels of a box, without copying all of them, while the field stays as it is.
+/// Reads the materials of single voxels of a box, without copying all of them, while the field stays as it
+/// is.
 class MaterialReader {
  public:
   MaterialReader(const Field& field, const VoxelBox& box);

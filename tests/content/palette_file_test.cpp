@@ -1,6 +1,5 @@
 // Palettes as files: what people may write, and what each mistake is answered.
 #include "content/files/palette_file.h"
-#include "content/palette_text.h"
 
 #include <cmath>
 #include <fstream>
@@ -10,6 +9,7 @@
 
 #include "content/builtin_palette.h"
 #include "content/limits.h"
+#include "content/palette_text.h"
 #include "shared/material/material_members.h"
 #include "tests/content/small_palette.h"
 #include "tests/support/test_folder.h"
