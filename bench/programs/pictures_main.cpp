@@ -206,6 +206,26 @@ void draw_methods(Film& film) {
     film.shoot("method_" + std::string(entry.name), camera, entry.name);
 }
 
+/// The street of all materials as it is built, struck, and at rest, by every method.
+void draw_street(Stage& stage, const std::string& folder) {
+  const ScratchFolder grounds("pictures");
+  const Result<SceneSetup> scene = scene_named("street")->set_up(grounds / "");
+  if (!scene) give_up(scene.error().message);
+  Film film(stage, folder, scene->config);
+  film.build(*scene);
+  const Camera camera = look_at({13.0F, 6.0F, 12.0F}, {2.0F, 2.5F, -4.0F});
+  const auto shoot = [&](const std::string& when) {
+    for (const MethodEntry& entry : all_methods())
+      film.shoot("street_" + when + "_" + std::string(entry.name), camera, entry.name);
+  };
+  shoot("before");
+  for (const CarveRequest& strike : scene->strikes) film.ask(strike);
+  film.run(36);
+  shoot("during");
+  film.settle();
+  shoot("after");
+}
+
 /// Each scene as it is built, struck, and at rest.
 void draw_scenes(Stage& stage, const std::string& folder, const std::string& only) {
   const ScratchFolder grounds("pictures");
@@ -268,7 +288,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", SCREE_VERSION);
   app.option_defaults()->always_capture_default();
   app.add_option("--out", folder, "folder for the PNGs");
-  app.add_option("--only", only, "draw only one of blast, patterns, tower, arch, methods");
+  app.add_option("--only", only, "draw only one of blast, patterns, tower, arch, methods, street");
   app.add_flag("--scenes", scenes, "draw every scene instead of the documentation's pictures");
   app.add_option("--scene", scene, "draw only this scene: " + scene_names())
       ->check([](const std::string& name) {
@@ -296,5 +316,6 @@ int main(int argc, char** argv) {
     Film film(**stage, folder);
     scenario.draw(film);
   }
+  if (only.empty() || only == "street") draw_street(**stage, folder);
   return 0;
 }

@@ -1,7 +1,6 @@
 #include "content/files/image_folder.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "content/limits.h"
 #include "crypto/sha256.h"
@@ -29,19 +28,6 @@ bool is_within(const fs::path& folder, const fs::path& file) {
   return std::ranges::mismatch(home, place).in1 == home.end();
 }
 
-Result<std::vector<uint8_t>> read_bytes(const fs::path& file) {
-  TRY(check_is_file(file.string()));
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return fail("it cannot be read");
-  // A byte more than the limit, so that a longer file is seen as such.
-  std::vector<uint8_t> bytes(limits::image_bytes_max + 1);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-  if (in.bad()) return fail("it cannot be read");
-  bytes.resize(static_cast<size_t>(in.gcount()));
-  bytes.shrink_to_fit();
-  return bytes;
-}
-
 }  // namespace
 
 Result<Digest> ImageFolder::read(const std::string& path) {
@@ -53,16 +39,17 @@ Result<Digest> ImageFolder::read(const std::string& path) {
   const auto say = [&](const Error& error) { return fail(path + ": " + error.message); };
   if (const auto checked = check_is_file(file.string()); !checked) return say(checked.error());
   if (!is_within(folder_, file)) return fail(path + ": it is a link that leads out of the palette's folder");
-  Result<std::vector<uint8_t>> bytes = read_bytes(file);
-  if (!bytes) return say(bytes.error());
-  if (const auto checked = check_image(*bytes); !checked) return say(checked.error());
-  const Digest digest = sha256(*bytes);
+  const Result<std::string> read = read_bytes_of(file.string(), limits::image_bytes_max);
+  if (!read) return say(read.error());
+  std::vector<uint8_t> bytes(read->begin(), read->end());
+  if (const auto checked = check_image(bytes); !checked) return say(checked.error());
+  const Digest digest = sha256(bytes);
   if (files_.contains(digest)) return digest;
-  if (bytes_ + bytes->size() > limits::palette_images_bytes_max)
+  if (bytes_ + bytes.size() > limits::palette_images_bytes_max)
     return fail(path + ": with it, the palette's images are over the limit of " +
                 std::to_string(limits::palette_images_bytes_max >> 20U) + " MiB in all");
-  bytes_ += bytes->size();
-  files_.emplace(digest, *std::move(bytes));
+  bytes_ += bytes.size();
+  files_.emplace(digest, std::move(bytes));
   return digest;
 }
 

@@ -1,6 +1,7 @@
 #include "shared/base/regular_file.h"
 
 #include <filesystem>
+#include <fstream>
 
 namespace scree {
 
@@ -38,6 +39,18 @@ Result<void> check_is_small_file(const std::string& path, size_t bytes_max) {
     return fail(path + ": a file of " + std::to_string(bytes >> 10U) +
                 " KiB is not what is wanted here, at most " + std::to_string(bytes_max >> 10U) + " KiB");
   return {};
+}
+
+Result<std::string> read_bytes_of(const std::string& path, size_t bytes_max) {
+  TRY(check_is_file(path));
+  std::ifstream in(path, std::ios::binary);
+  if (!in) return fail("it cannot be read");
+  std::string bytes(bytes_max + 1, '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (in.bad()) return fail("it cannot be read");
+  bytes.resize(static_cast<size_t>(in.gcount()));
+  bytes.shrink_to_fit();
+  return bytes;
 }
 
 Result<void> check_no_device(const std::string& path) {

@@ -42,5 +42,13 @@ TEST(RegularFile, a_small_file_is_no_longer_than_it_may_be) {
             folder / "none" + ": there is no such file");
 }
 
+TEST(RegularFile, what_is_read_shows_that_a_file_is_too_long) {
+  const TestFolder folder;
+  std::ofstream(folder / "file") << "abcdef";
+  EXPECT_EQ(read_bytes_of(folder / "file", 6), "abcdef");
+  EXPECT_EQ(read_bytes_of(folder / "file", 4), "abcde");
+  EXPECT_EQ(read_bytes_of(folder / "none", 4).error().message, "there is no such file");
+}
+
 }  // namespace
 }  // namespace scree

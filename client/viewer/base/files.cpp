@@ -11,15 +11,9 @@
 namespace scree {
 
 Result<std::string> read_text(const std::string& file) {
-  TRY(check_no_device(file));
-  errno = 0;
-  std::ifstream in(file, std::ios::binary);
-  if (!in) return fail(file + " cannot be read: " + std::strerror(errno));
-  std::string text(limits::text_file_bytes_max + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) return fail(file + " cannot be read");
-  text.resize(static_cast<size_t>(in.gcount()));
-  if (text.size() > limits::text_file_bytes_max)
+  Result<std::string> text = read_bytes_of(file, limits::text_file_bytes_max);
+  if (!text) return fail(file + ": " + text.error().message);
+  if (text->size() > limits::text_file_bytes_max)
     return fail(file + " is over " + std::to_string(limits::text_file_bytes_max) +
                 " bytes (limits.text_file_bytes_max)");
   return text;
