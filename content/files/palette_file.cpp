@@ -11,6 +11,7 @@
 namespace scree {
 
 Result<PaletteContent> read_palette_file(const std::string& path) {
+  TRY(check_is_small_file(path, limits::palette_file_bytes_max));
   const Result<std::string> text = read_bytes_of(path, limits::palette_file_bytes_max);
   if (!text) return fail(path + ": " + text.error().message);
   ImageFolder images(std::filesystem::path(path).parent_path());
