@@ -70,10 +70,14 @@ class World {
       if (!job) continue;
       const NodeMesh mesh = mesh_node(*job);
       leaks.triangles_of_level[node.level] += mesh.mesh.indices.size() / 3;
-      for (size_t t = 0; t < mesh.mesh.indices.size(); t += 3)
-        for (size_t i = 0; i < 3; ++i)
-          ++uses[{position_of(mesh, mesh.mesh.indices[t + i], voxel_m()),
-                  position_of(mesh, mesh.mesh.indices[t + (i + 1) % 3], voxel_m())}];
+      for (size_t t = 0; t < mesh.mesh.indices.size(); t += 3) {
+        const auto corner = [&](size_t i) {
+          return position_of(mesh, mesh.mesh.indices[t + i % 3], voxel_m());
+        };
+        // A sliver whose edges are parted where looks meet may have two middles in one place: it covers nothing.
+        if (corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0)) continue;
+        for (size_t i = 0; i < 3; ++i) ++uses[{corner(i), corner(i + 1)}];
+      }
     }
     leaks.edges = uses.size();
     for (const auto& [edge, count] : uses) {
@@ -123,7 +127,7 @@ void expect_watertight(Polygoniser polygoniser, int edits, int every, float voxe
 }
 
 TEST(NodeMesh, nets_are_watertight_over_random_edits_and_all_levels) {
-  expect_watertight(Polygoniser::nets, rounds(200, 50), rounds(100, 50), 0.25F);
+  expect_watertight(Polygoniser::nets, rounds(200, 50), rounds(20, 50), 0.25F);
 }
 
 TEST(NodeMesh, dual_is_watertight_over_random_edits_and_all_levels) {
@@ -138,7 +142,7 @@ TEST(NodeMesh, all_are_watertight_whatever_a_voxel_measures) {
 }
 
 TEST(NodeMesh, cubes_are_watertight_over_random_edits_and_all_levels) {
-  expect_watertight(Polygoniser::cubes, rounds(200, 50), rounds(100, 50), 0.25F);
+  expect_watertight(Polygoniser::cubes, rounds(200, 50), rounds(20, 50), 0.25F);
 }
 
 }  // namespace
