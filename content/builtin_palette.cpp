@@ -5,7 +5,7 @@
 
 namespace scree {
 
-std::shared_ptr<const Palette> shared_builtin_palette() {
+std::shared_ptr<const Palette> shared_builtin_palette() noexcept {
   static const std::shared_ptr<const Palette> palette = [] {
     const Result<Palette> read = read_palette(builtin_palette_text(), "materials.toml");
     CHECK(read.has_value(), "content/materials.toml has a mistake, which tests/content names");

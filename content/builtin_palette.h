@@ -11,7 +11,7 @@ namespace scree {
 
 /// Read once. Any thread.
 const Palette& builtin_palette();
-std::shared_ptr<const Palette> shared_builtin_palette();
+std::shared_ptr<const Palette> shared_builtin_palette() noexcept;
 
 /// The file itself, which people copy to begin one of their own.
 std::string_view builtin_palette_text();
