@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <map>
 #include <optional>
 
 #include "shared/base/check.h"
+#include "shared/field/eight_bytes.h"
 
 namespace scree {
 
@@ -34,17 +34,10 @@ void for_each_row_of(BrickCoord brick, const VoxelBox& box, F&& f) {
     }
 }
 
-/// Those of the sums that are not 0.
-MaterialMasses listed(const std::array<MassUnits, 256>& sums) {
-  MaterialMasses masses;
-  for (size_t row = 0; row < sums.size(); ++row)
-    if (sums[row] != 0) masses.push_back({static_cast<Material>(row), sums[row]});
-  return masses;
-}
+constexpr int reach = 2;
 
 /// Places within two voxels, the nearest first; equally far ones in order of x, y and z.
 constexpr auto offsets_by_distance = [] {
-  constexpr int reach = 2;
   std::array<VoxelCoord, 32> offsets{};
   size_t count = 0;
   for (int squared = 1; squared <= reach * reach; ++squared)
@@ -56,22 +49,14 @@ constexpr auto offsets_by_distance = [] {
   return offsets;
 }();
 
-/// Calls f(index) for each voxel whose codes differ.
-template <typename F>
-void for_each_difference(const Window& a, const Window& b, F&& f) {
-  const size_t count = a.codes.size();
-  const Code *one = a.codes.data(), *other = b.codes.data();
-  size_t i = 0;
-  for (; i + 8 <= count; i += 8) {
-    if (std::memcmp(one + i, other + i, 8) == 0) continue;
-    for (size_t k = i; k < i + 8; ++k)
-      if (one[k] != other[k]) f(k);
-  }
-  for (; i < count; ++i)
-    if (one[i] != other[i]) f(i);
-}
-
 }  // namespace
+
+MaterialMasses listed(const std::array<MassUnits, 256>& sums) {
+  MaterialMasses masses;
+  for (size_t row = 0; row < sums.size(); ++row)
+    if (sums[row] != 0) masses.push_back({static_cast<Material>(row), sums[row]});
+  return masses;
+}
 
 Material MaterialWindow::at(VoxelCoord voxel) const {
   if (each.empty()) return all;
@@ -256,7 +241,7 @@ MaterialMasses masses_lost(const Window& before, const Window& after, const Mate
     sums[row_number(materials.all)] = mass_of(before) - mass_of(after);
   } else {
     CHECK_EQ(before.codes.size(), materials.each.size());
-    for_each_difference(before, after, [&](size_t i) {
+    for_each_difference(before.codes, after.codes, [&](size_t i) {
       sums[row_number(materials.each[i])] += occupancy(before.codes[i]) - occupancy(after.codes[i]);
     });
   }
@@ -265,12 +250,19 @@ MaterialMasses masses_lost(const Window& before, const Window& after, const Mate
 
 Material material_near(const Window& codes, const MaterialWindow& materials, VoxelCoord voxel) {
   if (materials.is_uniform()) return materials.all;
-  if (codes.at(voxel.x, voxel.y, voxel.z) < 0) return materials.at(voxel);
+  const size_t own = codes.index(voxel.x, voxel.y, voxel.z);
+  if (codes.codes[own] < 0) return materials.each[own];
+  const VoxelCoord size = codes.box.size();
+  const int along_x = size.y * size.z, along_y = size.z;
+  const VoxelBox around{voxel - VoxelCoord{reach, reach, reach},
+                        voxel + VoxelCoord{reach + 1, reach + 1, reach + 1}};
+  const bool is_inside = codes.box.covers(around);
   for (const VoxelCoord off : offsets_by_distance) {
-    const VoxelCoord at = voxel + off;
-    if (codes.box.holds(at) && codes.at(at.x, at.y, at.z) < 0) return materials.at(at);
+    if (!is_inside && !codes.box.holds(voxel + off)) continue;
+    const size_t at = own + static_cast<size_t>(off.x * along_x + off.y * along_y + off.z);
+    if (codes.codes[at] < 0) return materials.each[at];
   }
-  return materials.at(voxel);
+  return materials.each[own];
 }
 
 namespace {

@@ -39,6 +39,8 @@ struct MaterialMass {
 /// By material: in order of rows, each at most once; a mass may be negative where it is a change.
 using MaterialMasses = std::vector<MaterialMass>;
 
+/// Sums by row: those that are not 0.
+MaterialMasses listed(const std::array<MassUnits, 256>& sums);
 MassUnits sum_of(std::span<const MaterialMass> masses);
 /// The mass of a material among them.
 MassUnits mass_of(std::span<const MaterialMass> masses, Material material);

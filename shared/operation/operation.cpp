@@ -114,29 +114,37 @@ std::shared_ptr<const Volume> remove_piece(PieceTable& pieces, PieceId id) {
 
 using Volumes = std::vector<std::shared_ptr<const Volume>>;
 
-/// The terrain around the pieces, merged with them, and its gain of mass.
-Window stamped(const StampOperation& op, Field& field, const Volumes& volumes, MassUnits& gain) {
+/// The terrain around the pieces, and the same merged with them.
+struct Stamped {
+  Window before, after;
+
+  MassUnits gain() const { return mass_of(after) - mass_of(before); }
+};
+
+Stamped stamped(const StampOperation& op, const Field& field, const Volumes& volumes) {
   const float dx = field.source().voxel_size_m;
   const Volume& volume = *volumes.front();
   const bool whole = !lays(op.method);
   const Window laid = whole ? Window() : lay_all(op, volumes, dx);
-  Window window = gather(field, whole ? stamp_box(op.method, volume, op.pose, dx) : merge_box(laid));
-  const MassUnits before = mass_of(window);
+  Stamped made;
+  made.before = gather(field, whole ? stamp_box(op.method, volume, op.pose, dx) : merge_box(laid));
+  made.after = made.before;
   if (whole) {
-    stamp(op.method, window, volume, op.pose, dx, op.shift);
-  } else {
-    MassUnits mass = 0;
-    for (const auto& one : volumes) mass += one->mass;
-    stamp_laid(laying_of(op.method), window, laid, mass, op.shift);
+    stamp(op.method, made.after, volume, op.pose, dx, op.shift);
+    return made;
   }
-  gain = mass_of(window) - before;
-  return window;
+  MassUnits mass = 0;
+  for (const auto& one : volumes) mass += one->mass;
+  stamp_laid(laying_of(op.method), made.after, laid, mass, op.shift);
+  return made;
 }
 
 /// Whether stamping now gives the same result as the prepared stamp.
-bool gives(const StampOperation& op, Field& field, const Volumes& volumes, const PreparedStamp& prepared) {
-  MassUnits gain = 0;
-  return stamped(op, field, volumes, gain).codes == prepared.after.codes && gain == prepared.gain;
+bool gives(const StampOperation& op, const Field& field, const Volumes& volumes,
+           const PreparedStamp& prepared) {
+  const Stamped made = stamped(op, field, volumes);
+  return made.before.codes == prepared.before.codes && made.after.codes == prepared.after.codes &&
+         made.gain() == prepared.gain;
 }
 
 std::vector<MergedPiece> merged_pieces(const StampOperation& op, const Volumes& volumes) {
@@ -151,26 +159,25 @@ Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
   for (const StampedPiece& other : op.others) volumes.push_back(remove_piece(pieces, other.piece));
   Applied applied;
   for (const auto& volume : volumes) enter_piece(applied, *volume, -1);
-  Window computed;
-  const Window* after = &computed;
-  if (prepared != nullptr && prepared->holds(op, field, volumes)) {
+  Stamped computed;
+  const bool holds = prepared != nullptr && prepared->holds(op, field, volumes);
+  if (holds)
     CHECK_DEBUG(gives(op, field, volumes, *prepared));
-    applied.terrain_gain = prepared->gain;
-    after = &prepared->after;
-  } else {
-    computed = stamped(op, field, volumes, applied.terrain_gain);
-  }
-  const MaterialReader were(field, after->box);
+  else
+    computed = stamped(op, field, volumes);
+  applied.terrain_gain = holds ? prepared->gain : computed.gain();
+  const Window& before = holds ? prepared->before : computed.before;
+  const Window& after = holds ? prepared->after : computed.after;
+  const MaterialReader were(field, after.box);
   const std::vector<MergedPiece> merged = merged_pieces(op, volumes);
   const auto one = were.uniform();
   if (one && (!op.brings_materials || are_all_of(merged, *one))) {
     flow_of(applied, *one).terrain += applied.terrain_gain;
-    applied.changed = scatter(field, *after);
+    applied.changed = scatter(field, after);
     return applied;
   }
-  const Window before = gather(field, after->box);
-  write(field, *after,
-        merge_materials(were, before, *after, merged, op.brings_materials, field.source().voxel_size_m),
+  write(field, after,
+        merge_materials(were, before, after, merged, op.brings_materials, field.source().voxel_size_m),
         applied);
   return applied;
 }

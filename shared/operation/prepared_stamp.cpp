@@ -31,7 +31,8 @@ PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<co
     mass += prepared.volumes.back()->mass;
   }
   const Window laid = lay_all(op, prepared.volumes, field.source().voxel_size_m);
-  prepared.after = gather(field, merge_box(laid));
+  prepared.before = gather(field, merge_box(laid));
+  prepared.after = prepared.before;
   const StampPlan plan = plan_laid(laying_of(method), prepared.after, laid, mass, budget);
   op.shift = plan.shift;
   prepared.gain = plan.gain;

@@ -10,7 +10,9 @@ struct PreparedStamp {
   StampOperation operation;
   std::vector<std::shared_ptr<const Volume>> volumes;  ///< of the piece and of the others
   uint64_t field_hash = 0;
-  Window after;  ///< empty for methods that prepare nothing but the operation
+  /// The terrain around the pieces as it is, and merged with them; empty for methods that prepare nothing but
+  /// the operation.
+  Window before, after;
   MassUnits gain = 0;
 
   /// Whether applying that operation to this field, where the pieces have these volumes, gives `after`.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 
 #include "shared/base/check.h"
+#include "shared/field/eight_bytes.h"
 
 namespace scree {
 
@@ -36,39 +36,56 @@ class PieceFrame {
   glm::vec3 origin_{};
 };
 
+/// The voxels of a box by their places in a window.
+class Places {
+ public:
+  explicit Places(const VoxelBox& box) : lo_(box.lo), size_(box.size()) {}
+
+  VoxelCoord at(size_t index) const {
+    const auto i = static_cast<int>(index), row = i / size_.z;
+    return lo_ + VoxelCoord{row / size_.y, row % size_.y, i % size_.z};
+  }
+
+ private:
+  VoxelCoord lo_, size_;
+};
+
+/// Calls f(index, had, has) for each voxel whose mass changed. Most codes that change are of air.
+template <typename F>
+void for_each_mass_change(std::span<const Code> before, std::span<const Code> after, F&& f) {
+  constexpr Code without_mass = 22;
+  static_assert(occupancy(without_mass) == 0 && occupancy(without_mass - 1) > 0);
+  const auto one = [&](size_t i) {
+    const int had = occupancy(before[i]), has = occupancy(after[i]);
+    if (had != has) f(i, had, has);
+  };
+  CHECK_EQ(before.size(), after.size());
+  size_t i = 0;
+  for (; i + 8 <= before.size(); i += 8) {
+    if (are_equal(&before[i], &after[i])) continue;
+    if (!any_below(&before[i], without_mass) && !any_below(&after[i], without_mass)) continue;
+    for (size_t k = i; k < i + 8; ++k) one(k);
+  }
+  for (; i < before.size(); ++i) one(i);
+}
+
 /// `material_of(voxel, was)`: of what fills it by half or more.
 template <typename F>
 AddedMaterials add_materials(const MaterialReader& were, const Window& before, const Window& after,
                              F&& material_of) {
   CHECK(before.box == after.box && before.box == were.box());
   AddedMaterials added;
+  const Places places(before.box);
   std::array<MassUnits, 256> gains{};
-  const auto at = [&](VoxelCoord voxel, int had, int has) {
+  for_each_mass_change(before.codes, after.codes, [&](size_t i, int had, int has) {
+    const VoxelCoord voxel = places.at(i);
     const Material was = were.at(voxel);
     const Material is = has >= 2 * had ? material_of(voxel, was) : was;
     gains[row_number(was)] -= had;
     gains[row_number(is)] += has;
     if (is != was) added.changes.push_back({voxel, is});
-  };
-  constexpr int step = 8;
-  constexpr Code code_without_mass = 22;
-  static_assert(occupancy(code_without_mass) == 0 && occupancy(code_without_mass - 1) > 0);
-  const VoxelBox& box = before.box;
-  const Code *from = before.codes.data(), *to = after.codes.data();
-  const int count = box.size().z;
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y, from += count, to += count)
-      for (int k = 0; k < count; k += step) {
-        const int end = std::min(k + step, count);
-        if (std::memcmp(from + k, to + k, static_cast<size_t>(end - k)) == 0) continue;
-        for (int i = k; i < end; ++i) {
-          if (from[i] == to[i] || std::min(from[i], to[i]) >= code_without_mass) continue;
-          const int had = occupancy(from[i]), has = occupancy(to[i]);
-          if (had != has) at({x, y, box.lo.z + i}, had, has);
-        }
-      }
-  for (size_t row = 0; row < gains.size(); ++row)
-    if (gains[row] != 0) added.gains.push_back({static_cast<Material>(row), gains[row]});
+  });
+  added.gains = listed(gains);
   return added;
 }
 
