@@ -1,6 +1,7 @@
 #include "shared/field/brick_materials.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstring>
 
 namespace scree {
@@ -27,40 +28,96 @@ constexpr uint64_t bytes_of_bits(uint8_t bits) {
   return nonzero_bytes(bits * each_byte & 0x8040201008040201U) * 0xFFU;
 }
 
-bool are_of_two(const VoxelMaterials& voxels, VoxelMaterial one, VoxelMaterial other) {
-  bool of_two = true;
-  for (const VoxelMaterial voxel : voxels) of_two &= voxel == one || voxel == other;
-  return of_two;
+uint64_t word_at(const uint8_t* eight) {
+  uint64_t word;
+  std::memcpy(&word, eight, sizeof(word));
+  return word;
 }
 
-/// A bit for each voxel, set where it is not `low`, the first in the lowest bits.
-void pack_bits(const VoxelMaterials& voxels, VoxelMaterial low, uint8_t* to) {
-  for (size_t i = 0; i < voxels.size(); i += 8, ++to) {
-    uint64_t eight;
-    std::memcpy(&eight, &voxels[i], sizeof(eight));
-    *to = static_cast<uint8_t>((nonzero_bytes(eight ^ low * each_byte) * 0x0102040810204080U) >> 56U);
+/// Ones in each byte that is the value.
+constexpr uint64_t bytes_that_are(uint64_t word, uint8_t value) {
+  return ~(nonzero_bytes(word ^ value * each_byte) * 0xFFU);
+}
+
+constexpr size_t few_max = 4;
+
+/// The values that occur; as many as count, in order, if they are few.
+struct FewValues {
+  std::array<VoxelMaterial, few_max> list{};
+  size_t count = 0;  ///< more than few_max: more than few
+
+  explicit FewValues(const VoxelMaterials& voxels) {
+    for (size_t i = 0; i < voxels.size(); i += 8) {
+      for (uint64_t word = word_at(&voxels[i]), others; (others = unlisted(word)) != 0;) {
+        if (count == few_max) {
+          ++count;
+          return;
+        }
+        list[count++] = voxels[i + static_cast<size_t>(std::countr_zero(others)) / 8];
+      }
+    }
+    std::sort(list.begin(), list.begin() + static_cast<ptrdiff_t>(count));
   }
+
+ private:
+  uint64_t unlisted(uint64_t word) const {
+    uint64_t listed = 0;
+    for (size_t k = 0; k < count; ++k) listed |= bytes_that_are(word, list[k]);
+    return ~listed;
+  }
+};
+
+/// A bit for each voxel, set where it is not `low`, the first in the lowest bits.
+void pack_one_bit(const VoxelMaterials& voxels, VoxelMaterial low, uint8_t* to) {
+  for (size_t i = 0; i < voxels.size(); i += 8, ++to)
+    *to = static_cast<uint8_t>((nonzero_bytes(word_at(&voxels[i]) ^ low * each_byte) * 0x0102040810204080U) >>
+                               56U);
+}
+
+/// Two bits for each voxel, its place in the list.
+void pack_two_bits(const VoxelMaterials& voxels, const FewValues& values, uint8_t* to) {
+  for (size_t i = 0; i < voxels.size(); i += 8, to += 2) {
+    const uint64_t word = word_at(&voxels[i]);
+    uint64_t places = 0;
+    for (size_t k = 1; k < values.count; ++k) places |= bytes_that_are(word, values.list[k]) & k * each_byte;
+    places = (places | places >> 6U) & 0x000F000F000F000FU;
+    places = (places | places >> 12U) & 0x000000FF000000FFU;
+    places |= places >> 24U;
+    to[0] = static_cast<uint8_t>(places);
+    to[1] = static_cast<uint8_t>(places >> 8U);
+  }
+}
+
+/// The places of eight voxels, a byte each, of two bits each.
+constexpr uint64_t spread_two_bits(uint64_t packed) {
+  packed = (packed | packed << 24U) & 0x000000FF000000FFU;
+  packed = (packed | packed << 12U) & 0x000F000F000F000FU;
+  return (packed | packed << 6U) & 3 * each_byte;
 }
 
 }  // namespace
 
-BrickMaterials::BrickMaterials(const VoxelMaterials& voxels) : all_(voxels.front()) {
-  const auto other = std::ranges::find_if(voxels, [this](VoxelMaterial voxel) { return voxel != all_; });
-  if (other == voxels.end()) return;
-  const auto [low, high] = std::minmax(all_, *other);
-  all_ = ground_own;
-  if (!are_of_two(voxels, low, high)) {
+BrickMaterials::BrickMaterials(const VoxelMaterials& voxels) {
+  const FewValues values(voxels);
+  if (values.count == 1) {
+    all_ = values.list[0];
+    return;
+  }
+  if (values.count > few_max) {
     pack(voxels);
     return;
   }
-  count_less_one_ = 1;
+  count_less_one_ = static_cast<uint8_t>(values.count - 1);
   auto plane = std::make_shared<uint8_t[]>(plane_bytes());
-  plane[0] = low;
-  plane[1] = high;
-  pack_bits(voxels, low, plane.get() + 2);
+  uint8_t* const packed = std::copy_n(values.list.begin(), values.count, plane.get());
+  if (values.count == 2)
+    pack_one_bit(voxels, values.list[0], packed);
+  else
+    pack_two_bits(voxels, values, packed);
   plane_ = std::move(plane);
 }
 
+/// Of more values than few.
 void BrickMaterials::pack(const VoxelMaterials& voxels) {
   std::array<bool, 256> occurs{};
   for (const VoxelMaterial voxel : voxels) occurs[voxel] = true;
@@ -92,10 +149,11 @@ size_t BrickMaterials::plane_bytes() const {
 VoxelMaterial BrickMaterials::at(int index) const {
   CHECK_DEBUG(index >= 0 && index < brick_voxels);
   if (plane_ == nullptr) return all_;
-  const unsigned bits = bits_for(values()), each = 8 / bits;
+  // Of 2^shift bits each, 8 >> shift in a byte.
+  const unsigned shift = static_cast<unsigned>(std::countr_zero(bits_for(values())));
   const auto i = static_cast<unsigned>(index);
-  const unsigned mask = (1U << bits) - 1;
-  return listed()[static_cast<unsigned>(packed()[i / each] >> (i % each * bits)) & mask];
+  const unsigned byte = packed()[i >> (3 - shift)], first_bit = (i << shift) & 7;
+  return listed()[byte >> first_bit & ((1U << (1U << shift)) - 1)];
 }
 
 void BrickMaterials::unpack(VoxelMaterials& to) const {
@@ -110,6 +168,16 @@ void BrickMaterials::unpack(VoxelMaterials& to) const {
     const uint64_t low = list[0] * each_byte, flip = static_cast<uint64_t>(list[0] ^ list[1]) * each_byte;
     for (size_t i = 0; i < to.size(); i += 8, ++from) {
       const uint64_t eight = low ^ (flip & bytes_of_bits(*from));
+      std::memcpy(&to[i], &eight, sizeof(eight));
+    }
+    return;
+  }
+  if (bits == 2) {
+    for (size_t i = 0; i < to.size(); i += 8, from += 2) {
+      const uint64_t places = spread_two_bits(from[0] | static_cast<uint64_t>(from[1]) << 8U);
+      uint64_t eight = 0;
+      for (size_t k = 0; k < values(); ++k)
+        eight |= bytes_that_are(places, static_cast<uint8_t>(k)) & list[k] * each_byte;
       std::memcpy(&to[i], &eight, sizeof(eight));
     }
     return;

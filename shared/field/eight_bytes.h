@@ -1,6 +1,7 @@
 // Questions to eight codes, or masses of voxels, at once: as one word. Most of a window is air.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <span>
@@ -54,6 +55,17 @@ inline bool all_zero(const uint8_t* eight) {
   uint64_t word;
   std::memcpy(&word, eight, sizeof(word));
   return word == 0;
+}
+
+/// Calls f(index) for each byte that is not 0.
+template <typename F>
+void for_each_nonzero(std::span<const uint8_t> bytes, F&& f) {
+  for (size_t from = 0; from < bytes.size(); from += 8) {
+    const size_t to = std::min(from + 8, bytes.size());
+    if (to - from == 8 && all_zero(&bytes[from])) continue;
+    for (size_t i = from; i < to; ++i)
+      if (bytes[i] != 0) f(i);
+  }
 }
 
 }  // namespace scree

@@ -81,27 +81,38 @@ const Brick& Field::brick(BrickCoord coord) const {
   return edited ? *find_edited(coord) : generated_brick(coord);
 }
 
-void Field::set_brick(BrickCoord coord, const Brick& brick, const BrickMaterials& now) {
+void Field::write_brick(BrickCoord coord, const Brick& brick, const BrickMaterials* materials) {
   CHECK_DEBUG(std::ranges::count(brick.codes, Code{-128}) == 0);
-  const BrickMaterials before = materials(coord);
   EditedChunk& chunk = edited_[chunk_of(coord)];
   if (pages()) {
     use(chunk_of(coord), chunk);
     if (chunk.bricks == 0) residence_.enter(chunk_of(coord), 0);  // its first edit follows
   }
-  const uint64_t bit = uint64_t{1} << index_in_chunk(coord);
-  const bool edited = (chunk.bricks & bit) != 0 || find_below(coord) != nullptr;
-  CHECK_DEBUG(edited == (find_edited(coord) != nullptr));
+  const int index = index_in_chunk(coord);
+  const uint64_t bit = uint64_t{1} << index;
+  const bool own = (chunk.bricks & bit) != 0;
+  const Brick* const old = own ? find_edited(coord) : find_below(coord);
+  CHECK_DEBUG(old == find_edited(coord));
+  const auto said = own ? chunk.materials.find(index) : chunk.materials.end();
+  BrickMaterials before;
+  if (said != chunk.materials.end())
+    before = said->second;
+  else if (!own && below_ != nullptr)
+    before = below_->materials(coord);
+  const BrickMaterials& now = materials == nullptr ? before : *materials;
   uint64_t change = brick_hash(coord, brick, now);
-  if (edited) change -= brick_hash(coord, *find_edited(coord), before);
+  if (old != nullptr) change -= brick_hash(coord, *old, before);
   store_edited(coord, brick);
-  edited_bricks_ += edited ? 0 : 1;
-  if (!edited && pages()) residence_.add_brick();
+  edited_bricks_ += old != nullptr ? 0 : 1;
+  if (old == nullptr && pages()) residence_.add_brick();
   chunk.bricks |= bit;
-  if (!now.is_ground())
-    chunk.materials[index_in_chunk(coord)] = now;  // also what a layer's brick said below
-  else if (!before.is_ground())
-    chunk.materials.erase(index_in_chunk(coord));
+  if (now.is_ground()) {
+    if (said != chunk.materials.end()) chunk.materials.erase(said);
+  } else if (said == chunk.materials.end()) {
+    chunk.materials.emplace(index, now);  // also what a layer's brick said below
+  } else if (materials != nullptr) {
+    said->second = now;
+  }
   if (last_ && last_->coord == chunk_of(coord)) last_->edited = chunk.bricks;
   chunk.hash += change;
   hash_ += change;

@@ -59,9 +59,11 @@ class Field {
   /// Whether any brick of the chunk is edited.
   bool has_edits(ChunkCoord chunk) const { return edited_bits(chunk) != 0; }
   /// Marks the brick as edited, even when the codes are those generated.
-  void set_brick(BrickCoord coord, const Brick& brick) { set_brick(coord, brick, materials(coord)); }
+  void set_brick(BrickCoord coord, const Brick& brick) { write_brick(coord, brick, nullptr); }
   /// The same, and changes what its voxels say.
-  void set_brick(BrickCoord coord, const Brick& brick, const BrickMaterials& materials);
+  void set_brick(BrickCoord coord, const Brick& brick, const BrickMaterials& materials) {
+    write_brick(coord, brick, &materials);
+  }
   /// What the brick's voxels say of their materials; ground_own of all where nobody changed any.
   BrickMaterials materials(BrickCoord coord) const;
   /// Changes what they say, and marks the brick as edited. Its codes stay.
@@ -167,6 +169,8 @@ class Field {
   /// Forgets the last call's chunk if the cache has dropped chunks since.
   void heed_drops() const;
   LastChunk& last_chunk(ChunkCoord chunk) const;
+  /// Of no materials: what its voxels say stays.
+  void write_brick(BrickCoord coord, const Brick& brick, const BrickMaterials* materials);
   /// Notes that somebody asks for the chunk, and brings it in if it is out.
   void use(ChunkCoord chunk, const EditedChunk& edited) const;
   void bring_in(ChunkCoord chunk, const ReadChunk& read);

@@ -101,14 +101,10 @@ std::vector<MaterialMasses> weights_of(const Cut& cut, const MaterialWindow& mat
   std::array<uint8_t, 256> column{};
   for (size_t m = 0; m < lost.size(); ++m) column[row_number(lost[m].material)] = static_cast<uint8_t>(m);
   std::vector<MassUnits> sums(weights.size() * lost.size());
-  const size_t count = cut.lost.size();
-  for (size_t from = 0; from < count; from += 8) {
-    const size_t to = std::min(from + 8, count);
-    if (to - from == 8 && all_zero(&cut.lost[from])) continue;
-    for (size_t i = from; i < to; ++i)
-      sums[cut.piece_of_cell[cut.cell_of_voxel[i]] * lost.size() + column[row_number(materials.each[i])]] +=
-          cut.lost[i];
-  }
+  for_each_nonzero(cut.lost, [&](size_t i) {
+    sums[cut.piece_of_cell[cut.cell_of_voxel[i]] * lost.size() + column[row_number(materials.each[i])]] +=
+        cut.lost[i];
+  });
   for (size_t i = 0; i < weights.size(); ++i)
     for (size_t m = 0; m < lost.size(); ++m)
       if (const MassUnits mass = sums[i * lost.size() + m]; mass > 0)

@@ -5,6 +5,7 @@
 
 #include "shared/base/check.h"
 #include "shared/field/eight_bytes.h"
+#include "shared/field/occupancy_byte.h"
 
 namespace scree {
 
@@ -50,23 +51,15 @@ class Places {
   VoxelCoord lo_, size_;
 };
 
-/// Calls f(index, had, has) for each voxel whose mass changed. Most codes that change are of air.
-template <typename F>
-void for_each_mass_change(std::span<const Code> before, std::span<const Code> after, F&& f) {
-  constexpr Code without_mass = 22;
-  static_assert(occupancy(without_mass) == 0 && occupancy(without_mass - 1) > 0);
-  const auto one = [&](size_t i) {
-    const int had = occupancy(before[i]), has = occupancy(after[i]);
-    if (had != has) f(i, had, has);
-  };
+/// Not 0 at each voxel whose mass changed. A round of bytes, so that it runs in vectors.
+std::vector<uint8_t> mass_changes(std::span<const Code> before, std::span<const Code> after) {
   CHECK_EQ(before.size(), after.size());
-  size_t i = 0;
-  for (; i + 8 <= before.size(); i += 8) {
-    if (are_equal(&before[i], &after[i])) continue;
-    if (!any_below(&before[i], without_mass) && !any_below(&after[i], without_mass)) continue;
-    for (size_t k = i; k < i + 8; ++k) one(k);
-  }
-  for (; i < before.size(); ++i) one(i);
+  std::vector<uint8_t> changes(before.size());
+  const Code *from = before.data(), *to = after.data();
+  uint8_t* at = changes.data();
+  for (size_t i = 0, count = changes.size(); i < count; ++i)
+    at[i] = occupancy_byte(from[i]) ^ occupancy_byte(to[i]);
+  return changes;
 }
 
 /// `material_of(voxel, was)`: of what fills it by half or more.
@@ -77,8 +70,9 @@ AddedMaterials add_materials(const MaterialReader& were, const Window& before, c
   AddedMaterials added;
   const Places places(before.box);
   std::array<MassUnits, 256> gains{};
-  for_each_mass_change(before.codes, after.codes, [&](size_t i, int had, int has) {
+  for_each_nonzero(mass_changes(before.codes, after.codes), [&](size_t i) {
     const VoxelCoord voxel = places.at(i);
+    const int had = occupancy(before.codes[i]), has = occupancy(after.codes[i]);
     const Material was = were.at(voxel);
     const Material is = has >= 2 * had ? material_of(voxel, was) : was;
     gains[row_number(was)] -= had;
