@@ -119,12 +119,13 @@ WeighedVolume weigh(const Volume& volume, const PieceHull& hull, const Palette& 
     weighed.inertia_kg_m2 = hull.inertia_m2 * weighed.mass_kg;
     return weighed;
   }
-  for (const MaterialMass& one : volume.masses)
-    weighed.mass_kg += static_cast<float>(one.mass) / units_per_voxel * voxel_m3 *
-                       palette.row_or_first(one.material).density_kg_m3;
-  std::array<float, 256> densities{};
-  for (size_t row = 0; row < densities.size(); ++row)
-    densities[row] = palette.row_or_first(static_cast<Material>(row)).density_kg_m3;
+  std::array<float, 256> densities;
+  densities.fill(palette.row_or_first(volume.masses.front().material).density_kg_m3);
+  for (const MaterialMass& one : volume.masses) {
+    const float density = palette.row_or_first(one.material).density_kg_m3;
+    densities[row_number(one.material)] = density;
+    weighed.mass_kg += static_cast<float>(one.mass) / units_per_voxel * voxel_m3 * density;
+  }
   if (volume.materials.is_uniform() || mass_of(volume.window) == 0) {
     weighed.inertia_kg_m2 = hull.inertia_m2 * weighed.mass_kg;
     return weighed;

@@ -68,6 +68,13 @@ RowSums sums_of_row(const Code* codes, int count) {
   return sums;
 }
 
+/// The end of the voxels of one material that begin at `from`.
+int end_of_run(const Material* materials, int from, int count) {
+  int to = from + 1;
+  while (to < count && materials[to] == materials[from]) ++to;
+  return to;
+}
+
 }  // namespace
 
 glm::mat3 inertia_of(const Volume& volume) {
@@ -104,23 +111,35 @@ glm::mat3 inertia_of(const Volume& volume) {
 }
 
 WeightedInertia weighted_inertia_of(const Volume& volume, std::span<const float, 256> densities) {
+  CHECK(!volume.materials.is_uniform());
   const VoxelBox& b = volume.window.box;
   const glm::dvec3 origin(volume.centre_voxels);
+  const int count = b.size().z;
+  const double low_z = b.lo.z - origin.z;
   glm::dvec3 moment(0.0), squares(0.0), products(0.0);
   double mass = 0.0;
-  size_t at = 0;
+  const Code* codes = volume.window.codes.data();
+  const Material* materials = volume.materials.each.data();
   for (int x = b.lo.x; x < b.hi.x; ++x)
-    for (int y = b.lo.y; y < b.hi.y; ++y)
-      for (int z = b.lo.z; z < b.hi.z; ++z, ++at) {
-        const int units = occupancy(volume.window.codes[at]);
-        if (units == 0) continue;
-        const double weight = units * static_cast<double>(densities[row_number(volume.materials.at(at))]);
-        const glm::dvec3 p = glm::dvec3(x, y, z) - origin;
+    for (int y = b.lo.y; y < b.hi.y; ++y, codes += count, materials += count) {
+      if (is_empty(codes, count)) continue;
+      const double off_x = x - origin.x, off_y = y - origin.y;
+      for (int from = 0, to = 0; from < count; from = to) {
+        to = end_of_run(materials, from, count);
+        const RowSums sums = sums_of_row(codes + from, to - from);
+        if (sums.units == 0) continue;
+        const auto density = static_cast<double>(densities[row_number(materials[from])]);
+        const double weight = density * static_cast<double>(sums.units), first_z = low_z + from;
+        const double along_z = density * static_cast<double>(sums.z) + first_z * weight;
         mass += weight;
-        moment += weight * p;
-        squares += weight * p * p;
-        products += weight * glm::dvec3(p.y * p.z, p.x * p.z, p.x * p.y);
+        moment += glm::dvec3(off_x * weight, off_y * weight, along_z);
+        products += glm::dvec3(off_y * along_z, off_x * along_z, off_x * off_y * weight);
+        squares.x += off_x * off_x * weight;
+        squares.y += off_y * off_y * weight;
+        squares.z += density * static_cast<double>(sums.zz) +
+                     first_z * (2.0 * density * static_cast<double>(sums.z) + first_z * weight);
       }
+    }
   CHECK(mass > 0.0);
   const glm::dvec3 c = moment / mass;
   squares = squares / mass - c * c + glm::dvec3(1.0 / 12.0);

@@ -16,7 +16,7 @@ struct WeightedInertia {
   glm::vec3 centre_voxels{0.0F};  ///< of mass, from the volume's centre
   glm::mat3 inertia{0.0F};
 };
-/// `densities`: by row, relative to each other. The volume has mass.
+/// `densities`: by row, relative to each other. The volume has mass, and more than one material.
 WeightedInertia weighted_inertia_of(const Volume& volume, std::span<const float, 256> densities);
 
 }  // namespace scree

@@ -40,11 +40,17 @@ BodyState thrown(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
 
 namespace {
 
-/// Friction and restitution of a piece: the means of its materials by mass.
-MaterialRow mean_surface(const Volume& volume, const Palette& palette) {
-  if (volume.masses.empty()) return palette.row_or_first(volume.materials.all);
-  MaterialRow mean;
-  mean.friction = mean.restitution = 0.0F;
+struct Surface {
+  float friction = 0.0F, restitution = 0.0F;
+};
+
+/// The means of a piece's materials by mass.
+Surface mean_surface(const Volume& volume, const Palette& palette) {
+  if (volume.masses.empty()) {
+    const MaterialRow& row = palette.row_or_first(volume.materials.all);
+    return {row.friction, row.restitution};
+  }
+  Surface mean;
   for (const MaterialMass& one : volume.masses) {
     const MaterialRow& row = palette.row_or_first(one.material);
     const float share = static_cast<float>(one.mass) / static_cast<float>(volume.mass);
@@ -78,7 +84,7 @@ void spawn(World::State& state, const Applied& applied,
     newborn.body.id = hull.id;
     const float dx = state.config.terrain.voxel_size_m;
     const WeighedVolume weighed = weigh(*volume, hull, *state.palette, dx);
-    const MaterialRow surface = mean_surface(*volume, *state.palette);
+    const Surface surface = mean_surface(*volume, *state.palette);
     BodyShape shape;
     shape.hull_m = hull.corners_m;
     shape.mass_kg = weighed.mass_kg;

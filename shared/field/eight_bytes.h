@@ -30,27 +30,6 @@ inline bool any_solid(const Code* eight) {
   return (word & signs) != 0;
 }
 
-inline bool are_equal(const Code* eight, const Code* others) {
-  uint64_t one, other;
-  std::memcpy(&one, eight, sizeof(one));
-  std::memcpy(&other, others, sizeof(other));
-  return one == other;
-}
-
-/// Calls f(index) for each place at which the codes differ. Both are of one size.
-template <typename F>
-void for_each_difference(std::span<const Code> a, std::span<const Code> b, F&& f) {
-  CHECK_EQ(a.size(), b.size());
-  size_t i = 0;
-  for (; i + 8 <= a.size(); i += 8) {
-    if (are_equal(&a[i], &b[i])) continue;
-    for (size_t k = i; k < i + 8; ++k)
-      if (a[k] != b[k]) f(k);
-  }
-  for (; i < a.size(); ++i)
-    if (a[i] != b[i]) f(i);
-}
-
 inline bool all_zero(const uint8_t* eight) {
   uint64_t word;
   std::memcpy(&word, eight, sizeof(word));

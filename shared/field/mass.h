@@ -6,6 +6,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "shared/field/window.h"
 
@@ -23,6 +25,9 @@ inline constexpr int occupancy(int code) {
 
 /// Mass of `count` voxels, at most 2^23 of them: the sum then fits an int.
 MassUnits mass_of(const Code* codes, size_t count);
+
+/// occupancy(before) − occupancy(after) of each voxel, modulo 256: 0 where the mass stayed.
+std::vector<uint8_t> mass_changes(std::span<const Code> before, std::span<const Code> after);
 
 inline MassUnits brick_mass(const Brick& brick) {
   return mass_of(brick.codes.data(), brick.codes.size());

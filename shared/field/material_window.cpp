@@ -241,7 +241,7 @@ MaterialMasses masses_lost(const Window& before, const Window& after, const Mate
     sums[row_number(materials.all)] = mass_of(before) - mass_of(after);
   } else {
     CHECK_EQ(before.codes.size(), materials.each.size());
-    for_each_difference(before.codes, after.codes, [&](size_t i) {
+    for_each_nonzero(mass_changes(before.codes, after.codes), [&](size_t i) {
       sums[row_number(materials.each[i])] += occupancy(before.codes[i]) - occupancy(after.codes[i]);
     });
   }

@@ -20,33 +20,15 @@ namespace {
 
 using Label = CellLabel;
 
-/// Mass that the terrain lost, voxel by voxel.
-SCREE_VECTOR_CLONES void lost_units(size_t count, const Code* __restrict before, const Code* __restrict after,
-                                    uint8_t* __restrict lost) {
-  for (size_t i = 0; i < count; ++i) {
-    CHECK_DEBUG(after[i] >= before[i]);  // the terrain gains nothing anywhere
-    lost[i] = static_cast<uint8_t>(occupancy_byte(before[i]) - occupancy_byte(after[i]));
-  }
+bool gains_nothing(const Window& before, const Window& after) {
+  return std::ranges::equal(before.codes, after.codes, std::ranges::less_equal());
 }
-
-std::vector<uint8_t> lost_units(const Window& before, const Window& after) {
-  std::vector<uint8_t> lost(before.codes.size());
-  lost_units(lost.size(), before.codes.data(), after.codes.data(), lost.data());
-  return lost;
-}
-
-/// Voxels that are looked at one by one only if there is something in one of them.
-constexpr size_t stretch = 8;
 
 /// Mass lost nearest to each seed: exact enough to tell which cells are too light.
 std::vector<MassUnits> rough_masses(const std::vector<uint8_t>& lost, const std::vector<Label>& labels,
                                     size_t cells) {
   std::vector<MassUnits> masses(cells);
-  for (size_t from = 0; from < lost.size(); from += stretch) {
-    const size_t to = std::min(from + stretch, lost.size());
-    if (to - from == stretch && all_zero(&lost[from])) continue;
-    for (size_t i = from; i < to; ++i) masses[labels[i]] += lost[i];
-  }
+  for_each_nonzero(lost, [&](size_t i) { masses[labels[i]] += lost[i]; });
   return masses;
 }
 
@@ -56,6 +38,7 @@ using Extremes = int16_t __attribute__((vector_size(16)));
 /// The extremes of each cell's voxels in or near the volume, from the window's low corner.
 std::vector<Extremes> cell_extremes(const Window& volume, const std::vector<Label>& labels, size_t cells) {
   constexpr Code near_surface = 43;  // one voxel
+  constexpr size_t stretch = 8;      // voxels, looked at one by one only if one of them is near
   const VoxelCoord size = volume.box.size();
   CHECK(std::max({size.x, size.y, size.z}) <= INT16_MAX);
   std::vector<Extremes> found(cells, Extremes{} + int16_t{INT16_MIN});
@@ -134,7 +117,8 @@ Cut cut_by_field(const Window& volume, const Window& before, const Window& after
                  const std::vector<glm::vec3>& seeds_voxels) {
   CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
   Cut cut;
-  std::vector<uint8_t> lost = lost_units(before, after);
+  CHECK_DEBUG(gains_nothing(before, after));
+  std::vector<uint8_t> lost = mass_changes(before.codes, after.codes);
   const MassUnits total = std::accumulate(lost.begin(), lost.end(), MassUnits{0});
   if (seeds_voxels.empty() || total < limits::piece_mass_min) {
     cut.dust = total;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "shared/base/check.h"
 #include "shared/field/eight_bytes.h"
@@ -17,49 +18,52 @@ class ShareTable {
  public:
   ShareTable(const Cut& cut, const MaterialMasses& lost) : lost_(lost), left_(lost.size()) {
     CHECK(!lost.empty());
+    sums_.reserve(cut.pieces.size() + 1);
     for (const CutPiece& piece : cut.pieces) sums_.push_back(piece.volume.mass);
     sums_.push_back(cut.dust);
-    rows_.resize(sums_.size(), std::vector<MassUnits>(lost.size()));
+    shares_.resize(sums_.size() * lost.size());
   }
 
-  /// A piece's first share: in proportion to the mass of its voxels.
-  void propose(size_t row, const MaterialMasses& weights) {
+  /// A piece's first share: in proportion to the mass of its voxels, a number for each material.
+  void propose(size_t row, std::span<const MassUnits> weights) {
     MassUnits sum = 0;
-    for (const MaterialMass& one : lost_) sum += mass_of(weights, one.material);
+    for (const MassUnits weight : weights) sum += weight;
     if (sum == 0) return;
     // Products stay below 2^60: a window has at most 128³ voxels of 254 units.
-    for (size_t m = 0; m < lost_.size(); ++m)
-      rows_[row][m] = sums_[row] * mass_of(weights, lost_[m].material) / sum;
+    for (size_t m = 0; m < lost_.size(); ++m) share(row, m) = sums_[row] * weights[m] / sum;
   }
 
   void balance() {
     for (size_t m = 0; m < lost_.size(); ++m) {
       left_[m] = lost_[m].mass;
-      for (const auto& row : rows_) left_[m] -= row[m];
+      for (size_t row = 0; row < sums_.size(); ++row) left_[m] -= share(row, m);
     }
-    for (size_t row = 0; row < rows_.size(); ++row) fill_up(row);
+    for (size_t row = 0; row < sums_.size(); ++row) fill_up(row);
     for (const bool among_own : {true, false})
-      for (size_t row = 0; row < rows_.size(); ++row) move_within(row, among_own);
+      for (size_t row = 0; row < sums_.size(); ++row) move_within(row, among_own);
     CHECK(std::ranges::all_of(left_, [](MassUnits left) { return left == 0; }));
   }
 
   MaterialMasses row(size_t row) const {
     MaterialMasses masses;
     for (size_t m = 0; m < lost_.size(); ++m)
-      if (rows_[row][m] != 0) masses.push_back({lost_[m].material, rows_[row][m]});
+      if (const MassUnits mass = shares_[row * lost_.size() + m]; mass != 0)
+        masses.push_back({lost_[m].material, mass});
     return masses;
   }
 
  private:
+  MassUnits& share(size_t row, size_t m) { return shares_[row * lost_.size() + m]; }
+
   /// Gives a row what is missing in its sum: of its own materials first, of any in the end.
   void fill_up(size_t row) {
     MassUnits missing = sums_[row];
-    for (const MassUnits share : rows_[row]) missing -= share;
+    for (size_t m = 0; m < lost_.size(); ++m) missing -= share(row, m);
     for (const bool among_own : {true, false})
       for (size_t m = 0; m < lost_.size() && missing > 0; ++m) {
-        if (left_[m] <= 0 || (among_own && rows_[row][m] == 0)) continue;
+        if (left_[m] <= 0 || (among_own && share(row, m) == 0)) continue;
         const MassUnits given = std::min(missing, left_[m]);
-        rows_[row][m] += given;
+        share(row, m) += given;
         left_[m] -= given;
         missing -= given;
       }
@@ -70,45 +74,42 @@ class ShareTable {
   void move_within(size_t row, bool among_own) {
     for (size_t from = 0; from < lost_.size(); ++from)
       for (size_t to = 0; to < lost_.size(); ++to) {
-        if (left_[from] >= 0 || left_[to] <= 0 || (among_own && rows_[row][to] == 0)) continue;
-        const MassUnits moved = std::min({-left_[from], left_[to], rows_[row][from]});
-        rows_[row][from] -= moved;
-        rows_[row][to] += moved;
+        if (left_[from] >= 0 || left_[to] <= 0 || (among_own && share(row, to) == 0)) continue;
+        const MassUnits moved = std::min({-left_[from], left_[to], share(row, from)});
+        share(row, from) -= moved;
+        share(row, to) += moved;
         left_[from] += moved;
         left_[to] -= moved;
       }
   }
 
   const MaterialMasses& lost_;
-  std::vector<MassUnits> sums_;               ///< by row
-  std::vector<std::vector<MassUnits>> rows_;  ///< by row and material
-  std::vector<MassUnits> left_;               ///< by material; negative where too much is given
+  std::vector<MassUnits> sums_;    ///< by row
+  std::vector<MassUnits> shares_;  ///< by row, and then by material
+  std::vector<MassUnits> left_;    ///< by material; negative where too much is given
 };
 
-/// The masses of each piece by material: of the voxels nearest to it, where the cutter told, else of its
-/// codes.
-std::vector<MaterialMasses> weights_of(const Cut& cut, const MaterialWindow& materials,
-                                       const MaterialMasses& lost) {
-  std::vector<MaterialMasses> weights(cut.pieces.size());
+/// The masses of each piece by material, a row for each: of the voxels nearest to it, where the cutter told,
+/// else of its codes.
+std::vector<MassUnits> weights_of(const Cut& cut, const MaterialWindow& materials,
+                                  const MaterialMasses& lost) {
+  const size_t columns = lost.size();
+  std::vector<MassUnits> weights(cut.pieces.size() * columns);
   if (cut.lost.empty() || materials.is_uniform()) {
-    for (size_t i = 0; i < weights.size(); ++i) {
+    for (size_t i = 0; i < cut.pieces.size(); ++i) {
       const Window& window = cut.pieces[i].volume.window;
-      weights[i] = masses_of(window, part_of(materials, window.box));
+      const MaterialMasses masses = masses_of(window, part_of(materials, window.box));
+      for (size_t m = 0; m < columns; ++m) weights[i * columns + m] = mass_of(masses, lost[m].material);
     }
     return weights;
   }
   CHECK_EQ(cut.lost.size(), materials.each.size());
-  std::array<uint8_t, 256> column{};
-  for (size_t m = 0; m < lost.size(); ++m) column[row_number(lost[m].material)] = static_cast<uint8_t>(m);
-  std::vector<MassUnits> sums(weights.size() * lost.size());
+  std::array<size_t, 256> column{};  // all that a voxel can have lost is among `lost`
+  for (size_t m = 0; m < columns; ++m) column[row_number(lost[m].material)] = m;
   for_each_nonzero(cut.lost, [&](size_t i) {
-    sums[cut.piece_of_cell[cut.cell_of_voxel[i]] * lost.size() + column[row_number(materials.each[i])]] +=
-        cut.lost[i];
+    const size_t piece = cut.piece_of_cell[cut.cell_of_voxel[i]];
+    weights[piece * columns + column[row_number(materials.each[i])]] += cut.lost[i];
   });
-  for (size_t i = 0; i < weights.size(); ++i)
-    for (size_t m = 0; m < lost.size(); ++m)
-      if (const MassUnits mass = sums[i * lost.size() + m]; mass > 0)
-        weights[i].push_back({lost[m].material, mass});
   return weights;
 }
 
@@ -122,8 +123,9 @@ MaterialMasses share_materials(Cut& cut, const MaterialWindow& materials, const 
     return {{lost.front().material, cut.dust}};
   }
   ShareTable table(cut, lost);
-  const std::vector<MaterialMasses> weights = weights_of(cut, materials, lost);
-  for (size_t i = 0; i < weights.size(); ++i) table.propose(i, weights[i]);
+  const std::vector<MassUnits> weights = weights_of(cut, materials, lost);
+  for (size_t i = 0; i < cut.pieces.size(); ++i)
+    table.propose(i, std::span(weights).subspan(i * lost.size(), lost.size()));
   table.balance();
   for (size_t i = 0; i < cut.pieces.size(); ++i) {
     Volume& volume = cut.pieces[i].volume;

@@ -5,7 +5,6 @@
 
 #include "shared/base/check.h"
 #include "shared/field/eight_bytes.h"
-#include "shared/field/occupancy_byte.h"
 
 namespace scree {
 
@@ -50,17 +49,6 @@ class Places {
  private:
   VoxelCoord lo_, size_;
 };
-
-/// Not 0 at each voxel whose mass changed. A round of bytes, so that it runs in vectors.
-std::vector<uint8_t> mass_changes(std::span<const Code> before, std::span<const Code> after) {
-  CHECK_EQ(before.size(), after.size());
-  std::vector<uint8_t> changes(before.size());
-  const Code *from = before.data(), *to = after.data();
-  uint8_t* at = changes.data();
-  for (size_t i = 0, count = changes.size(); i < count; ++i)
-    at[i] = occupancy_byte(from[i]) ^ occupancy_byte(to[i]);
-  return changes;
-}
 
 /// `material_of(voxel, was)`: of what fills it by half or more.
 template <typename F>
