@@ -95,6 +95,25 @@ constexpr uint64_t spread_two_bits(uint64_t packed) {
   return (packed | packed << 6U) & 3 * each_byte;
 }
 
+/// Bytes of a word that are all of one bit of theirs.
+constexpr uint64_t bytes_of_bit(uint64_t bytes, unsigned bit) {
+  return ((bytes >> bit) & each_byte) * 0xFFU;
+}
+
+/// The reverse of pack_two_bits().
+void unpack_two_bits(const uint8_t* from, const VoxelMaterial* list, size_t count, VoxelMaterials& to) {
+  const auto all_of = [&](size_t k) { return k < count ? list[k] * each_byte : 0; };
+  // What each of the two bits changes, and what both together change beside that.
+  const uint64_t low = all_of(0), one = low ^ all_of(1), two = low ^ all_of(2);
+  const uint64_t both = one ^ two ^ low ^ all_of(3);
+  for (size_t i = 0; i < to.size(); i += 8, from += 2) {
+    const uint64_t places = spread_two_bits(from[0] | static_cast<uint64_t>(from[1]) << 8U);
+    const uint64_t first = bytes_of_bit(places, 0), second = bytes_of_bit(places, 1);
+    const uint64_t eight = low ^ (first & one) ^ (second & two) ^ (first & second & both);
+    std::memcpy(&to[i], &eight, sizeof(eight));
+  }
+}
+
 }  // namespace
 
 BrickMaterials::BrickMaterials(const VoxelMaterials& voxels) {
@@ -173,13 +192,7 @@ void BrickMaterials::unpack(VoxelMaterials& to) const {
     return;
   }
   if (bits == 2) {
-    for (size_t i = 0; i < to.size(); i += 8, from += 2) {
-      const uint64_t places = spread_two_bits(from[0] | static_cast<uint64_t>(from[1]) << 8U);
-      uint64_t eight = 0;
-      for (size_t k = 0; k < values(); ++k)
-        eight |= bytes_that_are(places, static_cast<uint8_t>(k)) & list[k] * each_byte;
-      std::memcpy(&to[i], &eight, sizeof(eight));
-    }
+    unpack_two_bits(from, list, values(), to);
     return;
   }
   for (size_t at = 0; at < to.size(); ++from)

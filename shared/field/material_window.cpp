@@ -108,8 +108,9 @@ void MaterialReader::BrickOf::resolve(VoxelMaterials& to) const {
   if (!said->says_ground()) return;
   VoxelMaterials own;
   ground->unpack(own);
-  for (size_t i = 0; i < to.size(); ++i)
-    if (to[i] == ground_own) to[i] = own[i];
+  // ground_own is 0: no branch, so that it runs in vectors.
+  static_assert(ground_own == 0);
+  for (size_t i = 0; i < to.size(); ++i) to[i] |= static_cast<uint8_t>(own[i] & (to[i] == 0 ? 0xFF : 0));
 }
 
 MaterialReader::MaterialReader(const Field& field, const VoxelBox& box)
@@ -212,15 +213,16 @@ MaterialWindow part_of(const MaterialWindow& window, const VoxelBox& box) {
   MaterialWindow part{box, window.all, {}};
   if (window.is_uniform() || box.empty()) return part;
   CHECK(window.box.covers(box));
-  part.each.reserve(Window::count(box));
+  part.each.resize(Window::count(box));
   const auto count = static_cast<ptrdiff_t>(box.hi.z - box.lo.z);
+  Material* to = part.each.data();
   const VoxelCoord size = window.box.size();
   for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y) {
+    for (int y = box.lo.y; y < box.hi.y; ++y, to += count) {
       const ptrdiff_t row =
           (static_cast<ptrdiff_t>(x - window.box.lo.x) * size.y + (y - window.box.lo.y)) * size.z +
           (box.lo.z - window.box.lo.z);
-      part.each.insert(part.each.end(), window.each.begin() + row, window.each.begin() + row + count);
+      std::copy_n(window.each.data() + row, count, to);
     }
   return part;
 }

@@ -115,6 +115,15 @@ std::vector<MassUnits> weights_of(const Cut& cut, const MaterialWindow& material
 
 }  // namespace
 
+MaterialMasses masses_lost(const Cut& cut, const Window& before, const Window& after,
+                           const MaterialWindow& materials) {
+  if (cut.lost.empty() || materials.is_uniform()) return masses_lost(before, after, materials);
+  CHECK_EQ(cut.lost.size(), materials.each.size());
+  std::array<MassUnits, 256> sums{};
+  for_each_nonzero(cut.lost, [&](size_t i) { sums[row_number(materials.each[i])] += cut.lost[i]; });
+  return listed(sums);
+}
+
 MaterialMasses share_materials(Cut& cut, const MaterialWindow& materials, const MaterialMasses& lost) {
   if (lost.empty()) return {};
   if (lost.size() == 1) {

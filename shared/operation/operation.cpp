@@ -70,10 +70,10 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   Applied applied;
   applied.seeds_voxels = seeds_of(carve_op, volume, dx);
   const MaterialWindow materials = gather_materials(field, before.box);
-  const MaterialMasses lost = masses_lost(before, after, materials);
+  Cut cut = cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels);
+  const MaterialMasses lost = masses_lost(cut, before, after, materials);
   for (const MaterialMass& one : lost) flow_of(applied, one.material).terrain -= one.mass;
   applied.terrain_gain = -sum_of(lost);
-  Cut cut = cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels);
   share_materials(cut, materials, lost);
   enter(std::move(cut), carve_op.first_piece, pieces, applied);
   applied.changed = scatter(field, after);
