@@ -47,7 +47,7 @@ TickChanges::TickChanges(const TickDelta& d, const ChunkSet& unedited_chunks, co
     if (ground.heights == nullptr) continue;
     for (const auto& chunks : {operation.reads, operation.writes})
       for (const ChunkCoord chunk : chunks)
-        for (const TileKey key : tiles_of(*ground.heights, chunk, ground.voxel_size_m)) decide.insert(key);
+        for (const TileKey key : tiles_of(ground, chunk)) decide.insert(key);
   }
 }
 

@@ -85,13 +85,11 @@ std::optional<TileKey> stored_key(const GroundModel& model, ChunkCoord chunk, fl
   return std::nullopt;
 }
 
-std::vector<TileKey> tiles_of(const GroundModel& model, ChunkCoord chunk, float voxel_size_m) {
-  std::vector<TileKey> keys = tiles_of(model.layout(), chunk, voxel_size_m);
-  if (std::optional<TileKey> key = stored_key(model, chunk, voxel_size_m)) {
+std::optional<TileKey> stored_tile_of(const GroundModel& model, ChunkCoord chunk, float voxel_size_m) {
+  std::optional<TileKey> key = stored_key(model, chunk, voxel_size_m);
+  if (key)
     while (*key != model.bricks()->root() && !model.has(*key)) key = model.bricks()->parent(*key);
-    keys.push_back(*key);
-  }
-  return keys;
+  return key;
 }
 
 }  // namespace scree

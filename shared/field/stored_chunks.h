@@ -70,9 +70,9 @@ class GroundModel : public HeightModel {
   const std::optional<BrickLayout> bricks_;
 };
 
-/// The tiles that decide a chunk of the ground, for voxels of that size: of the elevation model, and of the
-/// stored chunks the chunk itself, or the one that tells that it is not stored. For a model that is complete.
-std::vector<TileKey> tiles_of(const GroundModel& model, ChunkCoord chunk, float voxel_size_m);
+/// The tile of a stored chunk, for voxels of that size, or the one that tells that it is not stored; nothing
+/// where none can be. For a model that is complete.
+std::optional<TileKey> stored_tile_of(const GroundModel& model, ChunkCoord chunk, float voxel_size_m);
 
 /// The key that a chunk of voxels of that size is stored by; nothing where none can be.
 std::optional<TileKey> stored_key(const GroundModel& model, ChunkCoord chunk, float voxel_size_m);

@@ -77,12 +77,19 @@ bool may_be_layered(const GroundLayers& layers, ChunkCoord chunk) {
   return layers.possible(first, first + chunk_size);
 }
 
+/// So many chunks above one tell which layers lie in it.
+int layer_chunks_above(const TerrainSource& source, ChunkCoord chunk) {
+  const GroundLayers layers(source);
+  return may_be_layered(layers, chunk) ? (layers.above() + chunk_size - 1) / chunk_size : 0;
+}
+
 /// The layers under a surface of heights: also of a chunk that is all rock.
 void add_layers_of_heights(const TerrainSource& source, ChunkCoord coord, GeneratedChunk& chunk) {
   const GroundLayers layers(source);
   if (!may_be_layered(layers, coord)) return;
   const VoxelCoord first = first_voxel(coord);
   const HeightPatch patch = heights_at(*source.heights, first.x, first.z, chunk_size, source.voxel_size_m);
+  chunk.exact = chunk.exact && patch.exact;
   const auto y_m = [&](int y) {
     return static_cast<double>(first.y + y) * static_cast<double>(source.voxel_size_m);
   };
@@ -188,12 +195,24 @@ bool is_here(const TerrainSource& source, ChunkCoord chunk) {
   const GroundModel& model = *source.heights;
   const ChunkLookup stored = stored_chunk(source, chunk);
   bool all = stored.known;
-  if (stored.chunk != nullptr ||
-      reach_of(model.layout(), box_around(chunk), source.voxel_size_m) != Reach::surface)
-    return all;
+  const int above = layer_chunks_above(source, chunk);
+  for (int i = 1; i <= above; ++i) all = stored_chunk(source, chunk + ChunkCoord{0, i, 0}).known && all;
+  VoxelBox box = box_around(chunk);
+  box.hi.y += above * chunk_size;
+  const bool by_heights = stored.chunk == nullptr || above > 0;
+  if (!by_heights || reach_of(model.layout(), box, source.voxel_size_m) != Reach::surface) return all;
   for (const TileKey key : tiles_of(model.layout(), chunk, source.voxel_size_m))
     all = model.tile(key) != nullptr && all;
   return all;
+}
+
+std::vector<TileKey> tiles_of(const TerrainSource& source, ChunkCoord chunk) {
+  CHECK(source.heights != nullptr);
+  std::vector<TileKey> keys = tiles_of(source.heights->layout(), chunk, source.voxel_size_m);
+  for (int i = 0, above = layer_chunks_above(source, chunk); i <= above; ++i)
+    if (const auto key = stored_tile_of(*source.heights, chunk + ChunkCoord{0, i, 0}, source.voxel_size_m))
+      keys.push_back(*key);
+  return keys;
 }
 
 GeneratedChunk generate_chunk(const TerrainSource& source, ChunkCoord chunk) {

@@ -54,6 +54,9 @@ struct TerrainSource {
 /// Whether generate_chunk() is exact now. Where it is not, what is missing is noted as such (HeightModel).
 /// What is there stays there.
 bool is_here(const TerrainSource& source, ChunkCoord chunk);
+/// The tiles that decide it: of the elevation model, and of the stored chunks, where layers can lie also of
+/// those above. The ground is made from heights, and its model is complete.
+std::vector<TileKey> tiles_of(const TerrainSource& source, ChunkCoord chunk);
 
 /// A pure function of its arguments, safe to call from any thread; one-voxel steps change the distance by at
 /// most one voxel (1-Lipschitz along the axes, up to the rounding of codes).

@@ -4,7 +4,7 @@
 
 namespace scree {
 
-std::shared_ptr<const Palette> shared_builtin_palette() {
+std::shared_ptr<const Palette> shared_builtin_palette() noexcept {
   return plain_palette();
 }
 
