@@ -136,7 +136,7 @@ BrickMaterials::BrickMaterials(const VoxelMaterials& voxels) {
   plane_ = std::move(plane);
 }
 
-/// Of more values than few.
+/// Packs more values than few.
 void BrickMaterials::pack(const VoxelMaterials& voxels) {
   std::array<bool, 256> occurs{};
   for (const VoxelMaterial voxel : voxels) occurs[voxel] = true;
@@ -168,7 +168,7 @@ size_t BrickMaterials::plane_bytes() const {
 VoxelMaterial BrickMaterials::at(int index) const {
   CHECK_DEBUG(index >= 0 && index < brick_voxels);
   if (plane_ == nullptr) return all_;
-  // Of 2^shift bits each, 8 >> shift in a byte.
+  // An index has 2^shift bits; 8 >> shift of them fill a byte.
   const unsigned shift = static_cast<unsigned>(std::countr_zero(bits_for(values())));
   const auto i = static_cast<unsigned>(index);
   const unsigned byte = packed()[i >> (3 - shift)], first_bit = (i << shift) & 7;

@@ -169,7 +169,7 @@ class Field {
   /// Forgets the last call's chunk if the cache has dropped chunks since.
   void heed_drops() const;
   LastChunk& last_chunk(ChunkCoord chunk) const;
-  /// Of no materials: what its voxels say stays.
+  /// Null materials: what its voxels say stays.
   void write_brick(BrickCoord coord, const Brick& brick, const BrickMaterials* materials);
   /// Notes that somebody asks for the chunk, and brings it in if it is out.
   void use(ChunkCoord chunk, const EditedChunk& edited) const;

@@ -70,19 +70,16 @@ class World {
       if (!job) continue;
       const NodeMesh mesh = mesh_node(*job);
       leaks.triangles_of_level[node.level] += mesh.mesh.indices.size() / 3;
-      for (size_t t = 0; t < mesh.mesh.indices.size(); t += 3) {
-        const auto corner = [&](size_t i) {
-          return position_of(mesh, mesh.mesh.indices[t + i % 3], voxel_m());
-        };
-        // A sliver whose edges are parted where looks meet may have two middles in one place: it covers nothing.
-        if (corner(0) == corner(1) || corner(1) == corner(2) || corner(2) == corner(0)) continue;
-        for (size_t i = 0; i < 3; ++i) ++uses[{corner(i), corner(i + 1)}];
-      }
+      for (size_t t = 0; t < mesh.mesh.indices.size(); t += 3)
+        for (size_t i = 0; i < 3; ++i)
+          ++uses[{position_of(mesh, mesh.mesh.indices[t + i], voxel_m()),
+                  position_of(mesh, mesh.mesh.indices[t + (i + 1) % 3], voxel_m())}];
     }
     leaks.edges = uses.size();
     for (const auto& [edge, count] : uses) {
       const auto back = uses.find({edge.second, edge.first});
-      const bool closed = count == 1 && back != uses.end() && back->second == 1;
+      // Two sheets may touch along an edge, and slivers whose edges are parted where looks meet lie on one.
+      const bool closed = back != uses.end() && back->second == count;
       if (!closed && is_inside(edge.first)) ++leaks.open;
     }
     return leaks;
