@@ -1,7 +1,6 @@
 // What the rows of the palette look like (client/render/gl/material_table.h), in the frame of the rock: patterns fill
 // space, so a broken face shows what was inside, and a piece keeps its pattern while it moves. Needs stones.glsl.
-
-uniform highp sampler2D u_materials;
+// SURFACES, which the program defines, says what it must know (client/render/gl/surface_variants.h).
 
 struct Rock {
   vec3 albedo;
@@ -9,6 +8,10 @@ struct Rock {
   float open;       // 1, less in a crack
   float roughness;  // 1: dull
 };
+
+#if SURFACES > 0
+
+uniform highp sampler2D u_materials;
 
 // As shared/material/palette.h numbers them.
 const int pattern_grain = 1;
@@ -190,3 +193,5 @@ Rock material_at(int look, vec3 p, vec3 n, vec4 coarse, vec4 middle, vec4 small,
   rock.roughness = mix(roughness, 1.0, 0.7 * broken);
   return rock;
 }
+
+#endif

@@ -2,9 +2,15 @@
 #pragma once
 
 #include "client/render/gl/gl.h"
+#include "client/render/gl/surface_variants.h"
 #include "client/render/scene/draw_method.h"
 
 namespace scree {
+
+/// The least that the shader of a surface must know to draw in that pass.
+inline Surfaces surfaces(bool untouched, const DrawPass&) {
+  return untouched ? Surfaces::ground : Surfaces::materials;
+}
 
 /// Sets the uniforms of the program in use. Binds the shadow map to that texture unit, and the
 /// table of materials to its own.
