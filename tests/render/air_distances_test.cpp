@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "client/render/levels/level_bricks.h"
-#include "shared/field/map_field.h"
 #include "shared/field/voxel_vector.h"
 #include "shared/operation/operation.h"
-#include "shared/piece/piece_table.h"
 
 namespace scree {
 namespace {

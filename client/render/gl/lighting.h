@@ -8,12 +8,13 @@
 namespace scree {
 
 /// The least that the shader of a surface must know to draw in that pass.
-inline Surfaces surfaces(bool untouched, const DrawPass&) {
-  return untouched ? Surfaces::ground : Surfaces::materials;
+inline Surfaces surfaces(bool untouched, const DrawPass& pass) {
+  if (untouched) return Surfaces::ground;
+  return pass.lighting.images == 0 ? Surfaces::materials : Surfaces::images;
 }
 
 /// Sets the uniforms of the program in use. Binds the shadow map to that texture unit, and the
-/// table of materials to its own.
+/// table of materials and their images to their own.
 void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_unit);
 
 }  // namespace scree
