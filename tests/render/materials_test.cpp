@@ -153,20 +153,20 @@ TEST_P(Materials, rows_that_the_palette_lacks_look_as_its_first) {
     ASSERT_EQ(hue_at(image, x, height / 2), Hue::red) << x;
 }
 
-using Colour = std::array<uint8_t, 3>;
+using PixelBytes = std::array<uint8_t, 3>;
 
 /// Two by two pixels, rows from the top.
-std::shared_ptr<const MaterialTexels> image_of(const std::array<Colour, 4>& pixels) {
+std::shared_ptr<const MaterialTexels> image_of(const std::array<PixelBytes, 4>& pixels) {
   std::vector<uint8_t> rgb;
-  for (const Colour& pixel : pixels) rgb.insert(rgb.end(), pixel.begin(), pixel.end());
+  for (const PixelBytes& pixel : pixels) rgb.insert(rgb.end(), pixel.begin(), pixel.end());
   return std::make_shared<const MaterialTexels>(resampled(rgb, 2, 2));
 }
 
-constexpr Colour green{10, 220, 10}, blue{10, 20, 220}, red{220, 10, 10}, white{230, 230, 230};
-constexpr Digest albedo_file{1}, normal_file{2};
-
 class Images : public Materials {
  protected:
+  static constexpr PixelBytes green{10, 220, 10}, blue{10, 20, 220}, red{220, 10, 10}, white{230, 230, 230};
+  static constexpr Digest albedo_file{1}, normal_file{2};
+
   void use(std::optional<Digest> albedo, std::optional<Digest> normal) {
     auto palette = std::make_shared<Palette>(*hues(pure_red, pure_blue));
     MaterialLook& look = palette->rows[row_number(red_row)].look;
@@ -182,7 +182,7 @@ class Images : public Materials {
     const uint8_t* pixel = &image.rgb[static_cast<size_t>(3 * (row * image.width + column_of(x_m)))];
     return {pixel[0], pixel[1], pixel[2]};
   }
-  int brightness_with_normals(Colour normal) {
+  int brightness_with_normals(PixelBytes normal) {
     renderer_->set_images({{normal_file, image_of({normal, normal, normal, normal})}});
     const std::array<int, 3> colour = colour_at(show("normals"), -0.5F, 1.5F);
     return colour[0];
