@@ -213,7 +213,7 @@ void draw_street(Stage& stage, const std::string& folder) {
   if (!scene) give_up(scene.error().message);
   Film film(stage, folder, scene->config);
   film.build(*scene);
-  const Camera camera = look_at({13.0F, 6.0F, 12.0F}, {2.0F, 2.5F, -4.0F});
+  const Camera camera = look_at({6.5F, 5.5F, 15.5F}, {-2.0F, 3.4F, -4.0F});
   const auto shoot = [&](const std::string& when) {
     for (const MethodEntry& entry : all_methods())
       film.shoot("street_" + when + "_" + std::string(entry.name), camera, entry.name);

@@ -12,6 +12,7 @@
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gl_errors.h"
 #include "client/render/gl/line_drawer.h"
+#include "client/render/gl/material_images.h"
 #include "client/render/gl/material_table.h"
 #include "client/render/gl/particle_drawer.h"
 #include "client/render/gl/shader_sources.h"
@@ -102,7 +103,9 @@ struct Renderer::Parts {
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
   std::shared_ptr<const Palette> palette = plain_palette();
-  MaterialTable materials{*palette};
+  MaterialTexelSet come;  ///< images of materials
+  MaterialImages images;
+  MaterialTable materials{*palette, images};
   Fineness fineness;
   std::optional<ShadowMap> shadows{std::in_place, fineness.shadow_map_side};  ///< nothing: no shadows
   gl::VertexArray nothing;  ///< core profiles draw with an array bound only
@@ -123,6 +126,10 @@ struct Renderer::Parts {
         view_radius_m(radius_m),
         description(describe()) {}
 
+  void show_materials() {
+    images.set(*palette, come);
+    materials.set(*palette, images);
+  }
   /// The pixels that are drawn for a picture of `shown` pixels along a side. Above 1, methods that draw pixel
   /// by pixel do so themselves.
   int drawn(int shown) const {
@@ -212,7 +219,12 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
   pass.timers = &timers;
   pass.render_scale = std::max(fineness.render_scale, 1.0F);
   pass.eye_m = camera.eye_m;
-  pass.lighting = {sun,   reach_m, nowhere_in_shadow(), shadows ? shadows->texture() : 0, materials.texture(),
+  pass.lighting = {sun,
+                   reach_m,
+                   nowhere_in_shadow(),
+                   shadows ? shadows->texture() : 0,
+                   materials.texture(),
+                   images.texture(),
                    layers};
   if (method != nullptr && shadows) draw_shadows(*method, camera, pass);
 
@@ -330,7 +342,12 @@ void Renderer::set_palette(const std::shared_ptr<const Palette>& palette) {
   CHECK(palette != nullptr);
   if (parts_->palette == palette) return;
   parts_->palette = palette;
-  parts_->materials.set(*palette);
+  parts_->show_materials();
+}
+
+void Renderer::set_images(const MaterialTexelSet& images) {
+  parts_->come = images;
+  parts_->show_materials();
 }
 
 const std::string& Renderer::description() const {

@@ -11,6 +11,7 @@
 #include "client/render/scene/contact.h"
 #include "client/render/scene/draw_method.h"
 #include "client/render/scene/line_list.h"
+#include "client/render/scene/material_texels.h"
 #include "client/render/scene/particle.h"
 #include "client/render/scene/quality.h"
 #include "shared/material/palette.h"
@@ -41,6 +42,8 @@ class Renderer {
   /// What materials look like from now on; before the first call, as rows of plain_palette(). Not null. Costs
   /// nothing where the palette is the one that was set.
   void set_palette(const std::shared_ptr<const Palette>& palette);
+  /// The images of palettes that have come, from now on. A row whose image is missing shows its colour.
+  void set_images(const MaterialTexelSet& images);
 
   /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing; without a
   /// method there is only sky. `lines` come last.

@@ -1,7 +1,6 @@
 // What the rows of the palette look like (client/render/gl/material_table.h), in the frame of the rock: patterns fill
 // space, so a broken face shows what was inside, and a piece keeps its pattern while it moves. Needs stones.glsl.
-
-uniform highp sampler2D u_materials;
+// SURFACES, which the program defines, says what it must know (client/render/gl/surface_variants.h).
 
 struct Rock {
   vec3 albedo;
@@ -9,6 +8,10 @@ struct Rock {
   float open;       // 1, less in a crack
   float roughness;  // 1: dull
 };
+
+#if SURFACES > 0
+
+uniform highp sampler2D u_materials;
 
 // As shared/material/palette.h numbers them.
 const int pattern_grain = 1;
@@ -157,6 +160,52 @@ Marks plain_at(vec3 p, float pores, float pixel, vec4 small) {
   return marks;
 }
 
+#if SURFACES > 1
+
+uniform highp sampler2DArray u_images;
+
+// An image as it lies on the three faces of space, each as much as the surface faces that way. Its top is up, and it is
+// no mirror image from outside.
+struct Faces {
+  vec3 weights;
+  vec2 x, y, z;  // places in the image
+  float level;   // of its mipmaps
+};
+
+Faces faces_of(vec3 p, vec3 n, float size, float pixel) {
+  vec3 side = vec3(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0, n.z < 0.0 ? -1.0 : 1.0);
+  vec3 a = n * n;
+  a *= a * a;
+  vec3 q = p / size;
+  Faces faces;
+  faces.weights = a / (a.x + a.y + a.z);
+  faces.x = vec2(-side.x * q.z, -q.y);
+  faces.y = vec2(q.x, side.y * q.z);
+  faces.z = vec2(side.z * q.x, -q.y);
+  faces.level = log2(max(pixel / size * float(textureSize(u_images, 0).x), 1.0));
+  return faces;
+}
+
+vec3 image_at(Faces faces, float layer) {
+  return textureLod(u_images, vec3(faces.x, layer), faces.level).rgb * faces.weights.x +
+         textureLod(u_images, vec3(faces.y, layer), faces.level).rgb * faces.weights.y +
+         textureLod(u_images, vec3(faces.z, layer), faces.level).rgb * faces.weights.z;
+}
+
+// What an image of normals (x along the image, y up, z out of it) adds to the slopes that bend a normal.
+vec3 slopes_at(Faces faces, float layer, vec3 n) {
+  vec3 side = vec3(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0, n.z < 0.0 ? -1.0 : 1.0);
+  vec3 on_x = textureLod(u_images, vec3(faces.x, layer), faces.level).rgb * 2.0 - 1.0;
+  vec3 on_y = textureLod(u_images, vec3(faces.y, layer), faces.level).rgb * 2.0 - 1.0;
+  vec3 on_z = textureLod(u_images, vec3(faces.z, layer), faces.level).rgb * 2.0 - 1.0;
+  vec3 bent = vec3(0.0, on_x.y, -side.x * on_x.x) / max(on_x.z, 0.2) * faces.weights.x;
+  bent += vec3(on_y.x, 0.0, -side.y * on_y.y) / max(on_y.z, 0.2) * faces.weights.y;
+  bent += vec3(side.z * on_z.x, on_z.y, 0.0) / max(on_z.z, 0.2) * faces.weights.z;
+  return -bent;
+}
+
+#endif
+
 // `look`: 1 + a row. `coarse`, `middle`, `small`: noise at p, by metres, 80 cm and 20 cm. `away`: metres from the eye.
 Rock material_at(int look, vec3 p, vec3 n, vec4 coarse, vec4 middle, vec4 small, float away) {
   vec4 colour = texelFetch(u_materials, ivec2(look - 1, 0), 0);
@@ -179,8 +228,20 @@ Rock material_at(int look, vec3 p, vec3 n, vec4 coarse, vec4 middle, vec4 small,
   // Brightness from place to place; patterns have a part in it.
   float uneven = 1.0 + variation * (1.2 * (coarse.x - 0.5) + 1.6 * (fine - 0.5));
   if (pattern != pattern_strata) marks.shade = mix(vec3(1.0), marks.shade, min(1.0, 0.35 + 3.0 * variation));
+#if SURFACES > 1
+  // An image is drawn in place of colour and pattern, one of normals in place of the pattern's relief.
+  vec4 image = texelFetch(u_materials, ivec2(look - 1, 2), 0);
+  if (max(image.x, image.y) >= 0.0) {
+    Faces faces = faces_of(p, n, image.z, pixel);
+    if (image.x >= 0.0) {
+      colour.rgb = pow(image_at(faces, image.x), vec3(2.2));
+      marks.shade = vec3(1.0);
+      marks.open = 1.0;
+    }
+    marks.bump = image.y >= 0.0 ? slopes_at(faces, image.y, n) : vec3(0.0);
+  }
+#endif
   Rock rock;
-  // Images of the row's albedo and normals will come in here, in place of the colour and beside the bump.
   rock.albedo = clamp(colour.rgb * uneven * marks.shade, 0.0, 1.0);
   // Broken faces are uneven, in chips.
   vec3 chips = (small.yzw * 0.35 + middle.yzw * 0.45) * broken;
@@ -190,3 +251,5 @@ Rock material_at(int look, vec3 p, vec3 n, vec4 coarse, vec4 middle, vec4 small,
   rock.roughness = mix(roughness, 1.0, 0.7 * broken);
   return rock;
 }
+
+#endif

@@ -28,9 +28,11 @@ void main() {
   if (hit.there.kind == kind_stored) {
     vec3 slope = brick_gradient(hit.there.entry.x, hit.there.local);
     if (dot(slope, slope) > 0.0) normal = normalize(slope);
+#if SURFACES > 0
     float before = generated_in(hit.there.entry, hit.there.local, 0.0);
     if (before != 0.0) worn = worn_at(from_eye, normal, hit.level, before, band);
     material = look_at(hit.there.entry, hit.there.local, normal, before);
+#endif
   }
   float in_cleft = cleft_openness_at(from_eye, normal, hit.level, band);
   float open = openness_at(from_eye, normal, hit.level, in_cleft);

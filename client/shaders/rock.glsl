@@ -48,6 +48,8 @@ vec4 facet(vec3 p, vec3 bend) {
 // How much of its shade a loose piece has of its own, with that look: made things are all alike.
 float piece_shade(int look) { return look > 0 ? 0.08 : 0.22; }
 
+#if SURFACES > 0
+
 // One of the stones of rubble: planes that turn the light each its own way, round its edge, and the joint about it. `gap`:
 // what others take of its edge. `edge` becomes how far it is to the edge that is left.
 Rock stone_of(vec3 q, vec3 n, vec3 bed, vec3 bent, float fine, float gap, float pixel, out float edge) {
@@ -89,6 +91,8 @@ Rock rubble_at(vec3 p, vec3 n, vec3 bed, vec3 bent, float fine, float sand, floa
   return rock;
 }
 
+#endif
+
 // At p in the frame of the rock, whose patterns stay with a piece that moves. `worn`: how far the field as generated was
 // from here, x where rock has gone, y where it has come. `look`: 0, or 1 + a row of the palette. `in_cleft`: 1 on an open
 // face, less where other rock is near above it. `away`: metres from the eye.
@@ -96,7 +100,9 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
   vec4 coarse = noise(p * 0.16);
   vec4 middle = noise(p * 1.3 + 17.0);
   vec4 small = noise(p * 5.1 + 5.0);
+#if SURFACES > 0
   if (look > 0) return material_at(look, p, shape_normal, coarse, middle, small, away);
+#endif
   float fine = 0.6 * middle.x + 0.4 * small.x;
   float uneven = fine;
   float bare = bare_of(worn.x + worn.y, fine);
@@ -137,6 +143,7 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
   }
   // The slopes bend the normal, less with distance, where they would only flicker.
   Rock rock = Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain), open, 1.0);
+#if SURFACES > 0
   // Rubble is stones, whatever shape the field has room for; a layer thinner than a voxel has room for none.
   float piled = bare * worn.y / max(worn.x + worn.y, 1e-3) * smoothstep(0.12, 0.40, worn.y);
   if (piled > 0.0) {
@@ -146,8 +153,11 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
     rock.normal = normalize(mix(rock.normal, normalize(rubble.normal), piled));
     rock.open = mix(rock.open, rubble.open, piled);
   }
+#endif
   return rock;
 }
+
+#if SURFACES > 0
 
 // What a smooth surface mirrors of the sun and of the sky (Blinn 1977, with Schlick's approximation of Fresnel).
 vec3 mirrored(float roughness, vec3 normal, vec3 to_eye, float openness, float sunlight) {
@@ -162,6 +172,8 @@ vec3 mirrored(float roughness, vec3 normal, vec3 to_eye, float openness, float s
   return (sun_colour * min(sunlight * peak, 3.0) + around * openness) * share * gloss * gloss;
 }
 
+#endif
+
 // `sunlight`: cosine of the sun's angle, 0 in shadow. `openness`: 1 under the open sky, less in a crevice.
 // `normal` in the world; `to_eye`: unit.
 vec3 lit_rock(Rock rock, vec3 normal, float openness, float sunlight, vec3 to_eye) {
@@ -170,6 +182,8 @@ vec3 lit_rock(Rock rock, vec3 normal, float openness, float sunlight, vec3 to_ey
   // What the rock around reflects: most in a crevice, and of the rock's own colour.
   vec3 bounce = sun_colour * rock.albedo * (0.05 + 0.14 * (1.0 - open));
   vec3 light = rock.albedo * (sun_colour * sunlight + ambient(normal) * open + bounce);
+#if SURFACES > 0
   if (rock.roughness < 1.0) light += mirrored(rock.roughness, normal, to_eye, open, sunlight);
+#endif
   return light;
 }

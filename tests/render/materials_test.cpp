@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/render/methods.h"
+#include "client/render/scene/limits.h"
 #include "client/viewer/pictures/png.h"
 #include "content/builtin_palette.h"
 #include "tests/support/flat_terrain.h"
@@ -152,12 +153,84 @@ TEST_P(Materials, rows_that_the_palette_lacks_look_as_its_first) {
     ASSERT_EQ(hue_at(image, x, height / 2), Hue::red) << x;
 }
 
+using PixelBytes = std::array<uint8_t, 3>;
+
+/// Two by two pixels, rows from the top.
+std::shared_ptr<const MaterialTexels> image_of(const std::array<PixelBytes, 4>& pixels) {
+  std::vector<uint8_t> rgb;
+  for (const PixelBytes& pixel : pixels) rgb.insert(rgb.end(), pixel.begin(), pixel.end());
+  return std::make_shared<const MaterialTexels>(resampled(rgb, 2, 2));
+}
+
+class Images : public Materials {
+ protected:
+  static constexpr PixelBytes green{10, 220, 10}, blue{10, 20, 220}, red{220, 10, 10}, white{230, 230, 230};
+  static constexpr Digest albedo_file{1}, normal_file{2};
+
+  void use(std::optional<Digest> albedo, std::optional<Digest> normal) {
+    auto palette = std::make_shared<Palette>(*hues(pure_red, pure_blue));
+    MaterialLook& look = palette->rows[row_number(red_row)].look;
+    look.albedo = albedo;
+    look.normal = normal;
+    look.image_m = 2.0F;
+    renderer_->set_palette(palette);
+  }
+  /// Of the wall's face.
+  std::array<int, 3> colour_at(const Image& image, float x_m, float y_m) const {
+    const float half = std::tan(camera_.field_of_view * 0.5F) * (camera_.eye_m.z - face_z_m);
+    const int row = static_cast<int>((0.5F - (y_m - camera_.eye_m.y) / half * 0.5F) * height);
+    const uint8_t* pixel = &image.rgb[static_cast<size_t>(3 * (row * image.width + column_of(x_m)))];
+    return {pixel[0], pixel[1], pixel[2]};
+  }
+  int brightness_with_normals(PixelBytes normal) {
+    renderer_->set_images({{normal_file, image_of({normal, normal, normal, normal})}});
+    const std::array<int, 3> colour = colour_at(show("normals"), -0.5F, 1.5F);
+    return colour[0];
+  }
+};
+
+TEST_P(Images, lie_over_the_colour_upright_and_at_their_scale) {
+  use(albedo_file, std::nullopt);
+  EXPECT_GT(colour_at(show("not_come"), 0.4F, 1.5F)[0], 100) << "red, before it has come";
+  renderer_->set_images({{albedo_file, image_of({green, blue, red, white})}});
+  const Image image = show("albedo");
+  const auto top_left = colour_at(image, 0.4F, 1.5F), top_right = colour_at(image, -0.5F, 1.5F);
+  const auto low_left = colour_at(image, 0.4F, 0.6F), low_right = colour_at(image, -0.5F, 0.6F);
+  EXPECT_GT(top_left[1], 2 * std::max(top_left[0], top_left[2]));
+  EXPECT_GT(top_right[2], 2 * std::max(top_right[0], top_right[1]));
+  EXPECT_GT(low_left[0], 2 * std::max(low_left[1], low_left[2]));
+  EXPECT_GT(std::min({low_right[0], low_right[1], low_right[2]}), 90);
+  EXPECT_EQ(hue_at(image, column_of(1.5F), height / 2), Hue::blue) << "the other row has none";
+}
+
+TEST_P(Images, of_normals_turn_the_light) {
+  use(std::nullopt, normal_file);
+  const int even = brightness_with_normals({128, 128, 255});
+  EXPECT_GT(brightness_with_normals({200, 128, 220}), even + 5) << "towards the sun, which is on the right";
+  EXPECT_LT(brightness_with_normals({56, 128, 220}), even - 5);
+}
+
+TEST(MaterialTexels, are_means_of_the_pixels_they_cover) {
+  constexpr auto side = static_cast<size_t>(limits::material_image_side);
+  const MaterialTexels small = resampled(std::vector<uint8_t>{0, 0, 0, 200, 100, 50}, 2, 1);
+  ASSERT_EQ(small.size(), side * side * 4);
+  EXPECT_EQ(small[0], 0);
+  EXPECT_EQ(small[(side - 1) * 4], 200);
+  std::vector<uint8_t> stripes;
+  for (size_t i = 0; i < side * 2; ++i) stripes.insert(stripes.end(), 3, i % 2 == 0 ? 0 : 100);
+  const MaterialTexels mixed = resampled(stripes, static_cast<int>(side) * 2, 1);
+  EXPECT_EQ(mixed[0], 50);
+  EXPECT_EQ(mixed[3], 255);
+}
+
 std::vector<std::string> all_method_names() {
   std::vector<std::string> names;
   for (const MethodEntry& entry : all_methods()) names.emplace_back(entry.name);
   return names;
 }
 INSTANTIATE_TEST_SUITE_P(methods, Materials, testing::ValuesIn(all_method_names()),
+                         [](const auto& tested) { return tested.param; });
+INSTANTIATE_TEST_SUITE_P(methods, Images, testing::ValuesIn(all_method_names()),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace

@@ -118,16 +118,17 @@ void office(Site& site) {
 void timber_hut(Site& site) {
   const Plan plan{{14.0F, 0.0F, -8.0F}, {22.0F, level_m, -2.0F}};
   site.found("rock", plan.lo_m, plan.hi_m);
-  site.put("rock", {plan.lo_m.x - 0.5F, -0.5F, plan.lo_m.z - 0.5F},
+  site.put("concrete", {plan.lo_m.x - 0.5F, -0.5F, plan.lo_m.z - 0.5F},
            {plan.hi_m.x + 0.5F, 0.5F, plan.hi_m.z + 0.5F});
   one_storey(site, "timber", plan, 0.5F);
   timber_roof(site, {plan.lo_m, plan.hi_m + glm::vec3(0.0F, 0.5F, 0.0F)});
 }
 
-/// In front of the houses: a road between kerbs, beds, a rink, and heaps.
+/// In front of the houses: a road between kerbs, beds, a rink, and heaps. Nothing is of rock: where rock was
+/// added, it is drawn as rubble.
 void open_places(Site& site) {
   for (const float x : {-25.0F, -12.5F, 0.0F, 12.5F}) {
-    for (const float z : {2.0F, 8.0F}) site.put("rock", {x, -0.25F, z}, {x + 12.5F, 0.25F, z + 0.5F});
+    for (const float z : {2.0F, 8.0F}) site.put("concrete", {x, -0.25F, z}, {x + 12.5F, 0.25F, z + 0.5F});
     site.put("gravel", {x, -0.5F, 2.5F}, {x + 12.5F, 0.25F, 8.0F});
   }
   site.put("clay", {-24.0F, -0.5F, 10.0F}, {-20.0F, 0.75F, 13.0F});

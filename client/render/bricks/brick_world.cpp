@@ -141,6 +141,10 @@ std::optional<BrickWorld::Plain> BrickWorld::plain(glm::vec3 lo_m, glm::vec3 hi_
   return found;
 }
 
+bool BrickWorld::is_untouched() const {
+  return std::ranges::all_of(levels_, [](const ClipLevel& level) { return level.window().touched() == 0; });
+}
+
 size_t BrickWorld::waiting() const {
   size_t sum = 0;
   for (const ClipLevel& level : levels_) sum += level.waiting();

@@ -30,6 +30,8 @@ class BrickWorld {
   enum class Plain { air, rock };
   std::optional<Plain> plain(glm::vec3 lo_m, glm::vec3 hi_m, int level) const;
 
+  /// Whether nothing in it was edited or has looks of its own.
+  bool is_untouched() const;
   BrickAtlas& atlas() { return atlas_; }
   const BrickAtlas& atlas() const { return atlas_; }
   bool loaded() const { return waiting() == 0; }

@@ -26,6 +26,8 @@ size_t ClipWindow::index(BrickCoord brick) const {
 
 void ClipWindow::write(size_t at, ClipEntry entry) {
   if (entries_[at] == entry) return;
+  touched_ += entry.is_touched() ? 1 : 0;
+  touched_ -= entries_[at].is_touched() ? 1 : 0;
   entries_[at] = entry;
   changed_[at / slab()] = true;
 }

@@ -37,6 +37,8 @@ struct ClipEntry {
   uint32_t kind() const { return field >> 24U; }
   bool has_before_slot() const { return before >> 24U == mixed; }
   bool has_looks_slot() const { return looks >> 24U == looks_mixed; }
+  /// Edited, or of looks of its own.
+  bool is_touched() const { return before != 0 || looks != 0; }
   bool is_empty() const { return kind() != unloaded && kind() < stored; }
   static uint32_t packed(uint32_t kind, AtlasSlot slot) {
     return kind << 24U | static_cast<uint32_t>(slot.z) << 16U | static_cast<uint32_t>(slot.y) << 8U | slot.x;
@@ -82,6 +84,8 @@ class ClipWindow {
       f(x, &entries_[static_cast<size_t>(x) * slab()]);
     }
   }
+  /// How many entries are.
+  size_t touched() const { return touched_; }
   size_t bytes() const { return entries_.size() * sizeof(ClipEntry) + occupied_.size() * sizeof(uint64_t); }
 
  private:
@@ -103,6 +107,7 @@ class ClipWindow {
   bool placed_ = false;
   std::vector<ClipEntry> entries_;
   std::vector<uint64_t> occupied_;  ///< a row of bits along z for each (x, y); relative to the origin
+  size_t touched_ = 0;
   Columns dirty_{};
   bool anything_dirty_ = false;
   std::vector<bool> changed_;  ///< slabs

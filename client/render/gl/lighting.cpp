@@ -16,6 +16,11 @@ void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_u
   program.set("u_materials", MaterialTable::unit);
   glActiveTexture(GL_TEXTURE0 + MaterialTable::unit);
   glBindTexture(GL_TEXTURE_2D, pass.lighting.materials);
+  program.set("u_images", MaterialImages::unit);
+  if (pass.lighting.images != 0) {
+    glActiveTexture(GL_TEXTURE0 + MaterialImages::unit);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, pass.lighting.images);
+  }
   glActiveTexture(GL_TEXTURE0);
 }
 

@@ -10,18 +10,19 @@ struct Texel {
   float red, green, blue, alpha;
 };
 constexpr size_t table_columns = 256;
-constexpr size_t table_lines = 2;
+constexpr size_t table_lines = 3;
 
 }  // namespace
 
-void MaterialTable::set(const Palette& palette) {
+void MaterialTable::set(const Palette& palette, const MaterialImages& images) {
   std::array<Texel, table_columns * table_lines> texels;
   for (size_t row = 0; row < table_columns; ++row) {
     const MaterialLook& look = palette.row_or_first(static_cast<Material>(row)).look;
     const auto& [red, green, blue] = look.colour;
     texels[row] = {red, green, blue, look.variation};
-    // Images of albedo and normals are to come: the last number is for where they lie.
     texels[table_columns + row] = {look.roughness, static_cast<float>(look.pattern), look.pattern_m, 0.0F};
+    texels[2 * table_columns + row] = {static_cast<float>(images.layer_of(look.albedo)),
+                                       static_cast<float>(images.layer_of(look.normal)), look.image_m, 0.0F};
   }
   glBindTexture(GL_TEXTURE_2D, texture_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);

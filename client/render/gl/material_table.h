@@ -3,6 +3,7 @@
 #pragma once
 
 #include "client/render/gl/gl.h"
+#include "client/render/gl/material_images.h"
 #include "shared/material/palette.h"
 
 namespace scree {
@@ -12,10 +13,10 @@ class MaterialTable {
   /// The unit that set_lighting() binds it to, apart from those of all methods.
   static constexpr int unit = 5;
 
-  explicit MaterialTable(const Palette& palette) { set(palette); }
+  MaterialTable(const Palette& palette, const MaterialImages& images) { set(palette, images); }
 
   /// From now on. A row that the palette has not got looks as its first one.
-  void set(const Palette& palette);
+  void set(const Palette& palette, const MaterialImages& images);
   unsigned texture() const { return texture_.name(); }
 
  private:

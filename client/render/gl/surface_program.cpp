@@ -1,6 +1,7 @@
 #include "client/render/gl/surface_program.h"
 
 #include <array>
+#include <span>
 #include <utility>
 
 #include "client/render/gl/shader_sources.h"
@@ -33,17 +34,15 @@ void SurfaceProgram::set_place(const MeshPlace& place) const {
   glUniform1f(step, place.step);
 }
 
-std::span<const std::string_view> surface_fragment_parts() {
-  static const std::array parts{shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
-                                shader_source("noise.glsl"),    shader_source("clouds.glsl"),
-                                shader_source("haze.glsl"),     shader_source("stones.glsl"),
-                                shader_source("material.glsl"), shader_source("rock.glsl"),
-                                shader_source("shadow.glsl"),   shader_source("surface.frag")};
-  return parts;
+std::vector<std::string_view> surface_fragment_parts(Surfaces surfaces) {
+  return {define_of(surfaces),          shader_source("rotation.glsl"), shader_source("atmosphere.glsl"),
+          shader_source("noise.glsl"),  shader_source("clouds.glsl"),   shader_source("haze.glsl"),
+          shader_source("stones.glsl"), shader_source("material.glsl"), shader_source("rock.glsl"),
+          shader_source("shadow.glsl"), shader_source("surface.frag")};
 }
 
-Result<SurfaceProgram> link_surface() {
-  return link("surface", surface_fragment_parts());
+Result<SurfaceProgram> link_surface(Surfaces surfaces) {
+  return link("surface", surface_fragment_parts(surfaces));
 }
 
 Result<SurfaceProgram> link_surface_shadow() {

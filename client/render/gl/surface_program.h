@@ -2,10 +2,11 @@
 // current.
 #pragma once
 
-#include <span>
 #include <string_view>
+#include <vector>
 
 #include "client/render/gl/gl.h"
+#include "client/render/gl/surface_variants.h"
 #include "client/render/scene/mesh_place.h"
 
 namespace scree {
@@ -20,10 +21,10 @@ struct SurfaceProgram {
 };
 
 /// In colour, and for the shadow map. Fail when a shader does.
-Result<SurfaceProgram> link_surface();
+Result<SurfaceProgram> link_surface(Surfaces surfaces);
 Result<SurfaceProgram> link_surface_shadow();
 
 /// The shader parts that shade every surface of polygons.
-std::span<const std::string_view> surface_fragment_parts();
+std::vector<std::string_view> surface_fragment_parts(Surfaces surfaces);
 
 }  // namespace scree

@@ -47,19 +47,23 @@ Result<gl::Program> link_grid(std::string_view name, std::span<const std::string
   return gl::Program::link(name, vertex, fragment, geometry);
 }
 
+Result<gl::Program> link_terrain(Surfaces surfaces) {
+  return link_grid("grid", surface_fragment_parts(surfaces));
+}
+
 struct GridPrograms {
-  gl::Program grid;
+  SurfaceVariants<gl::Program> grid;
   gl::Program grid_shadow;
-  SurfaceProgram piece;
+  SurfaceVariants<SurfaceProgram> piece;
   SurfaceProgram piece_shadow;
 };
 
 Result<GridPrograms> link_grid_programs() {
-  Result<gl::Program> grid = link_grid("grid", surface_fragment_parts());
+  auto grid = SurfaceVariants<gl::Program>::make(link_terrain);
   if (!grid) return fail(grid.error().message);
   Result<gl::Program> shadow = link_grid("grid_shadow", std::array{shader_source("surface_shadow.frag")});
   if (!shadow) return fail(shadow.error().message);
-  Result<SurfaceProgram> piece = link_surface();
+  auto piece = SurfaceVariants<SurfaceProgram>::make(link_surface);
   if (!piece) return fail(piece.error().message);
   Result<SurfaceProgram> piece_shadow = link_surface_shadow();
   if (!piece_shadow) return fail(piece_shadow.error().message);
@@ -138,7 +142,8 @@ void GridMethod::draw(const DrawPass& pass) {
 void GridMethod::draw_terrain(const DrawPass& pass, const Frustum& frustum) {
   const GpuTimers::Part part(pass.timers, "grid");
   const bool shadow = pass.kind == DrawPass::Kind::shadow;
-  const gl::Program& program = shadow ? programs_.grid_shadow : programs_.grid;
+  const gl::Program& program =
+      shadow ? programs_.grid_shadow : programs_.grid.of(surfaces(world_->is_untouched(), pass));
   points_.place(shape_, *world_, pass.eye_m, frustum);
   program.use();
   world_->use(program, pass.eye_m);
@@ -163,7 +168,7 @@ void GridMethod::draw_terrain(const DrawPass& pass, const Frustum& frustum) {
 
 void GridMethod::draw_pieces(const DrawPass& pass, const Frustum& frustum) {
   const bool shadow = pass.kind == DrawPass::Kind::shadow;
-  const SurfaceProgram& program = shadow ? programs_.piece_shadow : programs_.piece;
+  const SurfaceProgram& program = shadow ? programs_.piece_shadow : programs_.piece.of(surfaces(false, pass));
   program.program.use();
   program.program.set("u_view_projection", pass.view_projection);
   if (!shadow) set_lighting(program.program, pass, grid_shadow_unit);

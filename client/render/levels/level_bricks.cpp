@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/render/levels/air_distances.h"
 #include "client/render/levels/block_windows.h"
 
 namespace scree {
@@ -36,7 +37,7 @@ TerrainSource spaced(TerrainSource source, int level) {
   return source;
 }
 
-void copy_edits(const Field& field, int level, Window& window) {
+void copy_edits(const Field& field, int level, Window& window, Code far_air) {
   const int step = 1 << level;
   const auto fine = [step](VoxelCoord v) { return VoxelCoord{v.x * step, v.y * step, v.z * step}; };
   // The first sample not below.
@@ -57,7 +58,7 @@ void copy_edits(const Field& field, int level, Window& window) {
           for (int z = part.lo.z; z < part.hi.z; ++z) {
             const VoxelCoord in = fine({x, y, z}) - first;
             const Code code = codes.codes[static_cast<size_t>(Brick::index(in.x, in.y, in.z))];
-            window.at(x, y, z) = encode(decode(code) * scale);
+            window.at(x, y, z) = code == code_air ? far_air : encode(decode(code) * scale);
           }
     }
   });
@@ -150,7 +151,7 @@ const Brick* LevelBricks::uniform_around(const Field& field, BrickCoord brick) c
 }
 
 bool LevelBricks::edited_around(const Field& field, BrickCoord brick) const {
-  const VoxelBox samples = samples_of(brick);
+  const VoxelBox samples = level_ > 0 ? samples_of(brick).grown(air_reach) : samples_of(brick);
   const auto fine = [this](VoxelCoord v) { return VoxelCoord{v.x * step(), v.y * step(), v.z * step()}; };
   bool edited = false;
   const VoxelBox box{fine(samples.lo), fine(samples.hi - VoxelCoord{1, 1, 1}) + VoxelCoord{1, 1, 1}};
@@ -161,16 +162,26 @@ bool LevelBricks::edited_around(const Field& field, BrickCoord brick) const {
   return edited;
 }
 
+/// The samples of a brick of a coarse level.
+Window LevelBricks::edited_window(const Field& field, BrickCoord brick) const {
+  const VoxelBox samples = samples_of(brick);
+  const Window generated = gather_generated(generator(field), samples.grown(air_reach));
+  Window around = generated;
+  copy_edits(field, level_, around, code_air);
+  if (around.codes != generated.codes) lower_air(around);
+  return part_of(around, samples);
+}
+
 LevelBrick LevelBricks::read(const Field& field, BrickCoord brick) {
   const bool edited = edited_around(field, brick);
   if (!edited) {
     if (const Brick* uniform = uniform_around(field, brick); uniform != nullptr)
       return {uniform == &air_brick() ? LevelBrick::Kind::empty : LevelBrick::Kind::solid, {}, {}, {}, {}};
   }
-  Window window = gather(generator(field), samples_of(brick));
+  Window window =
+      edited && level_ > 0 ? edited_window(field, brick) : gather(generator(field), samples_of(brick));
   std::optional<Window> before;
-  if (edited) before = level_ == 0 ? gather_generated(field, window.box) : window;
-  if (level_ > 0 && edited) copy_edits(field, level_, window);
+  if (edited) before = gather_generated(generator(field), window.box);
   LevelBrick read{LevelBrick::Kind::empty, as_brick(window), {}, {}, {}};
   read.kind = kind_of(read.field);
   const Field& ground = generator(field);
@@ -183,14 +194,15 @@ LevelBrick LevelBricks::read(const Field& field, BrickCoord brick) {
 }
 
 LevelBricks::Range LevelBricks::shown_in(BrickCoord changed) const {
-  // A brick has the samples 8b − 1 … 8b + 9.
-  const auto lo = [this](int v) {
+  // A brick has the samples 8b − 1 … 8b + 9. On coarse levels, those around decide their air.
+  const int more = level_ > 0 ? air_reach : 0;
+  const auto lo = [&](int v) {
     const int sample = (v * brick_size + step() - 1) >> level_;
-    return (sample - (atlas_brick_side - 1 - atlas_apron_low) + brick_size - 1) >> 3;
+    return (sample - more - (atlas_brick_side - 1 - atlas_apron_low) + brick_size - 1) >> 3;
   };
-  const auto hi = [this](int v) {
+  const auto hi = [&](int v) {
     const int sample = (v * brick_size + brick_size - 1) >> level_;
-    return ((sample + atlas_apron_low) >> 3) + 1;
+    return ((sample + more + atlas_apron_low) >> 3) + 1;
   };
   const VoxelCoord first = first_voxel(changed);
   const auto skipped = [this](int v) {

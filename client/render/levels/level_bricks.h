@@ -2,6 +2,9 @@
 // is the field itself; a coarser level is generated at its spacing, and takes the samples of edited bricks
 // from the field.
 //
+// Distances of edits end after three voxels of the field, less than one of a coarse level. So coarser air
+// gets its distances from the samples around (air_distances.h), else rays would step through thin walls.
+//
 // Keeps no copies of edits: a brick that is read again is always the current field's.
 #pragma once
 
@@ -44,8 +47,9 @@ LevelBrick::Before before_kind_of(const AtlasBrick& brick);
 /// The same terrain with a sample every 2^level voxels.
 TerrainSource spaced(TerrainSource source, int level);
 
-/// Writes the edited codes of the field, which is level 0, into a window of that level.
-void copy_edits(const Field& field, int level, Window& window);
+/// Writes the edited codes of the field, which is level 0, into a window of that level. Its air that is as
+/// far from rock as a code can tell, three voxels of its own or more, becomes `far_air`.
+void copy_edits(const Field& field, int level, Window& window, Code far_air);
 
 class LevelBricks {
  public:
@@ -72,6 +76,7 @@ class LevelBricks {
   const Field& generator(const Field& field) const { return coarse_ ? *coarse_ : field; }
   const Brick* uniform_around(const Field& field, BrickCoord brick) const;
   bool edited_around(const Field& field, BrickCoord brick) const;
+  Window edited_window(const Field& field, BrickCoord brick) const;
 
   int level_;
   TerrainSource source_;

@@ -46,7 +46,7 @@ std::optional<BlockWindows> SurfaceLevels::gather(const Field& field, int level,
   BlockWindows windows{owned, gather_generated(generator, box), std::nullopt,
                        gather_looks(field, generator, level, box)};
   windows.before = windows.now;
-  copy_edits(field, level, windows.now);
+  copy_edits(field, level, windows.now, encode(decode(code_air) / static_cast<float>(1 << level)));
   return windows;
 }
 

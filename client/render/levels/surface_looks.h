@@ -18,6 +18,10 @@ inline constexpr int worn_all = 58;
 Code packed_worn(int worn);
 /// What was packed, signed, in codes.
 int unpacked_worn(Code packed);
+/// Of that how far rock has come, in steps.
+inline int unpacked_come(Code packed) {
+  return static_cast<uint8_t>(packed) >> 4;
+}
 
 /// Whether a cut laid the surface bare where the vertex lies, at p in the window's voxels.
 using IsCut = std::function<bool(const SurfaceVertex&, glm::vec3 p)>;

@@ -8,6 +8,7 @@
 
 #include "client/render/gl/lighting.h"
 #include "client/render/gl/mesh_arena.h"
+#include "client/render/levels/surface_looks.h"
 #include "client/render/mesh/mesh_scheduler.h"
 #include "client/render/pieces/piece_views.h"
 
@@ -22,26 +23,34 @@ constexpr int group_side = 128;
 struct BlockGroup {
   int level = 0;
   VoxelCoord origin;
+  bool is_ground = true;  ///< without materials and heaps
 
   bool operator==(const BlockGroup&) const = default;
 };
 
+/// Whether the shader for mere ground draws it.
+bool is_ground(const SurfaceMesh& mesh) {
+  return std::ranges::all_of(mesh.vertices, [](const SurfaceVertex& vertex) {
+    return vertex.look == 0 && unpacked_come(vertex.before) == 0;
+  });
+}
+
 BlockGroup group_of(const NodeMesh& mesh) {
   const auto down = [](int v) { return v & ~(group_side - 1); };
   const VoxelCoord at = mesh.mesh.origin;
-  return {mesh.level, {down(at.x), down(at.y), down(at.z)}};
+  return {mesh.level, {down(at.x), down(at.y), down(at.z)}, is_ground(mesh.mesh)};
 }
 
 struct BlockGroupHash {
   size_t operator()(const BlockGroup& group) const {
-    return CoordHash()(group.origin) * 31 + static_cast<size_t>(group.level);
+    return CoordHash()(group.origin) * 31 + static_cast<size_t>(group.level) * 2 + (group.is_ground ? 1 : 0);
   }
 };
 
 class MeshMethod final : public DrawMethod {
  public:
-  MeshMethod(WorkPool& pool, float view_radius_m, Polygoniser polygoniser, SurfaceProgram&& surface,
-             SurfaceProgram&& shadow)
+  MeshMethod(WorkPool& pool, float view_radius_m, Polygoniser polygoniser,
+             SurfaceVariants<SurfaceProgram>&& surface, SurfaceProgram&& shadow)
       : scheduler_(pool, view_radius_m, polygoniser),
         surface_(std::move(surface)),
         shadow_(std::move(shadow)) {}
@@ -57,11 +66,12 @@ class MeshMethod final : public DrawMethod {
  private:
   void show(MeshUpdate&& update);
   void erase(const SurfaceNode& node);
-  void draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m);
+  const SurfaceProgram& use(const DrawPass& pass, bool ground);
+  void draw_terrain(const SurfaceProgram& program, bool ground, bool all);
   void find_visible(const Frustum& frustum, glm::vec3 eye_m);
 
   MeshScheduler scheduler_;
-  SurfaceProgram surface_;
+  SurfaceVariants<SurfaceProgram> surface_;
   SurfaceProgram shadow_;
   float voxel_m_ = 0.0F;
   struct Block {
@@ -110,26 +120,36 @@ void MeshMethod::erase(const SurfaceNode& node) {
 
 void MeshMethod::draw(const DrawPass& pass) {
   const bool shadow = pass.kind == DrawPass::Kind::shadow;
-  const SurfaceProgram& program = shadow ? shadow_ : surface_;
-  program.program.use();
-  program.program.set("u_view_projection", pass.view_projection);
-  if (!shadow) set_lighting(program.program, pass, 0);
   pass_ = {};
   const Frustum frustum(pass.view_projection);
-  draw_terrain(program, frustum, pass.eye_m);
+  find_visible(frustum, pass.eye_m);
+  if (!shadow) draw_terrain(use(pass, true), true, false);
+  const SurfaceProgram& program = use(pass, false);
+  draw_terrain(program, false, shadow);
   pieces_.draw(program, frustum, voxel_m_, pass_);
   glBindVertexArray(0);
 }
 
-void MeshMethod::draw_terrain(const SurfaceProgram& program, const Frustum& frustum, glm::vec3 eye_m) {
+/// The program of a pass, for mere ground or for all.
+const SurfaceProgram& MeshMethod::use(const DrawPass& pass, bool ground) {
+  const bool shadow = pass.kind == DrawPass::Kind::shadow;
+  const SurfaceProgram& program = shadow ? shadow_ : surface_.of(surfaces(ground, pass));
+  program.program.use();
+  program.program.set("u_view_projection", pass.view_projection);
+  if (!shadow) set_lighting(program.program, pass, 0);
+  return program;
+}
+
+/// The groups in sight that are mere ground, or those that are not, or all.
+void MeshMethod::draw_terrain(const SurfaceProgram& program, bool ground, bool all) {
   glUniform3f(program.centre_m, 0.0F, 0.0F, 0.0F);
   glUniform3f(program.place_m, 0.0F, 0.0F, 0.0F);
   glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
   glUniform1f(program.loose, 0.0F);
   glUniform1f(program.voxel_m, voxel_m_);
-  find_visible(frustum, eye_m);
   for (size_t i = 0; i < batch_of_.size(); ++i) {
     const Batch& batch = batches_[i];
+    if (!all && batch.group.is_ground != ground) continue;
     program.set_place(place_of(batch.group.origin, batch.group.level));
     pass_.draws += arena_.draw(batch.slots);
     for (const MeshArena::Slot& slot : batch.slots) pass_.triangles += slot.triangles();
@@ -174,7 +194,7 @@ DrawStats MeshMethod::stats() const {
 
 Result<std::unique_ptr<DrawMethod>> make_method(WorkPool& pool, float view_radius_m,
                                                 Polygoniser polygoniser) {
-  Result<SurfaceProgram> surface = link_surface();
+  auto surface = SurfaceVariants<SurfaceProgram>::make(link_surface);
   if (!surface) return fail(surface.error().message);
   Result<SurfaceProgram> shadow = link_surface_shadow();
   if (!shadow) return fail(shadow.error().message);

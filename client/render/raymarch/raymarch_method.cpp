@@ -15,6 +15,7 @@
 #include "client/render/gl/gpu_timers.h"
 #include "client/render/gl/lighting.h"
 #include "client/render/gl/shader_sources.h"
+#include "client/render/gl/surface_variants.h"
 #include "client/render/pieces/piece_volumes.h"
 #include "client/render/raymarch/march_targets.h"
 
@@ -26,36 +27,47 @@ constexpr int raymarch_shadow_unit = 3;
 
 struct RaymarchPrograms {
   gl::Program cone;
-  gl::Program march;
-  gl::Program piece;
+  SurfaceVariants<gl::Program> march;
+  SurfaceVariants<gl::Program> piece;
   gl::Program piece_shadow;
   gl::Program composite;
 };
 
 /// Links a program of shaders/ files.
 Result<gl::Program> link(std::string_view name, std::initializer_list<std::string_view> vertex,
-                         std::initializer_list<std::string_view> fragment) {
+                         std::initializer_list<std::string_view> fragment, std::string_view define = {}) {
   const auto sources = [](std::initializer_list<std::string_view> files) {
     std::vector<std::string_view> texts;
     for (const std::string_view file : files) texts.push_back(shader_source(file));
     return texts;
   };
-  return gl::Program::link(name, sources(vertex), sources(fragment));
+  std::vector<std::string_view> fragments = sources(fragment);
+  fragments.insert(fragments.begin(), define);
+  return gl::Program::link(name, sources(vertex), fragments);
+}
+
+Result<gl::Program> link_march(Surfaces surfaces) {
+  return link("raymarch", {"raymarch.vert"},
+              {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl", "haze.glsl",
+               "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"},
+              define_of(surfaces));
+}
+
+Result<gl::Program> link_piece(Surfaces surfaces) {
+  return link(
+      "piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
+      {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl",
+       "haze.glsl", "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"},
+      define_of(surfaces));
 }
 
 Result<RaymarchPrograms> link_raymarch_programs() {
   Result<gl::Program> cone =
       link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"});
   if (!cone) return fail(cone.error().message);
-  Result<gl::Program> march =
-      link("raymarch", {"raymarch.vert"},
-           {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl", "haze.glsl",
-            "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"});
+  auto march = SurfaceVariants<gl::Program>::make(link_march);
   if (!march) return fail(march.error().message);
-  Result<gl::Program> piece = link(
-      "piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
-      {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl",
-       "haze.glsl", "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"});
+  auto piece = SurfaceVariants<gl::Program>::make(link_piece);
   if (!piece) return fail(piece.error().message);
   Result<gl::Program> shadow = link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
                                     {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"});
@@ -155,7 +167,7 @@ void RaymarchMethod::draw_cones(const DrawPass& pass, const glm::mat4& inverse, 
 
 void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse, float pixel) {
   const GpuTimers::Part part(pass.timers, "march");
-  const gl::Program& program = programs_.march;
+  const gl::Program& program = programs_.march.of(surfaces(world_->is_untouched(), pass));
   program.use();
   world_->use(program, pass.eye_m);
   program.set("u_inverse_view_projection", inverse);
@@ -178,7 +190,7 @@ void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse,
 void RaymarchMethod::draw_pieces(const DrawPass& pass) {
   if (pieces_.count() == 0) return;
   const bool shadow = pass.kind == DrawPass::Kind::shadow;
-  const gl::Program& program = shadow ? programs_.piece_shadow : programs_.piece;
+  const gl::Program& program = shadow ? programs_.piece_shadow : programs_.piece.of(surfaces(false, pass));
   const GpuTimers::Part part(pass.timers, "pieces");
   program.use();
   world_->use(program, pass.eye_m);

@@ -40,6 +40,7 @@ struct Lighting {
   glm::mat4 shadow_matrix{1.0F};    ///< from the world to the shadow map's coordinates, 0..1
   unsigned shadow_map = 0;          ///< GL texture of depths, with comparison
   unsigned materials = 0;           ///< GL texture of the palette's looks (client/render/gl/material_table.h)
+  unsigned images = 0;              ///< GL texture of their images, a layer each; 0: there are none
   MaterialHeights layers;           ///< heights at which soil and ice cover the ground
 };
 

@@ -59,6 +59,14 @@ inline constexpr size_t bricks_per_column = 6;
 /// Chunks that the raymarcher reads in one frame, on the main thread: bounds its part to some milliseconds.
 inline constexpr size_t chunks_read_max = 64;
 
+/// Pixels along a side of a material's image on the GPU, to which others are resampled: 2 mm where an image
+/// covers a metre. With mipmaps it takes 1.3 MiB there.
+inline constexpr int material_image_side = 512;
+
+/// Images that are drawn of a palette, 86 MiB. Above: those of later rows are left out, and their colours
+/// show.
+inline constexpr size_t material_images_max = 64;
+
 /// Pixels marched for one that is shown, along a side. Below, pictures are mush; above, four samples a pixel
 /// are averaged and more would not be.
 inline constexpr float render_scale_min = 0.25F;

@@ -35,14 +35,15 @@ Result<void> write_frame(const std::string& folder, size_t frame, const Image& i
   return write_png((std::filesystem::path(folder) / name).string(), image);
 }
 
-Result<Image> read_png(const std::string& file) {
-  png_image header{};
-  header.version = PNG_IMAGE_VERSION;
+namespace {
+
+/// Of a header whose reading has begun, or failed to begin.
+Result<Image> finish_reading(png_image& header, bool begun) {
   const auto wrong = [&](const std::string& why) {
     png_image_free(&header);
-    return fail("picture " + file + " cannot be read: " + why);
+    return fail(why);
   };
-  if (png_image_begin_read_from_file(&header, file.c_str()) == 0) return wrong(header.message);
+  if (!begun) return wrong(header.message);
   if (std::max(header.width, header.height) > static_cast<png_uint_32>(limits::image_side_max))
     return wrong("it has over " + std::to_string(limits::image_side_max) +
                  " pixels a side (limits.image_side_max)");
@@ -52,6 +53,22 @@ Result<Image> read_png(const std::string& file) {
   const png_color black{};
   if (png_image_finish_read(&header, &black, image.rgb.data(), 0, nullptr) == 0) return wrong(header.message);
   return image;
+}
+
+}  // namespace
+
+Result<Image> read_png(const std::string& file) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  Result<Image> image = finish_reading(header, png_image_begin_read_from_file(&header, file.c_str()) != 0);
+  if (!image) return fail("picture " + file + " cannot be read: " + image.error().message);
+  return image;
+}
+
+Result<Image> decode_png(std::span<const uint8_t> bytes) {
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  return finish_reading(header, png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) != 0);
 }
 
 }  // namespace scree

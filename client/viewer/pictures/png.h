@@ -1,6 +1,7 @@
 // Images as files.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "client/render/renderer.h"
@@ -15,5 +16,8 @@ Result<void> write_frame(const std::string& folder, size_t frame, const Image& i
 
 /// Reads a picture of at most limits::image_side_max pixels a side; transparency is lost.
 Result<Image> read_png(const std::string& file);
+
+/// The same of the bytes of a file.
+Result<Image> decode_png(std::span<const uint8_t> bytes);
 
 }  // namespace scree

@@ -4,18 +4,21 @@
 
 namespace scree {
 
-Result<std::unique_ptr<View>> View::create(const MethodEntry& method, float view_radius_m) {
+Result<std::unique_ptr<View>> View::create(const MethodEntry& method, float view_radius_m,
+                                           DecodeImage decode) {
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(view_radius_m);
   if (!renderer) return fail(renderer.error().message);
-  std::unique_ptr<View> view(new View(std::move(*renderer), method, view_radius_m));
+  std::unique_ptr<View> view(new View(std::move(*renderer), method, view_radius_m, decode));
   if (Result<void> chosen = view->methods_.choose(method); !chosen) return fail(chosen.error().message);
   return view;
 }
 
-View::View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m)
+View::View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m,
+           DecodeImage decode)
     : renderer_(std::move(renderer)),
       pool_(default_worker_threads()),
-      methods_(pool_, view_radius_m, method) {}
+      methods_(pool_, view_radius_m, method),
+      images_(pool_, decode) {}
 
 View::~View() = default;
 
@@ -33,7 +36,10 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
     renderer_->set_terrain(session.mirror()->terrain());
   }
   if (session.mirror() == nullptr) return {};
-  renderer_->set_palette(session.mirror()->palette());
+  const std::shared_ptr<const Palette>& palette = session.mirror()->palette();
+  renderer_->set_palette(palette);
+  if (images_.follow(*palette, [&](const Digest& image) { return session.content(image); }))
+    renderer_->set_images(images_.texels());
   return methods_.follow(step.changes, Scene{session.field(), session.pieces(now_s)}, camera);
 }
 

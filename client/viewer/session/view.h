@@ -6,6 +6,7 @@
 #include "client/render/method_switch.h"
 #include "client/render/renderer.h"
 #include "client/render/scene/work_pool.h"
+#include "client/viewer/session/image_loader.h"
 #include "client/viewer/session/viewer_session.h"
 
 namespace scree {
@@ -13,7 +14,9 @@ namespace scree {
 class View {
  public:
   /// Fails without a suitable OpenGL, or without a feature that the method needs.
-  static Result<std::unique_ptr<View>> create(const MethodEntry& method, float view_radius_m);
+  /// Without a decoder, materials show their colours instead of their images.
+  static Result<std::unique_ptr<View>> create(const MethodEntry& method, float view_radius_m,
+                                              DecodeImage decode = nullptr);
   ~View();
 
   /// Takes in a step of the session.
@@ -28,14 +31,18 @@ class View {
   void set_fineness(const Fineness& fineness, float view_radius_m);
 
   MethodSwitch& methods() { return methods_; }
+  /// Whether no image of a material waits to be decoded.
+  bool images_complete() const { return images_.complete(); }
   Renderer& renderer() { return *renderer_; }
 
  private:
-  View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m);
+  View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m,
+       DecodeImage decode);
 
   std::unique_ptr<Renderer> renderer_;
   WorkPool pool_;
   MethodSwitch methods_;
+  ImageLoader images_;
 };
 
 }  // namespace scree

@@ -71,6 +71,8 @@ class ViewerSession {
   /// Carves that are shown so now.
   size_t predictions() const { return client_.predictions() ? client_.predictions()->outstanding() : 0; }
   bool connected() const { return client_.connected(); }
+  /// The file of an image that the palette names; null: it has not come, and perhaps never will.
+  ReceivedContent::Bytes content(const Digest& image) const { return client_.content(image); }
   /// Whether the edits around the camera have arrived: no chunk came for a while.
   bool joined(double now_s) const { return client_.loaded(now_s); }
   /// Whether any piece was made in this world.

@@ -21,6 +21,7 @@ SessionChoice session_of(const ViewerOptions& options, Quality quality) {
   choice.interest_radius_m = radius_of(options).value_or(traits_of(quality).view_radius_m);
   choice.name = options.name;
   choice.cache = options.cache;
+  choice.cache.images = true;
   return choice;
 }
 
@@ -42,7 +43,7 @@ Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
   Result<Sounds> sounds = Sounds::begin(options.sound && !options.offscreen, options.sound_file);
   if (!sounds) return fail(sounds.error().message);
   Result<std::unique_ptr<View>> view =
-      View::create(*options.method, session_of(options, quality).interest_radius_m);
+      View::create(*options.method, session_of(options, quality).interest_radius_m, decode_png);
   if (!view) return fail(view.error().message);
   return std::unique_ptr<Viewing>(new Viewing(options, quality, std::move(*view), std::move(*sounds)));
 }
@@ -79,7 +80,7 @@ Result<void> Viewing::finish() {
 Moment Viewing::moment(double now_s) {
   Moment moment;
   moment.now_s = now_s;
-  moment.current = view->methods().complete();
+  moment.current = view->methods().complete() && view->images_complete();
   moment.joined = joined(now_s);
   moment.carved = session.carved();
   if (Mirror* mirror = session.mirror()) {
