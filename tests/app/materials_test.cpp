@@ -11,6 +11,7 @@
 #include "server/world/settings.h"
 #include "tests/support/flat_world.h"
 #include "tests/support/holds.h"
+#include "tests/support/png_bytes.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/verify_recording.h"
 
@@ -239,11 +240,8 @@ class MaterialOptions : public ::testing::Test {
     return words;
   }
   std::string image(uint32_t side) const {
-    std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
-    for (int twice = 0; twice < 2; ++twice)
-      for (const int shift : {24, 16, 8, 0}) png.push_back(static_cast<char>(side >> shift));
-    png.resize(64, '\0');
-    std::ofstream(folder_ / "image.png", std::ios::binary) << png;
+    std::ofstream(folder_ / "image.png", std::ios::binary)
+        << (side > 100 ? png_header(side, side) : png_bytes(side, side));
     return ground_and_rows(1, "look.albedo = \"image.png\"\n");
   }
 
