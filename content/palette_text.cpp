@@ -208,6 +208,10 @@ Result<Palette> PaletteReader::read(const toml::table& document) {
 
 Result<void> PaletteReader::read_materials(const toml::table& document) {
   const toml::node* node = document.get("material");
+  const toml::node* const in_ground = document["ground"]["material"].node();
+  if (node == nullptr && in_ground != nullptr)
+    return refuse(in_ground->source(),
+                  "this 'material' stands under [ground] and belongs to it: put it before [ground]");
   if (node == nullptr)
     return refuse(0, "it has no material: a palette has 1 to 255, each a table [[material]]");
   const toml::array* list = node->as_array();

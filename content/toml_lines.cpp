@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "content/limits.h"
+#include "shared/base/text.h"
 
 namespace scree {
 
@@ -43,6 +44,8 @@ tl::expected<void, std::string> make_ascii(char* line, size_t size) {
   if (!comment) return tl::unexpected(comment.error());
   if (!std::all_of(line, line + *comment, is_ascii))
     return tl::unexpected(std::string("only comments have other characters than those of ASCII"));
+  if (!is_utf8({line + *comment, size - *comment}))
+    return tl::unexpected(std::string("the comment is not UTF-8: save the file in that encoding"));
   std::replace_if(
       line + *comment, line + size, [](char c) { return !is_ascii(c); }, '?');
   return {};

@@ -154,6 +154,24 @@ Result<Palette> read_materials(const AdminServer& server) {
   return palette_from(talk);
 }
 
+/// The first part of an image has its header.
+Result<ImageFactsOf> read_images(const AdminServer& server, const MaterialRow& row) {
+  ImageFactsOf images;
+  Talk talk = TRY(join(server));
+  for (const std::optional<Digest>& image : {row.look.albedo, row.look.normal}) {
+    if (!image || images.contains(*image)) continue;
+    talk.send(AskContentMessage{{*image}});
+    for (;;) {
+      const auto part = TRY(talk.next<ContentMessage>("image"));
+      if (part.digest != *image || part.offset != 0) continue;
+      const auto size = check_image(part.part);
+      images[*image] = {part.total, size ? *size : ImageSize{}};
+      break;
+    }
+  }
+  return images;
+}
+
 Result<SettingValues> read_settings(const AdminServer& server) {
   Talk talk = TRY(join(server));
   return settings_of_status(talk);

@@ -5,12 +5,15 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "client/connection/endpoint.h"
 #include "proto/messages.h"
+#include "shared/base/digest.h"
 #include "shared/base/result.h"
+#include "shared/material/material_image.h"
 #include "shared/material/palette.h"
 
 namespace scree {
@@ -43,9 +46,17 @@ Result<Palette> read_materials(const AdminServer& server);
 /// All rows, with a few numbers each; or as JSON, with all.
 std::string materials_lines(const Palette& palette);
 std::string materials_json(const Palette& palette);
+/// What the server says of an image when a client begins to fetch it.
+struct ImageFacts {
+  uint32_t bytes = 0;  ///< 0: the server does not have it
+  ImageSize size;
+};
+using ImageFactsOf = std::map<Digest, ImageFacts>;
+/// Reads them for the images that a row names.
+Result<ImageFactsOf> read_images(const AdminServer& server, const MaterialRow& row);
 /// All members of one row, with their units.
-std::string material_lines(const MaterialRow& row);
-std::string material_json(const MaterialRow& row);
+std::string material_lines(const MaterialRow& row, const ImageFactsOf& images = {});
+std::string material_json(const MaterialRow& row, const ImageFactsOf& images = {});
 /// The material of that name; the error names the nearest one.
 Result<Material> material_named(const Palette& palette, const std::string& name);
 /// Changes these numbers, named "brick.strength", as settings: all or none. The error is the server's

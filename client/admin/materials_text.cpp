@@ -1,3 +1,4 @@
+#include <array>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -20,19 +21,47 @@ std::string number_text(float number) {
   return text;
 }
 
-Json json_of(const MaterialRow& row) {
+struct RowImage {
+  const char* name;
+  std::optional<Digest> digest;
+};
+std::array<RowImage, 2> images_of(const MaterialRow& row) {
+  return {{{"look.albedo", row.look.albedo}, {"look.normal", row.look.normal}}};
+}
+
+void add_images(Json& json, const MaterialRow& row, const ImageFactsOf& images) {
+  for (const RowImage& image : images_of(row)) {
+    if (!image.digest) continue;
+    const std::string name = image.name;
+    json[name] = hex_of(*image.digest);
+    const auto facts = images.find(*image.digest);
+    if (facts == images.end()) continue;
+    json[name + ".bytes"] = facts->second.bytes;
+    json[name + ".pixels"] = {facts->second.size.width, facts->second.size.height};
+  }
+}
+
+std::string image_words(const Digest& digest, const ImageFactsOf& images) {
+  const auto facts = images.find(digest);
+  if (facts == images.end()) return hex_of(digest);
+  const auto& [bytes, size] = facts->second;
+  if (bytes == 0) return hex_of(digest) + ", which the server does not have";
+  return hex_of(digest) + ", " + std::to_string(size.width) + " × " + std::to_string(size.height) +
+         " pixels, " + std::to_string(bytes) + " bytes";
+}
+
+Json json_of(const MaterialRow& row, const ImageFactsOf& images = {}) {
   Json json{{"name", row.name}};
   for (const MaterialNumber& member : material_numbers())
     json[std::string(member.name)] = Json::parse(number_text(member.get(row)));
   for (const MaterialChoice& choice : material_choices())
     json[std::string(choice.name)] = choice.values[choice.get(row)];
-  if (row.look.albedo) json["look.albedo"] = hex_of(*row.look.albedo);
-  if (row.look.normal) json["look.normal"] = hex_of(*row.look.normal);
+  add_images(json, row, images);
   return json;
 }
 
 std::string member_line(const std::string& name, const std::string& value, std::string_view unit = {}) {
-  char text[160];
+  char text[200];
   std::snprintf(text, sizeof text, "%-18s %s%s%.*s\n", name.c_str(), value.c_str(), unit.empty() ? "" : " ",
                 static_cast<int>(unit.size()), unit.data());
   return text;
@@ -61,19 +90,19 @@ std::string materials_json(const Palette& palette) {
   return list.dump(2) + "\n";
 }
 
-std::string material_lines(const MaterialRow& row) {
+std::string material_lines(const MaterialRow& row, const ImageFactsOf& images) {
   std::string lines = member_line("name", row.name);
   for (const MaterialNumber& member : material_numbers())
     lines += member_line(std::string(member.name), number_text(member.get(row)), member.unit);
   for (const MaterialChoice& choice : material_choices())
     lines += member_line(std::string(choice.name), std::string(choice.values[choice.get(row)]));
-  if (row.look.albedo) lines += member_line("look.albedo", hex_of(*row.look.albedo));
-  if (row.look.normal) lines += member_line("look.normal", hex_of(*row.look.normal));
+  for (const RowImage& image : images_of(row))
+    if (image.digest) lines += member_line(image.name, image_words(*image.digest, images));
   return lines;
 }
 
-std::string material_json(const MaterialRow& row) {
-  return json_of(row).dump(2) + "\n";
+std::string material_json(const MaterialRow& row, const ImageFactsOf& images) {
+  return json_of(row, images).dump(2) + "\n";
 }
 
 Result<Material> material_named(const Palette& palette, const std::string& name) {

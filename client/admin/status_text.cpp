@@ -74,13 +74,22 @@ Json json_of(const StatusMessage& status, const std::vector<std::string>& materi
         {"requests_held", status.paging.requests_held}}}};
 }
 
-std::string line(const std::string& name, const Json& value) {
-  char text[96];
-  if (value.is_number_float())
-    std::snprintf(text, sizeof text, "%-26s %.3f\n", name.c_str(), value.get<double>());
-  else
-    std::snprintf(text, sizeof text, "%-26s %s\n", name.c_str(), value.dump().c_str());
+/// Columns of a line's name.
+constexpr size_t name_columns = 26;
+
+std::string value_text(const Json& value) {
+  if (!value.is_number_float()) return value.dump();
+  char text[400];  // of a double, with three digits behind the point
+  std::snprintf(text, sizeof text, "%.3f", value.get<double>());
   return text;
+}
+
+/// A group of numbers is "name=number name=number".
+std::string line(const std::string& name, const Json& value) {
+  std::string text = name + std::string(name.size() < name_columns ? name_columns - name.size() : 0, ' ');
+  if (!value.is_object()) return text + " " + value_text(value) + "\n";
+  for (const auto& [part, of_part] : value.items()) text += " " + part + "=" + value_text(of_part);
+  return text + "\n";
 }
 
 }  // namespace

@@ -95,7 +95,8 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
       ->capture_default_str();
   app.add_option("--paint", bot.paint,
                  "before each carve, paint the rock with this material of the world's palette")
-      ->envname("SCREE_PAINT");
+      ->envname("SCREE_PAINT")
+      ->check([](const std::string& name) { return name.empty() ? "must not be empty" : ""; }, "");
 }
 
 void add_ending(CLI::App& app, BotOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "content/files/png_pixels.h"
 #include "content/limits.h"
 #include "crypto/sha256.h"
 #include "shared/base/regular_file.h"
@@ -45,6 +46,7 @@ Result<Digest> ImageFolder::read(const std::string& path) {
   if (const auto checked = check_image(bytes); !checked) return say(checked.error());
   const Digest digest = sha256(bytes);
   if (files_.contains(digest)) return digest;
+  if (const auto checked = check_pixels(bytes); !checked) return say(checked.error());
   if (bytes_ + bytes.size() > limits::palette_images_bytes_max)
     return fail(path + ": with it, the palette's images are over the limit of " +
                 std::to_string(limits::palette_images_bytes_max >> 20U) + " MiB in all");

@@ -22,8 +22,8 @@ class ImageFolder {
   explicit ImageFolder(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   /// Reads an image, `path` from the folder on. Refuses a path that leads out of it, also by a link, what is
-  /// no regular file, no PNG, or beyond the limits of shared/material/material_image.h. The error names the
-  /// path and the limit.
+  /// no regular file, no PNG, damaged, or beyond the limits of shared/material/material_image.h. The error
+  /// names the path and the limit.
   Result<Digest> read(const std::string& path);
 
   /// All that were read, each once.

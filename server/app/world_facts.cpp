@@ -19,15 +19,16 @@ std::string hash_text(uint64_t hash) {
   return fmt::format("{:016x}", hash);
 }
 
-/// The palette without the numbers that settings change.
-Json describe(const Palette& palette, bool is_builtin) {
-  return {{"palette", is_builtin ? "built-in" : "of a file"},
-          {"digest", hex_of(palette_digest(palette))},
-          {"rows", palette.rows.size()},
-          {"names", palette.names()}};
-}
-
 }  // namespace
+
+std::string palette_facts(const Palette* palette) {
+  const Palette& own = palette != nullptr ? *palette : builtin_palette();
+  const Json json{{"palette", palette == nullptr ? "built-in" : "of a file"},
+                  {"digest", hex_of(palette_digest(own))},
+                  {"rows", own.rows.size()},
+                  {"names", own.names()}};
+  return json.dump();
+}
 
 std::string ledger_json(const MaterialLedger& ledger, const Palette& palette) {
   Json json = Json::object();
@@ -60,7 +61,7 @@ std::string world_facts(const std::string& path, const WorldRows& rows, const Ch
                   {"seed", moment.config.terrain.random_seed},
                   {"voxel_size_m", moment.config.terrain.voxel_size_m},
                   {"tick_rate_hz", moment.config.tick_rate_hz},
-                  {"materials", describe(palette, moment.config.palette == nullptr)},
+                  {"materials", Json::parse(palette_facts(moment.config.palette.get()))},
                   {"settings", std::move(settings)},
                   {"tick", moment.tick},
                   {"seconds", static_cast<double>(moment.tick) / moment.config.tick_rate_hz},

@@ -14,6 +14,9 @@ struct ChunkSums {
   int64_t format = 0;  ///< of the file
 };
 
+/// One JSON object: the palette without the numbers that settings change. `palette` null: the built-in one.
+std::string palette_facts(const Palette* palette);
+
 /// One JSON object: the materials by name, with their part of the ledger, but for those that have none.
 std::string ledger_json(const MaterialLedger& ledger, const Palette& palette);
 

@@ -14,7 +14,8 @@ Result<void> set_materials(const std::string& path, LiveConfig& config) {
   // Stored bricks name their materials by number, as a kept world does.
   if (world.terrain.heights != nullptr && world.terrain.heights->bricks())
     if (const auto may = validate_change(*world.palette, content.palette); !may)
-      return fail(path + ": " + may.error().message + " (--ground)");
+      return fail(path +
+                  ": it must have all rows of the ground, whose bricks are of them: " + may.error().message);
   config.materials = std::make_shared<const Palette>(std::move(content.palette));
   config.images = std::make_shared<const ContentFiles>(std::move(content.files));
   world.palette = config.materials;

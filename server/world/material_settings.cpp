@@ -73,7 +73,7 @@ Result<void> set_material(const Palette& own, MaterialNumbers& numbers, const Se
   if (!number)
     return fail(row.name + ": " + std::string(place.member) + " is a number or " + std::string(own_number) +
                 ", not '" + setting.value + "'");
-  if (is_own) {
+  if (*number == *before) {
     numbers.erase(key);
     return {};
   }

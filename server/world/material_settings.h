@@ -28,8 +28,8 @@ inline bool is_material_setting(std::string_view name) {
   return name.starts_with(material_prefix);
 }
 
-/// Changes one number. The error names the row, the member and its bounds, or the nearest name; `numbers`
-/// stay then. Refuses more than limits::material_settings_max.
+/// Changes one number; one that is the palette's own leaves the list. The error names the row, the member and
+/// its bounds, or the nearest name; `numbers` stay then. Refuses more than limits::material_settings_max.
 Result<void> set_material(const Palette& own, MaterialNumbers& numbers, const SettingValue& setting);
 
 /// As settings, by name.

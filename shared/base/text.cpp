@@ -85,6 +85,15 @@ std::optional<std::string_view> fault_of_text(std::string_view text) {
   return std::nullopt;
 }
 
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const size_t bytes = first_of(text).bytes;
+    if (bytes == 0) return false;
+    text.remove_prefix(bytes);
+  }
+  return true;
+}
+
 std::string showable(std::string_view text, size_t bytes_max) {
   std::string shown;
   uint32_t before = 0;

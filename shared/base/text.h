@@ -15,6 +15,9 @@ namespace scree {
 /// What is wrong with it, as the end of a sentence; nothing when it may be shown.
 std::optional<std::string_view> fault_of_text(std::string_view text);
 
+/// RFC 3629: shortest forms, no surrogates.
+bool is_utf8(std::string_view text);
+
 /// The text cut to the limit at the end of a character, each character that may not be shown replaced by a
 /// space, each byte that is no UTF-8 by '?'. fault_of_text() finds nothing in it.
 std::string showable(std::string_view text, size_t bytes_max);

@@ -71,15 +71,14 @@ Result<void> validate_change(const Palette& before, const Palette& next) {
   for (size_t i = 0; i < before.rows.size(); ++i) {
     const std::string& name = before.rows[i].name;
     if (i >= next.rows.size())
-      return fail("the world has material " + std::to_string(i) + ", " + name +
-                  ", and the new palette does not: materials may be added, but not removed");
+      return fail("material " + std::to_string(i) + " is " + name +
+                  " so far, and the new palette has none: materials may be added, but not removed");
     if (next.rows[i].name != name)
-      return fail("material " + std::to_string(i) + " is " + name + " in the world, and " +
-                  next.rows[i].name +
+      return fail("material " + std::to_string(i) + " is " + name + " so far, and " + next.rows[i].name +
                   " in the new palette: materials keep their numbers and names; new ones come last");
   }
   if (!(next.ground == before.ground))
-    return fail("the new palette has another [ground] than the world, whose terrain it decides");
+    return fail("the new palette has another [ground] than so far, which decides the terrain");
   return {};
 }
 

@@ -5,12 +5,15 @@
 #include <gtest/gtest.h>
 
 #include "client/admin/admin.h"
+#include "content/builtin_palette.h"
+#include "crypto/sha256.h"
 #include "server/app/live_server.h"
 #include "server/app/saved_world.h"
 #include "server/app/server_options.h"
 #include "server/world/settings.h"
 #include "tests/support/flat_world.h"
 #include "tests/support/holds.h"
+#include "tests/support/png_bytes.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/verify_recording.h"
 
@@ -62,6 +65,15 @@ TEST(MaterialSettings, a_mistake_names_row_member_bounds_and_the_nearest_name) {
   EXPECT_FALSE(refusal(palette, {"material.brick.breaks", "even"}).empty());
 }
 
+TEST(MaterialSettings, that_are_the_palette_s_own_are_not_listed) {
+  WorldConfig config;
+  const auto own = std::to_string(config.palette->row(*config.palette->named("brick")).strength_m_s);
+  ASSERT_TRUE(set(config, {"material.brick.strength", "11.5"}));
+  EXPECT_EQ(config.material_numbers.size(), 1U);
+  ASSERT_TRUE(set(config, {"material.brick.strength", own}));
+  EXPECT_TRUE(config.material_numbers.empty());
+}
+
 TEST(MaterialSettings, are_bounded) {
   WorldConfig config;
   size_t set_ones = 0;
@@ -69,7 +81,7 @@ TEST(MaterialSettings, are_bounded) {
   for (const std::string_view row : config.palette->names())
     for (const char* member : {"density", "friction", "strength", "seed_density", "bearing.pressed",
                                "bearing.hanging", "bearing.sideways", "bearing.bending", "sound.pitch"}) {
-      const std::string value = std::string(member) == "density" ? "2000" : "1.5";
+      const std::string value = std::string(member) == "density" ? "2001" : "1.375";
       const auto done = set(config, {"material." + std::string(row) + "." + member, value});
       set_ones += done ? 1 : 0;
       if (!done) refused = done.error().message;
@@ -214,6 +226,31 @@ TEST_F(KeptMaterials, a_palette_of_another_world_is_refused_and_nothing_is_lost)
   EXPECT_EQ(**kept, builtin_palette());
 }
 
+TEST_F(MaterialSession, images_are_shown_with_their_size) {
+  auto content = builtin_palette();
+  const std::string png = png_bytes(48, 32);
+  const std::vector<uint8_t> bytes(png.begin(), png.end());
+  const Digest there = sha256(bytes), missing = sha256(std::vector<uint8_t>{1});
+  content.rows[7].look.albedo = there;
+  content.rows[7].look.normal = missing;
+  LiveConfig config;
+  config.world = flat_world();
+  config.world.palette = config.materials = std::make_shared<const Palette>(content);
+  config.images = std::make_shared<const ContentFiles>(ContentFiles{{there, bytes}});
+  auto started = LiveServer::start(config);
+  ASSERT_TRUE(started) << started.error().message;
+  server_ = std::move(*started);
+  target_.port = server_->port();
+  target_.within = std::chrono::seconds(60);
+  const auto images = read_images(target_, content.rows[7]);
+  ASSERT_TRUE(images) << images.error().message;
+  const std::string lines = material_lines(content.rows[7], *images);
+  EXPECT_TRUE(holds(lines, "look.albedo        " + hex_of(there) + ", 48 × 32 pixels, " +
+                               std::to_string(bytes.size()) + " bytes\n"))
+      << lines;
+  EXPECT_TRUE(holds(lines, hex_of(missing) + ", which the server does not have\n")) << lines;
+}
+
 // ---- of the command line
 
 class MaterialOptions : public ::testing::Test {
@@ -239,11 +276,8 @@ class MaterialOptions : public ::testing::Test {
     return words;
   }
   std::string image(uint32_t side) const {
-    std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
-    for (int twice = 0; twice < 2; ++twice)
-      for (const int shift : {24, 16, 8, 0}) png.push_back(static_cast<char>(side >> shift));
-    png.resize(64, '\0');
-    std::ofstream(folder_ / "image.png", std::ios::binary) << png;
+    std::ofstream(folder_ / "image.png", std::ios::binary)
+        << (side > 100 ? png_header(side, side) : png_bytes(side, side));
     return ground_and_rows(1, "look.albedo = \"image.png\"\n");
   }
 

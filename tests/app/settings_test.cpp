@@ -340,6 +340,14 @@ TEST_F(AdminSession, status_says_what_the_ticks_had_to_do) {
   StatusMessage told = *status;
   told.latency.worst.sending_us = 1234;
   EXPECT_TRUE(holds(status_lines(told), "request_ms.sending_worst   1.234\n"));
+  const int64_t most = std::numeric_limits<int64_t>::max();
+  const std::string digits = std::to_string(most);
+  told.materials = MaterialLedger({{most, most, most, most, -most}, {1, 2, 3, 4, 5}});
+  EXPECT_TRUE(holds(status_lines(told, {std::string(32, 'x'), "clay"}),
+                    "materials." + std::string(32, 'x') + " terrain=" + digits + " pieces=" + digits +
+                        " dust=" + digits + " poured=" + digits + " converted=-" + digits +
+                        "\nmaterials.clay             terrain=1 pieces=2 dust=3 poured=4 converted=5\n"))
+      << status_lines(told);
 }
 
 TEST_F(AdminSession, whoever_does_not_is_refused) {

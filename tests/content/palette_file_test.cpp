@@ -182,8 +182,23 @@ TEST(PaletteFile, text_on_which_the_parser_breaks_its_own_rules_is_refused_with_
   }
 }
 
+TEST(PaletteFile, materials_may_be_a_list_of_inline_tables) {
+  const std::string list = "material = [ { name = \"rock\" },\n  { name = \"clay\", density = 1800 } ]\n";
+  const Result<Palette> read = read_palette(list + ground, "m.toml");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->names(), (std::vector<std::string_view>{"rock", "clay"}));
+  EXPECT_EQ(read->rows[1].density_kg_m3, 1800.0F);
+  EXPECT_EQ(refusal("material = [ { name = \"rock\" },\n  { name = \"rock\" } ]\n" + ground),
+            "m.toml:2: rock: another material, in line 1, has this name");
+  EXPECT_EQ(refusal(ground + list),
+            "m.toml:5: this 'material' stands under [ground] and belongs to it: put it before [ground]");
+}
+
 TEST(PaletteFile, comments_alone_have_other_characters_than_ascii) {
-  EXPECT_EQ(refusal("\xEF\xBB\xBF" + ground + rock + "# \xC3\xA9 \xE2\x80\xA8 \xFF\n"), "");
+  EXPECT_EQ(refusal("\xEF\xBB\xBF" + ground + rock + "# \xC3\xA9 \xE2\x80\xA8\n"), "");
+  for (const char* bytes : {"\xFF\xFE", "\xC3", "\xED\xA0\x80"})
+    EXPECT_EQ(refusal(ground + rock + "# " + bytes + "\n"),
+              "m.toml:7: the comment is not UTF-8: save the file in that encoding");
   EXPECT_EQ(refusal(ground + rock + "breaks = \"even\" # \xC3\xA9\n"), "");
   EXPECT_EQ(refusal(ground + rock + "breaks = 'ev#en' # \xC3\xA9\n"),
             "m.toml:7: rock: breaks 'ev#en' is not even, grain, slabs or shards");

@@ -170,16 +170,16 @@ TEST(PaletteMembers, a_change_may_not_remove_rename_or_reorder_rows_or_alter_the
   Palette next = before;
   next.rows.pop_back();
   next.ground.cap = next.ground.soil = next.ground.bulk;
-  EXPECT_EQ(refusal_of_change(before, next),
-            "the world has material 1, sand, and the new palette does not: materials may be added, but not "
-            "removed");
+  EXPECT_EQ(
+      refusal_of_change(before, next),
+      "material 1 is sand so far, and the new palette has none: materials may be added, but not removed");
   next = before;
   std::swap(next.rows[0], next.rows[1]);
-  EXPECT_TRUE(refusal_of_change(before, next)
-                  .starts_with("material 0 is rock in the world, and sand in the new palette"));
+  EXPECT_TRUE(
+      refusal_of_change(before, next).starts_with("material 0 is rock so far, and sand in the new palette"));
   next = before;
   next.rows[1].name = "gravel";
-  EXPECT_TRUE(refusal_of_change(before, next).starts_with("material 1 is sand in the world, and gravel"));
+  EXPECT_TRUE(refusal_of_change(before, next).starts_with("material 1 is sand so far, and gravel"));
   next = before;
   next.ground.cap_depth_m = 2.0F;
   EXPECT_TRUE(refusal_of_change(before, next).starts_with("the new palette has another [ground]"));

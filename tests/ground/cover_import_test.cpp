@@ -83,6 +83,10 @@ TEST_F(CoverImportTest, of_another_place_or_without_classes_is_refused_in_words)
                 .find("whole numbers"),
             std::string::npos);
   EXPECT_NE(refusal(grid("bad.asc", 12, 4.0, one), "1 = cheese\n").find("cheese"), std::string::npos);
+  for (const char* name : {"forest", "99999999999999999999", "1.5"})
+    EXPECT_NE(refusal(grid("one.asc", 12, 4.0, one), "1 = snow\n" + std::string(name) + " = snow\n")
+                  .find("classes:2: '" + std::string(name) + "' is no class of a raster"),
+              std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder_ / "made.ground"));
 }
 

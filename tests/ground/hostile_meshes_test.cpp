@@ -76,6 +76,9 @@ TEST_F(HostileMeshes, obj_reads_materials_of_its_own_folder_alone) {
   EXPECT_EQ(refusal("a.obj", "mtllib own.mtl\nusemtl rock\n" + triangle), "");
   EXPECT_EQ(refusal("a.obj", "mtllib none.mtl\n" + triangle), "") << "colours are not needed";
   EXPECT_TRUE(holds(refusal("a.obj", "mtllib ../secret.mtl\n" + triangle), "it names the file '"));
+  write("numbers.mtl", "newmtl rock\nKd 0.1 0.1 0.1\nKd\n");
+  EXPECT_TRUE(holds(refusal("a.obj", "mtllib numbers.mtl\n" + triangle),
+                    "numbers.mtl:3: 'Kd' stands without its numbers"));
 }
 
 TEST_F(HostileMeshes, a_file_is_read_as_its_name_says) {

@@ -103,7 +103,11 @@ TEST(HostileVox, nodes_that_go_round_or_nowhere_are_named) {
   VoxBytes vox = with_model();
   vox.transform(0, 1, {});
   vox.group(1, {0});
-  expect_refusal(vox.file(), "limits.vox_depth_max");
+  expect_refusal(vox.file(), "node 0 is below itself");
+  vox = with_model();
+  for (int i = 0; i < 70; ++i) vox.group(i, {i + 1});
+  vox.shape(70, 0);
+  expect_refusal(vox.file(), "its nodes are nested more than 64 deep (limits.vox_depth_max)");
   vox = with_model();
   vox.transform(0, 7, {});
   expect_refusal(vox.file(), "node 7");
@@ -137,13 +141,14 @@ TEST(HostileVox, turns_and_places_that_are_none_are_named) {
     VoxBytes vox = with_model();
     vox.transform(0, 1, {{"_r", turn}});
     vox.shape(1, 0);
-    expect_refusal(vox.file(), "a turn");
+    expect_refusal(vox.file(),
+                   "node 0: its attribute _r is '" + std::string(turn) + "', which is not a turn");
   }
   for (const char* place : {"1 2", "1 2 3 4", "a b c", "", "99999999 0 0"}) {
     VoxBytes vox = with_model();
     vox.transform(0, 1, {{"_t", place}});
     vox.shape(1, 0);
-    expect_refusal(vox.file(), "a place");
+    expect_refusal(vox.file(), "node 0: its attribute _t is '" + std::string(place) + "', which is ");
   }
 }
 

@@ -211,6 +211,22 @@ TEST_F(ImportMaterials, come_back_from_a_mesh_that_was_exported) {
   }
 }
 
+TEST_F(ImportMaterials, of_their_own_colours_come_back_as_equal_rows) {
+  import(two_blocks("Red_Tiles", "Moss"));
+  const auto own = file_->palette();
+  const ChunkBox box = chunks_of({-7.9F, 0.1F, -7.9F}, {7.9F, 7.9F, 7.9F}, 0.25F);
+  for (const char* name : {"out.glb", "out.obj"}) {
+    ASSERT_TRUE(export_mesh(*field_, *own, box, folder_ / name, no_bar));
+    const auto read = read_solids({folder_ / name}, {});
+    ASSERT_TRUE(read) << read.error().message;
+    for (const char* row : {"red_tiles", "moss"}) {
+      const auto back = read->palette->named(row);
+      ASSERT_TRUE(back) << name << " " << row;
+      EXPECT_EQ(read->palette->row(*back), own->row(*own->named(row))) << name << " " << row;
+    }
+  }
+}
+
 TEST_F(ImportMaterials, of_the_ground_below_keep_their_rows) {
   import(two_blocks("Red_Tiles", "glass"));
   const auto below = file_;
@@ -231,17 +247,38 @@ TEST_F(ImportMaterials, of_the_ground_below_keep_their_rows) {
 TEST_F(ImportMaterials, maps_are_read_and_their_faults_named) {
   const auto read = [&](const std::string& text) {
     std::ofstream(folder_ / "map") << text;
-    return read_material_map(folder_ / "map", builtin_palette());
+    return read_map_lines(folder_ / "map", builtin_palette());
   };
-  const auto map = read("# comment\n\n11 = snow\n\"My Oak\" = 'timber'\r\na = b = ice\n");
-  ASSERT_TRUE(map) << map.error().message;
-  EXPECT_EQ(map->size(), 3U);
-  EXPECT_EQ(map->at("My Oak"), named("timber"));
-  EXPECT_EQ(map->at("a = b"), named("ice"));
+  const auto lines = read("# comment\n\n11 = snow\n\"My Oak\" = 'timber'\r\na = b = ice\n");
+  ASSERT_TRUE(lines) << lines.error().message;
+  const MaterialMap map = map_of(*lines);
+  EXPECT_EQ(map.size(), 3U);
+  EXPECT_EQ(map.at("My Oak"), named("timber"));
+  EXPECT_EQ(map.at("a = b"), named("ice"));
   EXPECT_TRUE(scree::holds(read("11 snow\n").error().message, "map:1: a line is"));
   EXPECT_TRUE(scree::holds(read("1 = ice\n2 = cheese\n").error().message, "map:2: 'cheese' is no material"));
   EXPECT_TRUE(scree::holds(read("1 = ice\n1 = rock\n").error().message, "map:2: the same"));
-  EXPECT_FALSE(read_material_map(folder_ / "none", builtin_palette()));
+  EXPECT_TRUE(scree::holds(read("1 = ice\n = brick\n").error().message, "map:2: there is no name before"));
+  EXPECT_FALSE(read_map_lines(folder_ / "none", builtin_palette()));
+}
+
+TEST_F(ImportMaterials, lines_of_a_map_that_name_nothing_are_told) {
+  std::ofstream(folder_ / "two.obj") << two_blocks("Red_Tiles", "Moss");
+  std::ofstream(folder_ / "map") << "Moss = ice\nOak plank = timber\n";
+  const auto lines = read_map_lines(folder_ / "map", builtin_palette());
+  ASSERT_TRUE(lines) << lines.error().message;
+  const auto read = read_solids({folder_ / "two.obj"}, {.material_map = map_of(*lines)});
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->map_used, std::set<std::string>{"Moss"});
+  EXPECT_EQ(words_on_unused("map", *lines, read->map_used),
+            std::vector<std::string>{"map:2: 'Oak plank' names no material of the imported rock"});
+}
+
+TEST_F(ImportMaterials, without_their_file_or_of_another_case_are_told) {
+  std::filesystem::remove(folder_ / "two.mtl");
+  import(two_blocks("BRICK", "glass"));
+  EXPECT_TRUE(scree::holds(said_, "it names 'two.mtl', which is not there")) << said_;
+  EXPECT_TRUE(scree::holds(said_, "'BRICK' (did you mean brick?) as brick_2")) << said_;
 }
 
 TEST_F(ImportMaterials, rows_of_files_have_names_that_may_be_and_no_two_the_same) {

@@ -65,6 +65,25 @@ TEST_F(ImportProgram, takes_a_palette_a_map_and_voxels) {
   EXPECT_EQ(run(hill_ + " -o " + ground + " --cover " + hill_).first, 2) << "a cover needs a map";
 }
 
+TEST_F(ImportProgram, refuses_options_that_do_nothing) {
+  const std::string mesh = SCREE_SOURCE_DIR "/tests/data/import/house_one.obj",
+                    to = " -o " + (folder_ / "a.ground");
+  std::ofstream(folder_ / "m") << "1 = snow\n";
+  const std::string map = folder_ / "m";
+  for (const auto& [arguments, words] :
+       {std::pair(mesh + to + " --cover " + hill_ + " --cover-map " + map,
+                  "--cover is only for elevation models"),
+        std::pair(mesh + to + " --grid a", "--grid is only for OpenVDB files"),
+        std::pair(hill_ + to + " --material rock", "--material is only for solids"),
+        std::pair(hill_ + to + " --material-map " + map, "--material-map is only for solids"),
+        std::pair(hill_ + to + " --palette 3", "--palette is only for meshes and MagicaVoxel files"),
+        std::pair(hill_ + to + " --voxel-size 1", "--voxel-size is only for solids and for a cover")}) {
+    const auto [code, said] = run(arguments);
+    EXPECT_EQ(code, 1) << arguments;
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+  }
+}
+
 /// A box of 400 m, whose surface is 42 million voxels: a second is not enough for it, and enough to read it.
 TEST_F(ImportProgram, ends_at_its_limit_of_time_and_leaves_nothing) {
   const std::string box = folder_ / "box.obj", ground = folder_ / "box.ground";

@@ -158,6 +158,21 @@ TEST_F(SolidFiles, what_is_exported_comes_back_as_the_same_ground) {
   ASSERT_TRUE(resampled && !resampled->exact);
 }
 
+TEST_F(SolidFiles, an_export_that_cuts_level_rock_comes_back_as_the_same_file) {
+  const auto first = read_solids({written("hut.obj", {block({-4, -2, -3}, {4, 5, 3})})}, {});
+  ASSERT_TRUE(first);
+  const Digest name = name_of(import(*first, "first.ground").header);
+  const auto file = GroundFile::open(folder_ / "first.ground");
+  ASSERT_TRUE(file);
+  MapField field({.heights = *file});
+  const auto box = whole_of(field);
+  ASSERT_TRUE(box && box->lo.y < 0);
+  ASSERT_TRUE(export_vdb(field, builtin_palette(), *box, folder_ / "hut.vdb", [](double) {}));
+  const auto back = read_solids({folder_ / "hut.vdb"}, {});
+  ASSERT_TRUE(back) << back.error().message;
+  EXPECT_EQ(name_of(import(*back, "second.ground").header), name);
+}
+
 TEST_F(SolidFiles, edits_and_paint_are_exported_with_the_ground) {
   const auto read = read_solids({written("block.obj", {block({-4, 3, -4}, {4, 11, 4})})}, {});
   ASSERT_TRUE(read);

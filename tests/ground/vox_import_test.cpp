@@ -125,6 +125,22 @@ TEST_F(VoxImportTest, names_and_maps_choose_rows_of_the_palette) {
   EXPECT_EQ(file_->palette(), shared_builtin_palette()) << "then there are no rows of the file";
 }
 
+TEST_F(VoxImportTest, more_colours_than_rows_share_them_by_median_cut) {
+  VoxBytes vox;
+  std::vector<std::array<int, 4>> voxels;
+  for (int i = 1; i < 256; ++i) voxels.push_back({i, 0, 0, i});
+  vox.model({256, 1, 1}, voxels);
+  std::ofstream(folder_ / "all.vox", std::ios::binary) << vox.file();
+  const auto refused = read_solids({folder_ / "all.vox"}, {});
+  ASSERT_FALSE(refused) << "255 colours and the built-in rows";
+  EXPECT_TRUE(scree::holds(refused.error().message, "--palette makes fewer"));
+  imported(vox.file(), {.colour_rows_max = 100});
+  EXPECT_EQ(file_->palette()->rows.size(), builtin_palette().rows.size() + 100);
+  EXPECT_TRUE(scree::holds(said_, "255 became 100 rows of the palette (--palette)")) << said_;
+  imported(vox.file(), {.colour_rows_max = 0});
+  EXPECT_EQ(file_->palette(), shared_builtin_palette());
+}
+
 TEST_F(VoxImportTest, a_scale_makes_voxels_larger_and_a_place_moves_them) {
   VoxBytes vox;
   vox.model({2, 1, 1}, {{0, 0, 0, 1}, {1, 0, 0, 2}});

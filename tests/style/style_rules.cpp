@@ -153,6 +153,7 @@ const std::vector<Library>& libraries() {
       {"cmark-gfm", std::regex("cmark.*"), {"studies/report/"}},
       {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"tools/import/", "tools/export/gdal/"}},
       {"toml++", std::regex("toml(\\+\\+|plusplus)?/.*"), {"content/"}},
+      {"libpng", std::regex("png\\.h"), {"content/files/", "client/viewer/pictures/"}},
       {"OpenSSL", std::regex("openssl/.*"), {"crypto/", "tests/"}},
       {"Protobuf", std::regex("google/protobuf/.*|.*\\.pb\\.h"), {"proto/", "server/formats/"}},
   };

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fstream>
+#include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -62,10 +64,23 @@ void write_obj(std::ostream& out, const WeldedSurface& surface, const Palette& p
   }
 }
 
+/// Kd is linear, as the colours of rows are.
+void write_mtl(std::ostream& out, const WeldedSurface& surface, const Palette& palette) {
+  std::optional<Material> last;
+  for (const auto& t : surface.triangles) {
+    const Material own = surface.materials[t[0]];
+    if (own == last) continue;
+    last = own;
+    const MaterialRow& row = palette.row_or_first(own);
+    const auto& colour = row.look.colour;
+    out << fmt::format("newmtl {}\nKd {} {} {}\n", row.name, colour[0], colour[1], colour[2]);
+  }
+}
+
 // glTF 2.0 (Khronos, ISO/IEC 12113), "GLB File Format Specification": a header and two chunks, each as long
 // as a multiple of four bytes.
 constexpr uint32_t glb_magic = 0x46546C67, glb_version = 2, chunk_json = 0x4E4F534A, chunk_bin = 0x004E4942;
-constexpr int type_u8 = 5121, type_u32 = 5125, type_f32 = 5126;
+constexpr int type_u32 = 5125, type_f32 = 5126;
 constexpr int target_vertices = 34962, target_indices = 34963;
 
 struct Bounds {
@@ -87,10 +102,12 @@ Bounds bounds_of(const WeldedSurface& surface, float step_m) {
 
 using Json = nlohmann::json;
 
+/// Linear, as glTF's factors are.
 Json material_json(const MaterialRow& row) {
+  const auto& colour = row.look.colour;
   return {{"name", row.name},
           {"pbrMetallicRoughness",
-           {{"baseColorFactor", {1.0, 1.0, 1.0, 1.0}},
+           {{"baseColorFactor", {colour[0], colour[1], colour[2], 1.0}},
             {"metallicFactor", 0.0},
             {"roughnessFactor", row.look.roughness}}}};
 }
@@ -120,14 +137,9 @@ Json glb_accessors(const WeldedSurface& surface, const std::vector<GlbPart>& par
                                  {"count", points},
                                  {"type", "VEC3"},
                                  {"min", lo},
-                                 {"max", hi}},
-                                {{"bufferView", 1},
-                                 {"componentType", type_u8},
-                                 {"normalized", true},
-                                 {"count", points},
-                                 {"type", "VEC4"}}});
+                                 {"max", hi}}});
   for (const GlbPart& part : parts)
-    accessors.push_back({{"bufferView", 2},
+    accessors.push_back({{"bufferView", 1},
                          {"byteOffset", 12 * part.first},
                          {"componentType", type_u32},
                          {"count", 3 * part.triangles},
@@ -138,14 +150,14 @@ Json glb_accessors(const WeldedSurface& surface, const std::vector<GlbPart>& par
 std::string glb_json(const WeldedSurface& surface, const Palette& palette, const std::vector<GlbPart>& parts,
                      float step_m) {
   const size_t points = surface.points.size(), corners = 3 * surface.triangles.size();
-  const size_t colours_at = 12 * points, indices_at = 16 * points;
+  const size_t indices_at = 12 * points;
   const auto view = [](size_t at, size_t bytes, int target) {
     return Json{{"buffer", 0}, {"byteOffset", at}, {"byteLength", bytes}, {"target", target}};
   };
   Json materials = Json::array(), primitives = Json::array();
   for (const GlbPart& part : parts) {
-    primitives.push_back({{"attributes", {{"POSITION", 0}, {"COLOR_0", 1}}},
-                          {"indices", 2 + materials.size()},
+    primitives.push_back({{"attributes", {{"POSITION", 0}}},
+                          {"indices", 1 + materials.size()},
                           {"material", materials.size()}});
     materials.push_back(material_json(palette.row_or_first(part.material)));
   }
@@ -157,7 +169,6 @@ std::string glb_json(const WeldedSurface& surface, const Palette& palette, const
                   {"meshes", Json::array({{{"name", "terrain"}, {"primitives", primitives}}})},
                   {"accessors", glb_accessors(surface, parts, step_m)},
                   {"bufferViews", Json::array({view(0, 12 * points, target_vertices),
-                                               view(colours_at, 4 * points, target_vertices),
                                                view(indices_at, 4 * corners, target_indices)})},
                   {"buffers", Json::array({{{"byteLength", indices_at + 4 * corners}}})}};
   std::string text = json.dump();
@@ -165,17 +176,10 @@ std::string glb_json(const WeldedSurface& surface, const Palette& palette, const
   return text;
 }
 
-/// Linear, as glTF's colours of points are.
-std::array<uint8_t, 4> colour_of(const MaterialRow& row) {
-  const auto byte = [](float part) { return static_cast<uint8_t>(std::lround(255.0F * part)); };
-  const auto& colour = row.look.colour;
-  return {byte(colour[0]), byte(colour[1]), byte(colour[2]), 255};
-}
-
 void write_glb(std::ostream& out, const WeldedSurface& surface, const Palette& palette, float step_m) {
   const std::vector<GlbPart> parts = parts_of(surface);
   const std::string json = glb_json(surface, palette, parts, step_m);
-  const size_t data = 16 * surface.points.size() + 12 * surface.triangles.size();
+  const size_t data = 12 * (surface.points.size() + surface.triangles.size());
   const size_t all = 12 + 8 + json.size() + 8 + data;
   CHECK(all <= std::numeric_limits<uint32_t>::max());  // limits::export_triangles_max
   for (const size_t word : {size_t{glb_magic}, size_t{glb_version}, all, json.size(), size_t{chunk_json}})
@@ -184,7 +188,6 @@ void write_glb(std::ostream& out, const WeldedSurface& surface, const Palette& p
   put_bytes(out, static_cast<uint32_t>(data));
   put_bytes(out, chunk_bin);
   write_points(out, surface, step_m);
-  for (const Material material : surface.materials) put_bytes(out, colour_of(palette.row_or_first(material)));
   for (const auto& t : surface.triangles) put_bytes(out, t);
 }
 
@@ -201,6 +204,14 @@ const SurfaceFormat* format_of(const std::string& path) {
   return found == formats.end() ? nullptr : &*found;
 }
 
+Result<void> written(const std::string& path, const std::function<void(std::ostream&)>& write) {
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  write(out);
+  out.close();
+  if (!out) return fail(std::strerror(errno));
+  return {};
+}
+
 }  // namespace
 
 void order_by_material(WeldedSurface& surface) {
@@ -213,16 +224,24 @@ bool is_surface_name(const std::string& path) {
   return format_of(path) != nullptr;
 }
 
+std::string materials_file_of(const std::string& path) {
+  return path.ends_with(".obj") ? path.substr(0, path.size() - 4) + ".mtl" : "";
+}
+
 Result<uint64_t> write_surface(const WeldedSurface& surface, const Palette& palette, const std::string& path,
                                float step_m) {
   const SurfaceFormat* const format = format_of(path);
   CHECK(format != nullptr && !surface.points.empty() && surface.materials.size() == surface.points.size());
-  return write_whole(path, [&](const std::string& unfinished) -> Result<void> {
-    std::ofstream out(unfinished, std::ios::binary | std::ios::trunc);
-    format->write(out, surface, palette, step_m);
-    out.close();
-    if (!out) return fail(std::strerror(errno));
-    return {};
+  const std::string beside = materials_file_of(path);
+  if (!beside.empty())
+    TRY(write_whole(beside, [&](const std::string& unfinished) {
+      return written(unfinished, [&](std::ostream& out) { write_mtl(out, surface, palette); });
+    }));
+  return write_whole(path, [&](const std::string& unfinished) {
+    return written(unfinished, [&](std::ostream& out) {
+      if (!beside.empty()) out << "mtllib " << std::filesystem::path(beside).filename().string() << "\n";
+      format->write(out, surface, palette, step_m);
+    });
   });
 }
 

@@ -27,10 +27,13 @@ void order_by_material(WeldedSurface& surface);
 /// Whether a file of that name can be written: .ply, .obj or .glb.
 bool is_surface_name(const std::string& path);
 
-/// Metres, y up. glTF and OBJ name a material for each row of the palette that is used: a triangle is of that
-/// of its first corner. In glTF points have the colours of theirs, and all materials share the points, so
-/// that it is one closed mesh. PLY has none. `surface` is in order of materials. Returns the file's bytes.
-/// `step_m`: metres a unit of the points.
+/// The file of the materials' colours that is written beside such a file: that of a .obj; else empty.
+std::string materials_file_of(const std::string& path);
+
+/// Metres, y up. glTF and OBJ have a material, with name and colour, for each row of the palette that is
+/// used: a triangle is of that of its first corner. In glTF all materials share the points, so that it is one
+/// closed mesh. PLY has none. `surface` is in order of materials. Returns the file's bytes. `step_m`: metres
+/// a unit of the points.
 Result<uint64_t> write_surface(const WeldedSurface& surface, const Palette& palette, const std::string& path,
                                float step_m);
 

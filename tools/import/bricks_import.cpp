@@ -48,6 +48,13 @@ Result<VoxelBox> box_of(const std::vector<std::unique_ptr<Solid>>& solids, float
   return *box;
 }
 
+/// The cell of level rock that reaches as far as the voxels of a box do, from the origin on.
+float cell_around(const VoxelBox& box, float voxel_size_m) {
+  const int side = std::max({std::abs(box.lo.x), std::abs(box.hi.x), std::abs(box.lo.z), std::abs(box.hi.z)});
+  return std::clamp(2.0F * static_cast<float>(side) * voxel_size_m, limits::height_cell_min_m,
+                    limits::height_cell_max_m);
+}
+
 /// The level of rock where nothing else is said, in steps of heights.
 Result<Grounds> grounds_of(const BricksImport& how, const std::vector<std::unique_ptr<Solid>>& solids,
                            const VoxelBox& box, float voxel_size_m) {
@@ -69,9 +76,7 @@ Result<Grounds> grounds_of(const BricksImport& how, const std::vector<std::uniqu
         fmt::format("the level rock below lies at {:.4g} m, beyond ± {:.0f} m (limits.height_max_m); choose "
                     "another height (--level) or place (--at)",
                     level_m, most_m));
-  const int side = std::max({std::abs(box.lo.x), std::abs(box.hi.x), std::abs(box.lo.z), std::abs(box.hi.z)});
-  const float cell_m = std::clamp(2.0F * static_cast<float>(side) * voxel_size_m, limits::height_cell_min_m,
-                                  limits::height_cell_max_m);
+  const float cell_m = cell_around(box, voxel_size_m);
   const MaterialHeights none{-limits::world_half_height_m, limits::world_half_height_m};
   grounds.under.heights = grounds.bare.heights = std::make_shared<LevelGround>(
       static_cast<int32_t>(std::lround(level_m * height_steps_per_m)), cell_m, how.layers.value_or(none));
@@ -173,9 +178,19 @@ class Importer {
     GeneratedChunk made = split_into_bricks(window, chunk);
     ChunkMaterials materials;
     for (int i = 0; i < static_cast<int>(chunk_brick_count); ++i)
-      materials[static_cast<size_t>(i)] = solids_.front()->materials(brick_in_chunk(chunk, i));
+      materials[static_cast<size_t>(i)] = with_otherwise(solids_.front()->materials(brick_in_chunk(chunk, i)),
+                                                         *made.bricks[static_cast<size_t>(i)]);
     made.stored_materials = stored_materials_of(materials);
     return made;
+  }
+
+  /// Rock for which an export says nothing is of the material that was asked for.
+  BrickMaterials with_otherwise(const BrickMaterials& own, const Brick& brick) const {
+    if (!how_.material) return own;
+    VoxelMaterials voxels = own.unpacked();
+    for (size_t i = 0; i < voxels.size(); ++i)
+      if (voxels[i] == ground_own && brick.codes[i] < 0) voxels[i] = said(*how_.material);
+    return BrickMaterials(voxels);
   }
 
   std::shared_ptr<const GeneratedChunk> stored_below(ChunkCoord chunk) const {
@@ -253,9 +268,19 @@ class Importer {
   MassUnits mass_ = 0;
 };
 
-Result<std::unique_ptr<GroundWriter>> begin_file(const std::string& path, const Grounds& grounds,
+/// Level rock that reaches as far as the stored chunks do: so a ground has the same size when it comes back
+/// from an export, whose box is that of the chunks.
+TerrainSource level_around(const TerrainSource& bare, const BrickLayout& chunks) {
+  const HeightLayout& level = bare.heights->layout();
+  const float cell_m = cell_around({first_voxel(chunks.lo), first_voxel(chunks.hi)}, chunks.voxel_size_m);
+  TerrainSource fitted = bare;
+  fitted.heights = std::make_shared<LevelGround>(level.lowest, cell_m, level.layers);
+  return fitted;
+}
+
+Result<std::unique_ptr<GroundWriter>> begin_file(const std::string& path, const TerrainSource& bare,
                                                  const BricksImport& how) {
-  HeightLayout layout = grounds.bare.heights->layout();
+  HeightLayout layout = bare.heights->layout();
   const float zero_m = how.on != nullptr ? how.on->header().zero_m : 0.0F;
   auto writer = GroundWriter::create(path, layout, zero_m, *how.palette);
   TRY(writer);
@@ -287,11 +312,12 @@ Result<BricksImported> import_bricks(const std::vector<std::unique_ptr<Solid>>& 
   auto grounds = TRY(grounds_of(how, solids, box, voxel_size_m));
   Importer importer(solids, how, std::move(grounds));
   auto level = TRY(importer.finest(box, progress));
-  auto writer = TRY(begin_file(path, importer.grounds(), how));
   BricksImported imported;
   imported.chunks = level.size();
   imported.volume_m3 = importer.volume_m3();
   ChunkPyramid pyramid(importer.grounds().bare, std::move(level));
+  const TerrainSource& bare = importer.grounds().bare;
+  auto writer = TRY(begin_file(path, how.on != nullptr ? bare : level_around(bare, pyramid.layout()), how));
   writer->begin_chunks(pyramid.layout());
   pyramid.write(*writer);
   progress(1.0);

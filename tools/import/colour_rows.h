@@ -14,7 +14,7 @@ namespace scree {
 struct FileColour {
   std::string name;
   std::array<float, 3> linear{};
-  uint64_t weight = 0;  ///< triangles that are of it; 0: it gets no row
+  uint64_t weight = 0;  ///< triangles or voxels that are of it; 0: it gets no row
 };
 
 /// What each colour becomes: ground_own for those without weight. At most `rows_max` rows are added, each

@@ -16,6 +16,9 @@ namespace {
 
 constexpr size_t shown_bytes_max = 80;
 
+/// Lines of a map that are named one by one.
+constexpr size_t unused_said_max = 8;
+
 std::string without_blanks(std::string text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t' || c == '\r'; };
   while (!text.empty() && is_blank(text.back())) text.pop_back();
@@ -42,10 +45,11 @@ std::string tamed(const std::string& name) {
 
 }  // namespace
 
-Result<MaterialMap> read_material_map(const std::string& path, const Palette& palette) {
+Result<std::vector<MapLine>> read_map_lines(const std::string& path, const Palette& palette) {
   TRY(check_is_small_file(path, limits::material_map_bytes_max));
   std::ifstream in(path);
-  MaterialMap map;
+  std::vector<MapLine> lines;
+  std::set<std::string> names;
   int number = 0;
   for (std::string line; std::getline(in, line);) {
     ++number;
@@ -56,15 +60,39 @@ Result<MaterialMap> read_material_map(const std::string& path, const Palette& pa
     };
     const size_t equals = line.rfind('=');
     if (equals == std::string::npos) return wrong("a line is NAME-or-NUMBER = material");
-    const std::string to = without_blanks(line.substr(equals + 1));
+    const std::string from = without_blanks(line.substr(0, equals)),
+                      to = without_blanks(line.substr(equals + 1));
+    if (from.empty()) return wrong("there is no name before '=': a line is NAME-or-NUMBER = material");
     const auto material = palette.named(to);
     if (!material)
       return wrong("'" + showable(to, shown_bytes_max) + "' is no material of the palette (--materials)");
-    if (!map.emplace(without_blanks(line.substr(0, equals)), *material).second)
-      return wrong("the same stands in a line before");
+    if (!names.insert(from).second) return wrong("the same stands in a line before");
+    lines.push_back({from, *material, number});
   }
   if (in.bad()) return fail(path + ": it cannot be read");
+  return lines;
+}
+
+MaterialMap map_of(const std::vector<MapLine>& lines) {
+  MaterialMap map;
+  for (const MapLine& line : lines) map.emplace(line.name, line.material);
   return map;
+}
+
+std::vector<std::string> words_on_unused(const std::string& path, const std::vector<MapLine>& lines,
+                                         const std::set<std::string>& used) {
+  std::vector<std::string> words;
+  size_t more = 0;
+  for (const MapLine& line : lines) {
+    if (used.contains(line.name)) continue;
+    if (words.size() < unused_said_max)
+      words.push_back(fmt::format("{}:{}: '{}' names no material of the imported rock", path, line.number,
+                                  showable(line.name, shown_bytes_max)));
+    else
+      ++more;
+  }
+  if (more > 0) words.push_back(fmt::format("{}: {} more lines name none", path, more));
+  return words;
 }
 
 Result<Material> ImportPalette::add(MaterialRow row) {
@@ -87,6 +115,12 @@ Result<Material> ImportPalette::add(MaterialRow row) {
 Result<Material> ImportPalette::add_if_new(const MaterialRow& row) {
   if (const auto own = palette_.named(row.name)) return *own;
   return add(row);
+}
+
+std::optional<std::string> ImportPalette::meant(const std::string& name) const {
+  std::string tame = tamed(name);
+  if (tame == name || !chosen_->named(tame)) return std::nullopt;
+  return tame;
 }
 
 std::shared_ptr<const Palette> ImportPalette::result() const {

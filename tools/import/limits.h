@@ -80,6 +80,9 @@ inline constexpr size_t polygon_corners_max = 10'000;
 /// The squares of the polygons' corners, in all. Above: refused.
 inline constexpr uint64_t polygon_work_max = uint64_t{4} * polygon_corners_max * polygon_corners_max;
 
+/// Rows of a palette that the colours of a mesh become without --palette: pictures have thousands.
+inline constexpr size_t mesh_colour_rows = 32;
+
 /// Cells of a raster of land cover, a byte each. Above: refused.
 inline constexpr uint64_t cover_cells_max = uint64_t{1} << 28U;
 

@@ -70,8 +70,11 @@ int show_materials(const Options& options) {
   }
   const auto material = scree::material_named(*palette, options.whom);
   if (!material) return complain(material.error(), exit_failed);
+  const scree::MaterialRow& row = palette->row(*material);
+  const auto images = scree::read_images(options.server, row);
+  if (!images) return complain(images.error(), exit_failed);
   const auto text = options.json ? scree::material_json : scree::material_lines;
-  std::fputs(text(palette->row(*material)).c_str(), stdout);
+  std::fputs(text(row, *images).c_str(), stdout);
   return 0;
 }
 

@@ -11,8 +11,10 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
+#include "content/builtin_palette.h"
 #include "ground/whole_file.h"
 #include "server/app/ground_giver.h"
+#include "server/app/world_facts.h"
 #include "server/replay/export_lines.h"
 #include "server/replay/recorded_moment.h"
 #include "server/replay/recording_diff.h"
@@ -126,6 +128,8 @@ int info(const Options& options) {
   const Ledger ledger = sums->last.ledger;
   Json settings = Json::object();
   for (const SettingValue& setting : print(world)) settings[setting.name] = setting.value;
+  const bool is_builtin = world.palette == nullptr || *world.palette == builtin_palette();
+  const Palette* const own_palette = is_builtin ? nullptr : world.palette.get();
   Json json{{"file", options.path},
             {"format", recording_format},
             {"recorded_by", header.program},
@@ -133,6 +137,7 @@ int info(const Options& options) {
             {"seed", world.terrain.random_seed},
             {"voxel_size_m", world.terrain.voxel_size_m},
             {"tick_rate_hz", world.tick_rate_hz},
+            {"materials", Json::parse(palette_facts(own_palette))},
             {"settings", settings},
             {"first_tick", first},
             {"ticks", ticks},

@@ -117,10 +117,13 @@ Result<Json> write_vdb(const Options& options, const Exported& what, const Progr
 
 Result<Json> write_mesh(const Options& options, const Exported& what, const Progress& progress) {
   const auto exported = TRY(export_mesh(*what.field, *what.palette, what.box, options.out, progress));
-  return Json{{"points", exported.points},
-              {"triangles", exported.triangles},
-              {"volume_m3", exported.volume_m3},
-              {"bytes", exported.bytes}};
+  Json line{{"points", exported.points},
+            {"triangles", exported.triangles},
+            {"volume_m3", exported.volume_m3},
+            {"bytes", exported.bytes}};
+  if (const std::string beside = materials_file_of(options.out); !beside.empty())
+    line["materials_file"] = beside;
+  return line;
 }
 
 Result<Json> write_vox(const Options& options, const Exported& what, const Progress& progress) {
@@ -163,7 +166,8 @@ Result<void> run(const Options& options) {
   if (write == nullptr)
     return fail(options.out + ": the name must end in .vdb, .vox, .ply, .obj, .glb or .tif");
   const std::array files{NamedFile{"the exported file", options.from, false, true},
-                         NamedFile{"--ground", options.ground}, NamedFile{"--out", options.out, true}};
+                         NamedFile{"--ground", options.ground}, NamedFile{"--out", options.out, true},
+                         NamedFile{"the materials beside --out", materials_file_of(options.out), true}};
   TRY(check_distinct(files));
   if (options.cell_m && write != write_elevation) return fail("--cell is only for elevation models (.tif)");
   Json line{{"file", options.out}};

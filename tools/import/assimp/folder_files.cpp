@@ -64,7 +64,14 @@ Assimp::IOStream* FolderFiles::Open(const char* file, const char* mode) {
     return nullptr;
   }
   const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
-  return reads && fs::is_regular_file(file, error) ? Assimp::DefaultIOSystem().Open(file, mode) : nullptr;
+  const bool is_there = fs::is_regular_file(file, error);
+  if (ending_of(file) == ".mtl") {
+    if (is_there)
+      materials_.emplace_back(file);
+    else if (missing_materials_.empty())
+      missing_materials_ = whole(file).lexically_relative(folder_).string();
+  }
+  return reads && is_there ? Assimp::DefaultIOSystem().Open(file, mode) : nullptr;
 }
 
 void FolderFiles::Close(Assimp::IOStream* stream) {

@@ -4,6 +4,7 @@
 #include <assimp/IOSystem.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace scree {
 
@@ -22,6 +23,10 @@ class FolderFiles final : public Assimp::IOSystem {
 
   /// The first name that was not opened, as the file says it; empty: none.
   const std::string& refused() const { return refused_; }
+  /// The first .mtl file that is not there, as the file says it; empty: none.
+  const std::string& missing_materials() const { return missing_materials_; }
+  /// The .mtl files that were opened.
+  const std::vector<std::string>& materials() const { return materials_; }
 
  private:
   bool allows(const char* file) const;
@@ -30,6 +35,8 @@ class FolderFiles final : public Assimp::IOSystem {
   std::filesystem::path own_;  ///< absolute, as the folder
   std::filesystem::path folder_;
   std::string refused_;
+  std::string missing_materials_;
+  std::vector<std::string> materials_;
 };
 
 }  // namespace scree

@@ -73,7 +73,7 @@ Result<MeshFile> meshes_in(const std::string& path, const Placement& place, cons
       file_and_its_folder(path)));
   const auto head = TRY(reader->get<SceneHead>());
   if (head.foreign_materials > limits::scene_materials_max || head.warnings > scene_warnings_max ||
-      !std::isfinite(head.metres_a_unit))
+      head.named > named.size() || !std::isfinite(head.metres_a_unit))
     return fail("its form is unknown");
   MeshFile file;
   file.meshes = head.meshes;
@@ -86,6 +86,8 @@ Result<MeshFile> meshes_in(const std::string& path, const Placement& place, cons
     return fail("its materials and their colours do not agree");
   for (MeshFile::Foreign& one : file.foreign) one.colour.name = TRY(reader->get_text());
   for (uint64_t i = 0; i < head.warnings; ++i) file.warnings.push_back(TRY(reader->get_text()));
+  for (uint64_t i = 0; i < head.named; ++i) file.map_used.insert(TRY(reader->get_text()));
+  file.missing_materials = TRY(reader->get_text());
   return file;
 }
 

@@ -12,10 +12,12 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <string_view>
 
 #include "tools/import/assimp/folder_files.h"
+#include "tools/import/assimp/materials_file.h"
 #include "tools/import/assimp/nesting.h"
 #include "tools/import/assimp/ply_header.h"
 #include "tools/import/assimp/scene_textures.h"
@@ -64,6 +66,7 @@ class SceneTriangles {
   std::vector<SceneMaterial> materials;
   std::vector<std::string> foreign_names;
   std::vector<SceneColour> foreign_colours;
+  std::set<std::string> named_used;
   uint64_t meshes = 0;
 
  private:
@@ -73,7 +76,10 @@ class SceneTriangles {
     if (mesh.mMaterialIndex < scene_.mNumMaterials)
       material = scene_.mMaterials[mesh.mMaterialIndex]->GetName().C_Str();
     for (const std::string& one : {material, name})
-      if (const auto found = named_.find(one); found != named_.end()) return said(found->second);
+      if (const auto found = named_.find(one); found != named_.end()) {
+        named_used.insert(one);
+        return said(found->second);
+      }
     if (material.empty() || material == AI_DEFAULT_MATERIAL_NAME) return 0;
     return own_material(material, colour_of(*scene_.mMaterials[mesh.mMaterialIndex]));
   }
@@ -216,19 +222,18 @@ Result<void> check_letters(const std::string& path) {
   return fail("its letters are not UTF-8: write it as UTF-8");
 }
 
-Result<const aiScene*> opened(Assimp::Importer& importer, const std::string& path,
+Result<const aiScene*> opened(Assimp::Importer& importer, const FolderFiles& files, const std::string& path,
                               const std::string& ending) {
-  leave_readers_of(importer, ending);
-  auto* const files = new FolderFiles(path);  // the importer owns it
-  importer.SetIOHandler(files);
   const aiScene* const scene = TRY(read_scene(importer, path, ending));
-  if (!files->refused().empty())
+  if (!files.refused().empty())
     return fail(
-        fmt::format("it names the file '{}', which import does not read: only .bin, .buffer and .mtl "
-                    "in its own folder. Put the file there, and write its name alone",
-                    files->refused()));
+        fmt::format("it names the file '{}', which import does not read: only .bin, .buffer, .mtl, .png and "
+                    ".jpg in its own folder and below. Put the file there, and write its name alone",
+                    files.refused()));
   if (scene != nullptr && scene->mRootNode != nullptr) return scene;
   TRY(check_letters(path));
+  for (const std::string& beside : files.materials())
+    if (const auto fault = fault_of_materials(beside)) return fail(*fault);
   const std::string words = importer.GetErrorString();
   if (words.starts_with("No suitable reader"))
     return fail("it is not of the form that its name says, or damaged");
@@ -270,7 +275,10 @@ Result<void> send_scene(ReaderChannel& channel, const std::string& path, const s
                         const MaterialMap& named) {
   const SceneWarnings warnings;
   Assimp::Importer importer;
-  const aiScene* const scene = TRY(opened(importer, path, ending));
+  leave_readers_of(importer, ending);
+  auto* const files = new FolderFiles(path);  // the importer owns it
+  importer.SetIOHandler(files);
+  const aiScene* const scene = TRY(opened(importer, *files, path, ending));
   SceneHead head;
   const aiMatrix4x4 transform = read_unit(*scene, ending, head);
   SceneTextures textures(*scene, path);
@@ -280,6 +288,7 @@ Result<void> send_scene(ReaderChannel& channel, const std::string& path, const s
   head.foreign_materials = all.foreign_names.size();
   head.unread_textures = textures.unread();
   head.warnings = warnings.lines().size();
+  head.named = all.named_used.size();
   if (all.triangles.empty()) TRY(check_letters(path));
   TRY(channel.put(head));
   TRY(channel.put_list(all.points));
@@ -288,7 +297,8 @@ Result<void> send_scene(ReaderChannel& channel, const std::string& path, const s
   TRY(channel.put_list(all.foreign_colours));
   for (const std::string& name : all.foreign_names) TRY(channel.put_text(name));
   for (const std::string& line : warnings.lines()) TRY(channel.put_text(line));
-  return {};
+  for (const std::string& name : all.named_used) TRY(channel.put_text(name));
+  return channel.put_text(files->missing_materials());
 }
 
 }  // namespace scree

@@ -18,12 +18,14 @@ struct SceneColour {
 };
 
 /// What is sent first; then lists of points (double × 3), triangles (uint32_t × 3), their materials and the
-/// colours of the materials that are none of ours, the names of these, and assimp's warnings.
+/// colours of the materials that are none of ours. Texts follow: the names of these, assimp's warnings, the
+/// names of `named` that triangles have, and the file of materials that is not there (or nothing).
 struct SceneHead {
   uint64_t meshes = 0;
   uint64_t foreign_materials = 0;  ///< at most limits::scene_materials_max
   uint64_t unread_textures = 0;    ///< pictures of materials that are not there, or are none
   uint64_t warnings = 0;           ///< at most scene_warnings_max
+  uint64_t named = 0;              ///< at most as many as there are
   double metres_a_unit = 0.0;
   uint8_t says_up = 0;
 };

@@ -1,9 +1,11 @@
 #include "tools/import/files/cover_files.h"
 
+#include <charconv>
 #include <filesystem>
 #include <fmt/format.h>
 
 #include "ground/whole_file.h"
+#include "shared/base/text.h"
 #include "tools/import/gdal/raster_reader.h"
 
 namespace scree {
@@ -27,10 +29,27 @@ class PassingFile {
   std::string path_;
 };
 
+/// Classes are numbers that a raster's cell can hold as they are.
+Result<MaterialMap> read_classes(const std::string& path, const Palette& palette) {
+  constexpr int64_t most = int64_t{1} << 53;
+  MaterialMap classes;
+  for (const MapLine& line : TRY(read_map_lines(path, palette))) {
+    int64_t number = 0;
+    const char* const end = line.name.data() + line.name.size();
+    const auto [at, error] = std::from_chars(line.name.data(), end, number);
+    if (error != std::errc() || at != end || number < -most || number > most)
+      return fail(fmt::format("{}:{}: '{}' is no class of a raster: a class is a whole number within ± 2^53",
+                              path, line.number, showable(line.name, 80)));
+    if (!classes.emplace(std::to_string(number), line.material).second)
+      return fail(fmt::format("{}:{}: class {} stands in a line before", path, line.number, number));
+  }
+  return classes;
+}
+
 /// Numbers of classes are stored as heights would be, without a unit, and any may be one.
 Result<CoverGrid> grid_in(const CoverOptions& cover, Raster& model, const HeightsImport& how,
                           const ReaderLimits& bounds, std::vector<std::string>& said) {
-  const MaterialMap classes = TRY(read_material_map(cover.map, *how.palette));
+  const MaterialMap classes = TRY(read_classes(cover.map, *how.palette));
   const RasterChoice choice{.band = 1, .vertical_unit = "m"};
   const auto raster = TRY(open_raster_apart(cover.raster, choice, bounds));
   const auto wrong = [&](const Error& error) { return fail(cover.raster + ": " + error.message); };

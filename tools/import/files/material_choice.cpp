@@ -33,7 +33,7 @@ Result<ChosenMaterials> read_choice(const MaterialOptions& options, const Ground
                     ": it must have all rows of the ground below (--on): " + valid.error().message);
     choice.palette = std::move(chosen);
   }
-  if (!options.map.empty()) choice.map = TRY(read_material_map(options.map, *choice.palette));
+  if (!options.map.empty()) choice.map = TRY(read_map_lines(options.map, *choice.palette));
   if (options.material.empty()) return choice;
   choice.material = choice.palette->named(options.material);
   if (choice.material) return choice;

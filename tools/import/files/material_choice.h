@@ -11,13 +11,13 @@ namespace scree {
 
 struct MaterialOptions {
   std::string palette;  ///< a file (content/palette_text.h); empty: that of the ground below, or the built-in
-  std::string map;      ///< a file (read_material_map); empty: none
+  std::string map;      ///< a file (read_map_lines); empty: none
   std::string material;  ///< a name; empty: none
 };
 
 struct ChosenMaterials {
   std::shared_ptr<const Palette> palette;
-  MaterialMap map{};
+  std::vector<MapLine> map{};
   std::optional<Material> material{};
   std::vector<std::string> said{};  ///< sentences on what was left out
 };

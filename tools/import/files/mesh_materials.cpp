@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <set>
 
+#include "tools/import/limits.h"
+
 namespace scree {
 
 namespace {
@@ -26,12 +28,15 @@ class NameList {
 
 std::string words_on(const MeshFile& file, const std::set<VoxelMaterial>& named,
                      const std::vector<VoxelMaterial>& rows, const SolidsImport& how,
-                     const Palette& palette) {
+                     const ImportPalette& import_palette) {
+  const Palette& palette = import_palette.palette();
   NameList own, coloured, others;
   for (const VoxelMaterial one : named) own.add(std::string(palette.name(material_of(one))));
   for (size_t i = 0; i < rows.size(); ++i) {
     if (file.foreign[i].colour.weight == 0) continue;
-    const std::string name = "'" + file.foreign[i].colour.name + "'";
+    std::string name = "'" + file.foreign[i].colour.name + "'";
+    if (const auto meant = import_palette.meant(file.foreign[i].colour.name))
+      name += " (did you mean " + *meant + "?)";
     if (rows[i] != ground_own)
       coloured.add(fmt::format("{} as {}", name, palette.name(material_of(rows[i]))));
     else
@@ -72,11 +77,12 @@ Result<std::string> give_materials(MeshFile& file, const SolidsImport& how, Impo
     colours.push_back(one.colour);
     if (!one.has_colour || how.material) colours.back().weight = 0;
   }
-  const auto rows = TRY(rows_of_colours(colours, how.colour_rows_max, palette));
+  const auto rows =
+      TRY(rows_of_colours(colours, how.colour_rows_max.value_or(limits::mesh_colour_rows), palette));
   for (size_t i = 0; i < materials.size(); ++i)
     if (const uint16_t own = file.foreign_of[i]; own > 0) materials[i] = rows[own - 1];
   if (std::ranges::count(materials, ground_own) == std::ssize(materials)) materials.clear();
-  return words_on(file, named, rows, how, palette.palette());
+  return words_on(file, named, rows, how, palette);
 }
 
 }  // namespace scree

@@ -2,12 +2,17 @@
 
 #include <fmt/format.h>
 
+#include "shared/base/text.h"
+
 namespace scree {
 
 namespace {
 
 /// Rounding of coordinates that is worth a word: this part of a voxel.
 constexpr double rounding_said_voxels = 0.125;
+
+/// Bytes of a file's name in a sentence.
+constexpr size_t shown_bytes_max = 200;
 
 std::string parts(size_t count) {
   return fmt::format("{} part{}", count, count == 1 ? "" : "s");
@@ -81,6 +86,9 @@ std::vector<std::string> words_on(const MeshFile& file, const MeshBodies& bodies
                              surfaces(bodies)));
   said.push_back(assumptions(file, how) + materials);
   if (std::string words = repairs(bodies, all_parts); !words.empty()) said.push_back(std::move(words));
+  if (!file.missing_materials.empty())
+    said.push_back("it names '" + showable(file.missing_materials, shown_bytes_max) +
+                   "', which is not there: its materials have no colours of their own, and become grey");
   for (const std::string& warning : file.warnings) said.push_back("assimp warns: " + warning);
   const auto voxel_m = static_cast<double>(how.voxel_size_m);
   if (bodies.thin.parts > 0)

@@ -34,10 +34,15 @@ Result<void> read_vdb_file(const std::string& file, const SolidsImport& how, boo
       vdb->is_level_set ? "a level set" : fmt::format("a fog volume, rock above {} (--density)", how.density),
       how.place.z_up ? "z" : "y");
   if (!vdb->all_grids.empty()) words += "; the file holds " + vdb->all_grids + " (--grid)";
-  if (palette.added() > had)
-    words += fmt::format("; {} of its materials became rows of the palette (--material-map)",
-                         palette.added() - had);
+  if (const size_t added = palette.added() - had; added > 0) {
+    words += fmt::format("; {} of its materials became rows of the palette: ", added);
+    const auto names = palette.palette().names();
+    for (size_t i = names.size() - added; i < names.size(); ++i)
+      words += (i > names.size() - added ? ", " : "") + std::string(names[i]);
+    words += " (--material-map)";
+  }
   read.said.push_back(std::move(words));
+  read.map_used.merge(vdb->map_used);
   read.solids.push_back(std::move(vdb->solid));
   ++read.volumes;
   read.volumes_volume_m3 += vdb->own_volume_m3;
@@ -56,6 +61,7 @@ Result<void> read_vox_file(const std::string& file, const SolidsImport& how, Imp
                              .voxel_size_m = how.voxel_size_m,
                              .map = how.material_map,
                              .material = how.material,
+                             .colour_rows_max = how.colour_rows_max,
                              .reader = how.reader};
   auto vox = TRY(read_vox(file, vox_import, palette));
   std::string words =
@@ -66,6 +72,7 @@ Result<void> read_vox_file(const std::string& file, const SolidsImport& how, Imp
   if (vox.hidden > 0)
     words += fmt::format("; {} hidden part{} left out", vox.hidden, vox.hidden == 1 ? "" : "s");
   read.said.push_back(words + vox.materials);
+  read.map_used.merge(vox.map_used);
   read.solids.push_back(std::move(vox.solid));
   ++read.volumes;
   read.volumes_volume_m3 += vox.own_volume_m3;
@@ -88,6 +95,7 @@ Result<void> read_mesh_file(const std::string& path, const SolidsImport& how, Im
   if (!bodies) return fail(path + ": " + bodies.error().message);
   for (const std::string& words : words_on(file, *bodies, how, *materials))
     read.said.push_back(path + ": " + words);
+  read.map_used.insert(file.map_used.begin(), file.map_used.end());
   ++read.meshes;
   const size_t parts = bodies->whole.parts + bodies->holed.parts + bodies->filled.parts;
   read.parts += parts - std::min(parts, bodies->turned.cavities);

@@ -1,6 +1,7 @@
 // Solids from files of all kinds: OpenVDB, MagicaVoxel and meshes, by the ends of their names.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "tools/import/bricks_import.h"
@@ -25,8 +26,10 @@ struct SolidsImport {
   std::optional<double> level_m{};  ///< of the rock that sheets are filled down to
   /// What materials are rows of, before those of the files; null: the built-in palette.
   std::shared_ptr<const Palette> palette{};
-  MaterialMap material_map{};          ///< names and numbers in files that stand for rows of the palette
-  size_t colour_rows_max = 32;         ///< of a file, for materials that are none of the palette's
+  MaterialMap material_map{};  ///< names and numbers in files that stand for rows of the palette
+  /// Rows that a file adds at most for materials that are none of the palette's; nothing:
+  /// limits::mesh_colour_rows for a mesh, and all that there are for voxels.
+  std::optional<size_t> colour_rows_max{};
   std::optional<Material> material{};  ///< of rock for which no file says one; then colours make no rows
   ReaderLimits reader{};               ///< of the process that reads each file
 };
@@ -37,13 +40,14 @@ struct SolidsRead {
   std::shared_ptr<const Palette> palette{};
   /// Sentences on each: what was found, and what was repaired.
   std::vector<std::string> said;
-  size_t parts = 0;                ///< of meshes, without their cavities
-  size_t meshes = 0;               ///< files of meshes
-  size_t volumes = 0;              ///< and of volumes
-  double volumes_volume_m3 = 0.0;  ///< of these, by their own voxels
-  double meshes_volume_m3 = 0.0;   ///< the sum of the meshes' own
-  double thin_volume_m3 = 0.0;     ///< of these, in parts that are thinner than a voxel
-  double holed_volume_m3 = 0.0;    ///< and in parts with holes
+  std::set<std::string> map_used{};  ///< names of the material map that some rock is of
+  size_t parts = 0;                  ///< of meshes, without their cavities
+  size_t meshes = 0;                 ///< files of meshes
+  size_t volumes = 0;                ///< and of volumes
+  double volumes_volume_m3 = 0.0;    ///< of these, by their own voxels
+  double meshes_volume_m3 = 0.0;     ///< the sum of the meshes' own
+  double thin_volume_m3 = 0.0;       ///< of these, in parts that are thinner than a voxel
+  double holed_volume_m3 = 0.0;      ///< and in parts with holes
   /// For a single file that was exported from a world (VdbSolid).
   std::optional<BricksImport::Exact> exact{};
   std::optional<double> level_m{};

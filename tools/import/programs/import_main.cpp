@@ -21,6 +21,7 @@
 #include "tools/import/gdal/gdal_raster.h"
 #include "tools/import/gdal/raster_reader.h"
 #include "tools/import/heights_import.h"
+#include "tools/import/option_fit.h"
 #include "tools/import/process/reader_process.h"
 #include "tools/import/process/sandbox.h"
 #include "tools/import/process/sanitized.h"
@@ -110,7 +111,8 @@ Result<void> run_heights(const ImportOptions& options) {
   const auto began = std::chrono::steady_clock::now();
   const std::string& file = options.files.front();
   if (options.files.size() > 1) return fail("only one elevation model can be imported at a time");
-  if (!options.on.empty()) return fail(file + ": an elevation model cannot stand on another ground (--on)");
+  if (options.voxel_size_m && options.cover.raster.empty())
+    return fail(file + ": --voxel-size is only for solids and for a cover (--cover): heights have no voxels");
   const auto choice = TRY(raster_choice_of(options));
   const auto materials = TRY(read_choice(options.materials, nullptr));
   HeightsImport how = options.how;
@@ -180,12 +182,13 @@ BricksImport bricks_import_of(const ImportOptions& options, float voxel_size_m,
 
 Result<void> run_solids(const ImportOptions& options) {
   const auto began = std::chrono::steady_clock::now();
-  if (!options.preview.empty()) return fail("--preview is only for elevation models");
   std::shared_ptr<const GroundFile> on;
   if (!options.on.empty()) {
     auto file = TRY(GroundFile::open(options.on));
     on = std::move(file);
     if (options.level_m) return fail("--level cannot be used with --on: solids then stand on that ground");
+    if (options.how.soil_below_m || options.how.ice_above_m)
+      return fail("--soil-below and --ice-above cannot be used with --on: that ground has its own layers");
   }
   SolidsImport solids = options.solids;
   solids.reader = reader_limits(options);
@@ -201,7 +204,7 @@ Result<void> run_solids(const ImportOptions& options) {
   const auto materials = TRY(read_choice(options.materials, on.get()));
   for (const std::string& said : materials.said) std::fprintf(stderr, "scree-import: %s\n", said.c_str());
   solids.palette = materials.palette;
-  solids.material_map = materials.map;
+  solids.material_map = map_of(materials.map);
   solids.material = materials.material;
   if (options.voxel_size_m)
     solids.voxel_size_m = *options.voxel_size_m;
@@ -209,6 +212,8 @@ Result<void> run_solids(const ImportOptions& options) {
     solids.voxel_size_m = on->bricks()->voxel_size_m;
   const auto read = TRY(read_solids(options.files, solids));
   for (const std::string& said : read.said) std::fprintf(stderr, "scree-import: %s\n", said.c_str());
+  for (const std::string& said : words_on_unused(options.materials.map, materials.map, read.map_used))
+    std::fprintf(stderr, "scree-import: %s\n", said.c_str());
   auto how = bricks_import_of(options, solids.voxel_size_m, materials.material, on, read);
   how.least_m3 = least_volume_m3(read);
   const auto imported =
@@ -241,6 +246,7 @@ Result<void> run(const ImportOptions& options) {
   try {
     for (const std::string& file : options.files)
       if (const auto refusal = refusal_of_form(file)) return fail(*refusal);
+    TRY(check_options_fit(options.given, options.files));
     const auto solids = std::ranges::count_if(options.files, is_solid_file);
     if (solids == 0) return run_heights(options);
     if (solids < std::ssize(options.files))
@@ -265,6 +271,8 @@ int main(int argc, char** argv) {
   scree::declare(app, options);
   if (const auto ended = scree::parse(app, argc, argv)) return *ended;
   options.has_scale = app.count("--scale") > 0;
+  for (const CLI::Option* const option : app.get_options())
+    if (option->count() > 0) options.given.push_back(option->get_name());
   const auto done = scree::run(options);
   return done ? 0 : scree::refuse(app, done.error());
 }

@@ -33,6 +33,7 @@ struct ImportOptions {
   std::vector<std::string> nodata;
   SolidsImport solids;
   bool has_scale = false;
+  std::vector<std::string> given{};  ///< the names of the options that the command line has
 };
 
 /// Where the file of an elevation model says it wrong or not at all.
@@ -119,9 +120,8 @@ inline void declare_solids(CLI::App& app, ImportOptions& options) {
                  "row of the palette");
   app.add_option("--palette", how.colour_rows_max,
                  "limit of a file's colours that become rows of the palette, where its materials are none of "
-                 "it; 0: none do")
-      ->check(CLI::Range(0, 255))
-      ->capture_default_str();
+                 "it; more colours share rows; 0: none do; default: 32 of a mesh, all of a .vox")
+      ->check(CLI::Range(0, 255));
 }
 
 inline void declare(CLI::App& app, ImportOptions& options) {

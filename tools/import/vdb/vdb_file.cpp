@@ -74,10 +74,13 @@ Result<VdbSolid> solid_in(const std::string& path, const VdbImport& how) {
     ImportPalette builtin(shared_builtin_palette());
     const auto names = TRY(reader->get_list<uint8_t>(palette_bytes_max));
     const auto packed = TRY(reader->get_list<uint8_t>(2 * palette_bytes_max));
-    materials.rows =
-        TRY(rows_of_numbers(names, packed, how.map, how.palette != nullptr ? *how.palette : builtin));
     materials.grid = TRY(
         receive_grid<openvdb::Int32Grid>(*reader, limits::import_leaves_max, [](int32_t) { return true; }));
+    std::set<int32_t> occurring;
+    for (auto value = materials.grid->cbeginValueOn(); value; ++value)
+      if (*value >= 0 && static_cast<size_t>(*value) < materials_max) occurring.insert(*value);
+    materials.rows = TRY(rows_of_numbers(names, packed, occurring, how.map,
+                                         how.palette != nullptr ? *how.palette : builtin, solid.map_used));
     materials.grid->setTransform(TRY(transform_of(head.materials_to_world)));
   }
   const GridSide side =

@@ -1,6 +1,7 @@
 // Solids from OpenVDB files: level sets, and fog volumes by the density at which rock begins.
 #pragma once
 
+#include <set>
 #include <string>
 
 #include "tools/import/bricks_import.h"
@@ -26,7 +27,8 @@ struct VdbSolid {
   std::string grid;
   std::string all_grids{};  ///< of the file, with their types, if there are several
   bool is_level_set = false;
-  double own_volume_m3 = 0.0;  ///< of the grid's voxels that are rock
+  double own_volume_m3 = 0.0;        ///< of the grid's voxels that are rock
+  std::set<std::string> map_used{};  ///< keys of the map that voxels have
   /// What `scree export` wrote of the ground, if the file is from there, its voxels are the world's and it is
   /// not moved: then its codes are exact.
   std::optional<BricksImport::Exact> exact{};

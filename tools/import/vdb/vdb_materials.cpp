@@ -44,8 +44,9 @@ Palette packed_palette(std::span<const uint8_t> digits) {
 }  // namespace
 
 Result<std::vector<VoxelMaterial>> rows_of_numbers(std::span<const uint8_t> names,
-                                                   std::span<const uint8_t> packed, const MaterialMap& map,
-                                                   ImportPalette& palette) {
+                                                   std::span<const uint8_t> packed,
+                                                   const std::set<int32_t>& occurring, const MaterialMap& map,
+                                                   ImportPalette& palette, std::set<std::string>& map_used) {
   std::vector<VoxelMaterial> rows;
   const std::vector<std::string> lines = lines_of(names);
   if (lines.size() > materials_max)
@@ -53,10 +54,15 @@ Result<std::vector<VoxelMaterial>> rows_of_numbers(std::span<const uint8_t> name
         fmt::format("its grid of materials names {} of them, more than {}", lines.size(), materials_max));
   const Palette of_file = packed_palette(packed);
   for (size_t i = 0; i < (lines.empty() ? materials_max : lines.size()); ++i) {
+    if (!occurring.contains(static_cast<int32_t>(i))) {
+      rows.push_back(ground_own);
+      continue;
+    }
     const std::string name = lines.empty() ? std::string() : lines[i];
     auto mapped = map.find(std::to_string(i));
     if (mapped == map.end()) mapped = map.find(name);
     if (mapped != map.end()) {
+      map_used.insert(mapped->first);
       rows.push_back(said(mapped->second));
     } else if (lines.empty()) {
       const bool is_row = i < palette.palette().rows.size();

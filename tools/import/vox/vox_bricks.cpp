@@ -1,5 +1,6 @@
 #include "tools/import/vox/vox_bricks.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <fmt/format.h>
 
@@ -61,9 +62,9 @@ class Placer {
 
  private:
   Result<void> visit(int32_t id, const Placed& pose, int depth) {
-    if (depth > limits::vox_depth_max)
-      return fail(
-          fmt::format("its nodes are {} deep, or a node is below itself (limits.vox_depth_max)", depth));
+    above_.resize(static_cast<size_t>(depth));
+    if (depth > limits::vox_depth_max) return too_deep();
+    above_.push_back(id);
     if (++visits_ > limits::vox_visits_max)
       return fail(fmt::format("its nodes are visited more than {} times (limits.vox_visits_max)",
                               limits::vox_visits_max));
@@ -81,6 +82,15 @@ class Placer {
         return fail("a model lies beyond every world (limits.vox_far_max)");
     for (const int32_t child : node.children) TRY(visit(child, inner, depth + 1));
     return {};
+  }
+
+  Result<void> too_deep() const {
+    for (size_t i = 0; i < above_.size(); ++i)
+      if (std::find(above_.begin(), above_.begin() + static_cast<std::ptrdiff_t>(i), above_[i]) !=
+          above_.begin() + static_cast<std::ptrdiff_t>(i))
+        return fail(fmt::format("its node {} is below itself", above_[i]));
+    return fail(
+        fmt::format("its nodes are nested more than {} deep (limits.vox_depth_max)", limits::vox_depth_max));
   }
 
   /// A shape with several models is an animation: it shows the first.
@@ -126,6 +136,7 @@ class Placer {
 
   const VoxScene& scene_;
   VoxBricks& to_;
+  std::vector<int32_t> above_;  ///< nodes on the way to the one that is visited
   size_t visits_ = 0;
   uint64_t stamped_ = 0;
   VoxBrick* last_ = nullptr;

@@ -7,6 +7,7 @@
 #include <iterator>
 
 #include "shared/base/regular_file.h"
+#include "tools/import/colour_rows.h"
 #include "tools/import/vox/limits.h"
 #include "tools/import/vox/vox_bricks.h"
 #include "tools/import/vox/voxel_solid.h"
@@ -95,41 +96,57 @@ Result<ColouredBricks> in_world(const std::vector<SentBrick>& sent, const VoxPla
   return bricks;
 }
 
-struct UsedColours {
-  std::array<VoxelMaterial, 256> rows{};
-  std::string words;
-};
-
-/// By the map, by the palette's own names, or as a new row.
+/// By the map, by the palette's own names, or as new rows.
 class ColourRows {
  public:
-  ColourRows(const VoxImport& how, ImportPalette& palette) : how_(how), palette_(palette) {}
+  ColourRows(const VoxImport& how, ImportPalette& palette)
+      : how_(how), palette_(palette), had_(palette.palette().rows.size()) {}
 
-  Result<VoxelMaterial> row(int number, const std::string& name, const std::array<uint8_t, 4>& srgb) {
+  /// `voxels`: of that colour, at least one.
+  void add(size_t number, const std::string& name, const std::array<uint8_t, 4>& srgb, uint64_t voxels) {
     for (const std::string& key : {std::to_string(number), name})
-      if (const auto found = how_.map.find(key); found != how_.map.end()) return note(found->second, named_);
-    if (const auto own = palette_.palette().named(name)) return note(*own, named_);
-    if (how_.material) return note(*how_.material, named_);
-    const Material added = TRY(palette_.add(
-        row_of_colour(name.empty() ? fmt::format("vox_{}", number) : name,
-                      {linear_of_srgb(srgb[0]), linear_of_srgb(srgb[1]), linear_of_srgb(srgb[2])})));
-    return note(added, added_);
+      if (const auto found = how_.map.find(key); found != how_.map.end()) {
+        map_used.insert(key);
+        return note(number, found->second);
+      }
+    if (const auto own = palette_.palette().named(name)) return note(number, *own);
+    if (how_.material) return note(number, *how_.material);
+    if (const auto row = palette_.meant(name)) meant_ += fmt::format("; '{}': did you mean {}?", name, *row);
+    own_.push_back({name.empty() ? fmt::format("vox_{}", number) : name,
+                    {linear_of_srgb(srgb[0]), linear_of_srgb(srgb[1]), linear_of_srgb(srgb[2])},
+                    voxels});
+    own_numbers_.push_back(number);
+  }
+  /// What each colour is of, after all were added.
+  Result<std::array<VoxelMaterial, 256>> rows() {
+    const auto own = TRY(rows_of_colours(own_, how_.colour_rows_max.value_or(own_.size()), palette_));
+    for (size_t i = 0; i < own.size(); ++i) rows_[own_numbers_[i]] = own[i];
+    return rows_;
   }
   std::string words() const {
     std::string words;
     if (!named_.empty())
       words +=
           fmt::format("; {} of its colours are materials of the palette: {}", named_.size(), list(named_));
-    if (!added_.empty())
-      words +=
-          fmt::format("; {} became rows of the palette: {} (--material-map)", added_.size(), list(added_));
-    return words;
+    std::vector<Material> added;
+    for (size_t i = had_; i < palette_.palette().rows.size(); ++i) added.push_back(static_cast<Material>(i));
+    if (added.empty() && !own_.empty())
+      words += fmt::format("; {} have no row: bulk, or the layers of the ground (--palette)", own_.size());
+    if (added.empty()) return words;
+    if (added.size() < own_.size())
+      words += fmt::format("; {} became {} rows of the palette (--palette): {} (--material-map)", own_.size(),
+                           added.size(), list(added));
+    else
+      words += fmt::format("; {} became rows of the palette: {} (--material-map)", added.size(), list(added));
+    return words + meant_;
   }
 
+  std::set<std::string> map_used;
+
  private:
-  static VoxelMaterial note(Material material, std::vector<Material>& to) {
-    to.push_back(material);
-    return said(material);
+  void note(size_t number, Material material) {
+    named_.push_back(material);
+    rows_[number] = said(material);
   }
   std::string list(const std::vector<Material>& materials) const {
     std::string text;
@@ -140,7 +157,12 @@ class ColourRows {
 
   const VoxImport& how_;
   ImportPalette& palette_;
-  std::vector<Material> named_, added_;
+  const size_t had_;
+  std::array<VoxelMaterial, 256> rows_{};
+  std::vector<FileColour> own_;
+  std::vector<size_t> own_numbers_;
+  std::vector<Material> named_;
+  std::string meant_;
 };
 
 Result<VoxSolid> vox_in(const std::string& path, const VoxImport& how, ImportPalette& palette) {
@@ -151,18 +173,17 @@ Result<VoxSolid> vox_in(const std::string& path, const VoxImport& how, ImportPal
   std::array<std::string, 256> names;
   for (std::string& name : names) name = TRY(reader->get_text());
   const auto sent = TRY(reader->get_list<SentBrick>(limits::vox_bricks_max));
-  std::array<bool, 256> used{};
+  std::array<uint64_t, 256> used{};
   for (const SentBrick& brick : sent) {
     constexpr int far = static_cast<int>(4 * limits::vox_far_max);
     for (const int axis : {brick.at.x, brick.at.y, brick.at.z})
       if (axis < -far || axis > far) return fail("it has a brick that is none");
-    for (const uint8_t colour : brick.colours) used[colour] = true;
+    for (const uint8_t colour : brick.colours) ++used[colour];
   }
   ColourRows colours(how, palette);
-  std::array<VoxelMaterial, 256> rows{};
-  for (int i = 1; i < 256; ++i)
-    if (const auto at = static_cast<size_t>(i); used[at])
-      rows[at] = TRY(colours.row(i, names[at], head.colours[at]));
+  for (size_t i = 1; i < used.size(); ++i)
+    if (used[i] > 0) colours.add(i, names[i], head.colours[i], used[i]);
+  const auto rows = TRY(colours.rows());
   const VoxPlace place(how);
   if (!(place.ratio() <= limits::vox_ratio_max))
     return fail(
@@ -174,6 +195,7 @@ Result<VoxSolid> vox_in(const std::string& path, const VoxImport& how, ImportPal
   const double side_m = place.ratio() * static_cast<double>(how.voxel_size_m);
   solid.own_volume_m3 = static_cast<double>(head.voxels) * side_m * side_m * side_m;
   solid.materials = colours.words();
+  solid.map_used = colours.map_used;
   solid.solid = TRY(solid_of_voxels(std::move(bricks), rows, how.voxel_size_m));
   return solid;
 }

@@ -4,13 +4,19 @@
 #include <bit>
 #include <charconv>
 #include <fmt/format.h>
+#include <optional>
+#include <string_view>
 
 #include "proto/byte_stream.h"
+#include "shared/base/text.h"
 #include "tools/import/vox/limits.h"
 
 namespace scree {
 
 namespace {
+
+/// Bytes of a text of the file in a message.
+constexpr size_t shown_bytes_max = 80;
 
 using Attributes = std::map<std::string, std::string>;
 
@@ -40,12 +46,52 @@ std::array<std::array<uint8_t, 4>, 256> default_colours() {
   return colours;
 }
 
-int64_t number_in(const std::string& text, ByteReader& reader, const char* what) {
+std::optional<int64_t> number_in(std::string_view text) {
   int64_t value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size())
-    reader.refuse(fmt::format("{} is no number", what));
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
   return value;
+}
+
+/// Bits 0 and 1: the column of the one that is not zero in the first row; 2 and 3: in the second; 4 to 6:
+/// the signs of the three rows.
+Result<VoxTurn> read_turn(std::string_view text) {
+  const int64_t bits = number_in(text).value_or(-1);
+  const int first = static_cast<int>(bits & 3), second = static_cast<int>((bits >> 2) & 3);
+  if (bits < 0 || bits > 127 || first > 2 || second > 2 || first == second)
+    return fail("which is not a turn");
+  VoxTurn turn;
+  turn.axis = {first, second, 3 - first - second};
+  for (size_t i = 0; i < 3; ++i) turn.negative[i] = ((bits >> (4 + i)) & 1) != 0;
+  return turn;
+}
+
+Result<std::array<int64_t, 3>> read_move(std::string_view text) {
+  std::array<int64_t, 3> move{};
+  for (size_t axis = 0; axis < 3; ++axis) {
+    const size_t end = axis < 2 ? text.find(' ') : text.size();
+    const auto part = end == std::string_view::npos ? std::nullopt : number_in(text.substr(0, end));
+    if (!part) return fail("which is not a place: three whole numbers");
+    if (*part < -limits::vox_far_max || *part > limits::vox_far_max)
+      return fail("which is a place beyond every world (limits.vox_far_max)");
+    move[axis] = *part;
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return move;
+}
+
+/// Takes one attribute of a node, if it is there.
+template <typename T>
+Result<void> take(const Attributes& attributes, const char* name, int32_t node, T& to,
+                  Result<T> (*read)(std::string_view text)) {
+  const auto found = attributes.find(name);
+  if (found == attributes.end()) return {};
+  auto value = read(found->second);
+  if (!value)
+    return fail(fmt::format("node {}: its attribute {} is '{}', {}", node, name,
+                            showable(found->second, shown_bytes_max), value.error().message));
+  to = *value;
+  return {};
 }
 
 class VoxParser {
@@ -173,7 +219,7 @@ class VoxParser {
     const Attributes attributes = read_attributes(chunk);
     VoxNode node{.kind = kind, .hidden = is_hidden(attributes)};
     if (kind == VoxNode::Kind::transform)
-      read_transform(chunk, node);
+      TRY(read_transform(chunk, id, node));
     else
       read_children(chunk, node);
     if (chunk.failed()) return {};
@@ -193,41 +239,18 @@ class VoxParser {
   }
 
   /// The first of several frames counts.
-  static void read_transform(ByteReader& chunk, VoxNode& node) {
+  static Result<void> read_transform(ByteReader& chunk, int32_t id, VoxNode& node) {
     node.children.push_back(std::bit_cast<int32_t>(chunk.u32("child of a node")));
     chunk.u32("reserved number");
     node.layer = std::bit_cast<int32_t>(chunk.u32("layer"));
     const uint32_t frames = chunk.u32("frames");
     for (uint32_t i = 0; i < frames && !chunk.failed(); ++i) {
       const Attributes frame = read_attributes(chunk);
-      if (i > 0) continue;
-      if (const auto turn = frame.find("_r"); turn != frame.end()) read_turn(turn->second, chunk, node.turn);
-      if (const auto move = frame.find("_t"); move != frame.end()) read_move(move->second, chunk, node.move);
+      if (i > 0 || chunk.failed()) continue;
+      TRY(take(frame, "_r", id, node.turn, read_turn));
+      TRY(take(frame, "_t", id, node.move, read_move));
     }
-  }
-
-  /// Bits 0 and 1: the column of the one that is not zero in the first row; 2 and 3: in the second; 4 to 6:
-  /// the signs of the three rows.
-  static void read_turn(const std::string& text, ByteReader& chunk, VoxTurn& turn) {
-    const int64_t bits = number_in(text, chunk, "a turn");
-    const int first = static_cast<int>(bits & 3), second = static_cast<int>((bits >> 2) & 3);
-    if (chunk.failed()) return;
-    if (bits < 0 || bits > 127 || first > 2 || second > 2 || first == second)
-      return chunk.refuse("a turn is none");
-    turn.axis = {first, second, 3 - first - second};
-    for (size_t i = 0; i < 3; ++i) turn.negative[i] = ((bits >> (4 + i)) & 1) != 0;
-  }
-
-  static void read_move(const std::string& text, ByteReader& chunk, std::array<int64_t, 3>& move) {
-    size_t from = 0;
-    for (size_t axis = 0; axis < 3; ++axis) {
-      const size_t end = axis < 2 ? text.find(' ', from) : text.size();
-      if (end == std::string::npos) return chunk.refuse("a place is none");
-      move[axis] = number_in(text.substr(from, end - from), chunk, "a place");
-      if (move[axis] < -limits::vox_far_max || move[axis] > limits::vox_far_max)
-        chunk.refuse("a place lies beyond every world (limits.vox_far_max)");
-      from = end + 1;
-    }
+    return {};
   }
 
   Result<void> read_layer(ByteReader& chunk) {
