@@ -47,12 +47,12 @@ void write_materials(ByteWriter& writer, std::span<const BrickView> bricks) {
 /// Reads what write_materials() wrote; returns the indices of bricks whose voxels have each their own.
 std::vector<size_t> read_materials(ByteReader& reader, std::span<BrickPatch> bricks) {
   std::vector<size_t> mixed;
-  const uint64_t saying = reader.varint("number of painted bricks", bricks.size());
+  const uint64_t saying = reader.varint("number of bricks with materials", bricks.size());
   size_t next = 0;
   for (uint64_t i = 0; i < saying && !reader.failed(); ++i) {
-    const uint64_t skipped = reader.varint("bricks that are not painted");
+    const uint64_t skipped = reader.varint("bricks without materials");
     if (skipped >= bricks.size() - next) {
-      reader.refuse("paint beyond the last brick");
+      reader.refuse("materials beyond the last brick");
       break;
     }
     const uint8_t material = reader.u8("material", each_its_own);
@@ -95,7 +95,9 @@ void write_masses(ByteWriter& writer, const MaterialMasses& masses) {
   }
 }
 
-/// In order of rows, each positive, and together the volume's mass.
+/// In order of rows, each positive, and together the volume's mass: at least two, as a piece that is all of
+/// one material names it instead. Its voxels do not bound them: what a cut took beside a piece's window
+/// counts for some piece, too (shared/fracture/material_shares.h).
 MaterialMasses read_masses(ByteReader& reader, MassUnits sum) {
   MaterialMasses masses;
   const uint64_t count = reader.varint("number of a piece's materials", materials_max);
@@ -111,6 +113,7 @@ MaterialMasses read_masses(ByteReader& reader, MassUnits sum) {
     left -= mass;
   }
   if (left != 0 || masses.empty()) reader.refuse("a piece's materials do not add up to its mass");
+  if (masses.size() == 1) reader.refuse("a piece lists one material, which it is to name instead");
   return masses;
 }
 

@@ -81,10 +81,16 @@ std::string pack_ledger(const MaterialLedger& ledger) {
   return to_string(bytes);
 }
 
+MassUnits ledger_mass(int64_t mass, FieldChecker& check) {
+  if (mass >= -limits::ledger_mass_max && mass <= limits::ledger_mass_max) return mass;
+  check.refuse(fmt::format("mass {} in a ledger is beyond ±{}, which no world has (limits.ledger_mass_max)",
+                           mass, limits::ledger_mass_max));
+  return 0;
+}
+
 MaterialLedger unpack_ledger(const std::string& packed, FieldChecker& check) {
   std::vector<MaterialLedger::Row> rows;
   ByteReader reader(as_span(packed), "ledger of the materials");
-  constexpr MassUnits mass_max = int64_t{1} << 62U;
   while (!reader.at_end() && !reader.failed()) {
     if (rows.size() == materials_max) {
       reader.refuse("more rows than a palette has");
@@ -92,7 +98,7 @@ MaterialLedger unpack_ledger(const std::string& packed, FieldChecker& check) {
     }
     MaterialLedger::Row& row = rows.emplace_back();
     for (MassUnits* mass : {&row.terrain, &row.pieces, &row.dust, &row.poured, &row.converted})
-      *mass = reader.zigzag("mass", mass_max);
+      *mass = reader.zigzag("mass (limits.ledger_mass_max)", limits::ledger_mass_max);
   }
   if (reader.failed()) check.refuse(reader.error().message);
   return MaterialLedger(std::move(rows));

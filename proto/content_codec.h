@@ -20,6 +20,9 @@ AskContentMessage read(const wire::ContentRequest& from, FieldChecker& check);
 void write(wire::Content& to, const ContentMessage& from);
 ContentMessage read(const wire::Content& from, FieldChecker& check);
 
+/// Refuses mass beyond limits::ledger_mass_max.
+MassUnits ledger_mass(int64_t mass, FieldChecker& check);
+
 /// Five zigzag varints for each row: terrain, pieces, dust, poured, converted. Rows at the end without
 /// anything are left out: ledgers that say the same have the same bytes.
 std::string pack_ledger(const MaterialLedger& ledger);

@@ -11,6 +11,16 @@ size_t bytes_of(const std::vector<T>& list) {
   return list.size() * sizeof(T);
 }
 
+size_t bytes_of(const std::vector<BrickPatch>& bricks) {
+  size_t bytes = bricks.size() * sizeof(BrickPatch);
+  for (const BrickPatch& patch : bricks) bytes += patch.materials.bytes();
+  return bytes;
+}
+
+size_t bytes_of(const Volume& volume) {
+  return bytes_of(volume.window.codes) + bytes_of(volume.materials.each) + bytes_of(volume.masses);
+}
+
 size_t bytes_of(const SettingValues& settings) {
   size_t bytes = 0;
   for (const SettingValue& setting : settings)
@@ -81,7 +91,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      },
                      [](const ChunkMessage& m) { return bytes_of(m.bricks); },
                      [](const UnchangedChunksMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
-                     [](const PieceMessage& m) { return bytes_of(m.volume.window.codes); },
+                     [](const PieceMessage& m) { return bytes_of(m.volume); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const TileMessage& m) { return m.bytes.size(); },
                      [](const ContentMessage& m) { return m.part.size(); },

@@ -4,6 +4,7 @@
 #include <material.pb.h>
 
 #include "shared/base/check.h"
+#include "shared/material/material_members.h"
 
 namespace scree {
 
@@ -114,6 +115,12 @@ Result<MaterialRow> read_row(const wire::PaletteRow& from) {
   return row;
 }
 
+/// Equal numbers have equal bytes afterwards: put() knows one zero.
+template <typename Owner>
+void put_again(std::span<const NumberMember<Owner>> members, Owner& owner) {
+  for (const NumberMember<Owner>& member : members) member.put(owner, member.get(owner));
+}
+
 GroundRows read_ground(const wire::PaletteGround& from) {
   return {Material{byte_of(from.bulk())}, Material{byte_of(from.soil())}, Material{byte_of(from.cap())},
           from.soil_depth_m(), from.cap_depth_m()};
@@ -151,9 +158,10 @@ Result<Palette> decode_palette(std::span<const uint8_t> bytes) {
     if (!row)
       return fail("the palette: material " + std::to_string(palette.rows.size()) + ": " +
                   row.error().message);
-    palette.rows.push_back(*row);
+    put_again(material_numbers(), palette.rows.emplace_back(*row));
   }
   palette.ground = read_ground(message.ground());
+  put_again(ground_numbers(), palette.ground);
   if (const auto valid = validate(palette); !valid) return fail("the palette: " + valid.error().message);
   return palette;
 }

@@ -260,11 +260,11 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.tick = from.tick();
   status.clients = from.clients();
   status.pieces = from.pieces();
-  status.ledger_terrain = from.ledger_terrain();
-  status.ledger_pieces = from.ledger_pieces();
-  status.ledger_dust = from.ledger_dust();
-  status.ledger_poured = from.ledger_poured();
-  status.ledger_moved = from.ledger_moved();
+  status.ledger_terrain = ledger_mass(from.ledger_terrain(), check);
+  status.ledger_pieces = ledger_mass(from.ledger_pieces(), check);
+  status.ledger_dust = ledger_mass(from.ledger_dust(), check);
+  status.ledger_poured = ledger_mass(from.ledger_poured(), check);
+  status.ledger_moved = ledger_mass(from.ledger_moved(), check);
   status.tick_median_ms = check.finite(from.tick_median_ms(), "tick_median_ms");
   status.tick_worst_ms = check.finite(from.tick_worst_ms(), "tick_worst_ms");
   status.sent_bytes = from.sent_bytes();

@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "content/builtin_palette.h"
 #include "shared/base/check.h"
 
 namespace scree {

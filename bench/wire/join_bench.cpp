@@ -11,7 +11,6 @@
 #include "bench/support/scenes.h"
 #include "client/cache/join_server.h"
 #include "client/session/join_and_wait.h"
-#include "content/builtin_palette.h"
 #include "server/net/net_server.h"
 #include "server/world/world_config.h"
 #include "shared/base/timing.h"

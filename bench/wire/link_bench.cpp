@@ -13,7 +13,6 @@
 #include "client/cache/join_server.h"
 #include "client/connection/limits.h"
 #include "client/session/join_and_wait.h"
-#include "content/builtin_palette.h"
 #include "server/net/net_server.h"
 #include "server/world/world.h"
 #include "shared/base/overloaded.h"

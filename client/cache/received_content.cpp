@@ -34,12 +34,12 @@ void ReceivedContent::change_palette(const Digest& palette) {
     given_up_.erase(palette);
   }
   wanted_palette_ = palette;
-  if (current_ == palette) {
-    use_palette();  // whose images may be missing
-    return;
-  }
-  want(palette);
-  if (find(palette) != nullptr) use_palette();
+  if (current_ == palette)
+    want_images();  // which may be missing
+  else if (const auto bytes = folder_.read(palette))
+    use_palette(*bytes);
+  else if (is_new(palette))
+    wanted_.push_back(palette);
 }
 
 ReceivedContent::Bytes ReceivedContent::find(const Digest& digest) const {
@@ -47,17 +47,35 @@ ReceivedContent::Bytes ReceivedContent::find(const Digest& digest) const {
   return found == held_.end() ? nullptr : found->second;
 }
 
-void ReceivedContent::want(const Digest& digest) {
-  if (held_.contains(digest) || asked_.contains(digest) || given_up_.contains(digest)) return;
-  if (std::ranges::find(wanted_, digest) != wanted_.end() || read(digest)) return;
-  wanted_.push_back(digest);
+bool ReceivedContent::is_new(const Digest& digest) const {
+  return !asked_.contains(digest) && !given_up_.contains(digest) &&
+         std::ranges::find(wanted_, digest) == wanted_.end();
 }
 
-bool ReceivedContent::read(const Digest& digest) {
+/// The folder has palettes, too, and a hostile server names any file of it.
+void ReceivedContent::want_image(const Digest& digest) {
+  if (held_.contains(digest) || !is_new(digest)) return;
   auto bytes = folder_.read(digest);
-  if (!bytes || held_bytes_ + bytes->size() > limits::content_memory_max) return false;
-  held_bytes_ += bytes->size();
-  held_[digest] = std::make_shared<const std::vector<uint8_t>>(std::move(*bytes));
+  if (!bytes || held_bytes_ + bytes->size() > limits::content_memory_max)
+    wanted_.push_back(digest);
+  else
+    hold_image(digest, std::move(*bytes));
+}
+
+void ReceivedContent::want_images() {
+  if (!images_) return;
+  for (const MaterialRow& row : palette_->rows)
+    for (const std::optional<Digest>& image : {row.look.albedo, row.look.normal})
+      if (image) want_image(*image);
+}
+
+bool ReceivedContent::hold_image(const Digest& digest, std::vector<uint8_t> bytes) {
+  if (const auto image = check_image(bytes); !image) {
+    drop(digest, "an image of the server's palette cannot be used: " + image.error().message);
+    return false;
+  }
+  held_bytes_ += bytes.size();
+  held_[digest] = std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
   return true;
 }
 
@@ -119,38 +137,28 @@ std::optional<Digest> ReceivedContent::accept(const ContentMessage& message) {
   return take(whole, std::move(bytes)) ? std::optional(whole) : std::nullopt;
 }
 
+/// What cannot be used is not kept.
 bool ReceivedContent::take(const Digest& digest, std::vector<uint8_t> bytes) {
-  if (digest != wanted_palette_)
-    if (const auto image = check_image(bytes); !image) {
-      drop(digest, "an image of the server's palette cannot be used: " + image.error().message);
-      return false;
-    }
-  folder_.write(digest, bytes);
-  held_bytes_ += bytes.size();
-  held_[digest] = std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
-  return digest != wanted_palette_ || use_palette();
+  if (digest == wanted_palette_) {
+    if (!use_palette(bytes)) return false;
+    folder_.write(digest, bytes);
+    return true;
+  }
+  if (!hold_image(digest, std::move(bytes))) return false;
+  folder_.write(digest, *held_.at(digest));
+  return true;
 }
 
-/// The one that is wanted, and has come.
-bool ReceivedContent::use_palette() {
-  const Bytes bytes = find(*wanted_palette_);
-  if (current_ != wanted_palette_) {
-    auto palette = decode_palette(*bytes);
-    if (!palette) {
-      drop(*wanted_palette_, "the server's palette cannot be used: " + palette.error().message);
-      return false;
-    }
-    palette_ = std::make_shared<const Palette>(std::move(*palette));
-    if (const Bytes before = current_ ? find(*current_) : nullptr) {
-      held_bytes_ -= before->size();
-      held_.erase(*current_);
-    }
-    current_ = wanted_palette_;
+/// The one that is wanted.
+bool ReceivedContent::use_palette(std::span<const uint8_t> bytes) {
+  auto palette = decode_palette(bytes);
+  if (!palette) {
+    drop(*wanted_palette_, "the server's palette cannot be used: " + palette.error().message);
+    return false;
   }
-  if (!images_) return true;
-  for (const MaterialRow& row : palette_->rows)
-    for (const std::optional<Digest>& image : {row.look.albedo, row.look.normal})
-      if (image) want(*image);
+  palette_ = std::make_shared<const Palette>(std::move(*palette));
+  current_ = wanted_palette_;
+  want_images();
   return true;
 }
 

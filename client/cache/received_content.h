@@ -1,15 +1,16 @@
 // A world's palette, and the images that its rows name, as they come over the wire or from the cache: bytes
 // that their SHA-256 names (proto/content.proto), which one server's client need not be sent by another.
 //
-// Invariant: all that is held has the hash that names it. A server that sends other bytes, more than it may,
-// or a palette that none can use, costs nothing else: fault() says it, the content is as if the server had
-// none, and the palette stays. One thread at a time.
+// Invariant: all that is held is an image with the hash that names it; palettes are decoded at once. A server
+// that sends other bytes, more than it may, or a palette that none can use, costs nothing else: fault() says
+// it, the content is as if the server had none, and the palette stays. One thread at a time.
 #pragma once
 
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -42,7 +43,7 @@ class ReceivedContent {
   bool is_current() const { return wanted_palette_ && current_ == wanted_palette_; }
   /// Whether nothing more is to come: it has come, or never will.
   bool is_settled() const { return wanted_.empty() && asked_.empty(); }
-  /// Null when it has not come.
+  /// An image's bytes. Null when it has not come.
   Bytes find(const Digest& digest) const;
   /// What was wrong with the server's content last; empty: nothing.
   const std::string& fault() const { return fault_; }
@@ -55,11 +56,14 @@ class ReceivedContent {
     uint32_t total = 0;
   };
   std::string fault_of(const ContentMessage& message, const Partial& partial) const;
-  void want(const Digest& digest);
+  /// Whether it is neither wanted yet, nor given up.
+  bool is_new(const Digest& digest) const;
+  void want_image(const Digest& digest);
+  void want_images();
+  bool hold_image(const Digest& digest, std::vector<uint8_t> bytes);
   bool take(const Digest& digest, std::vector<uint8_t> bytes);
-  bool use_palette();
+  bool use_palette(std::span<const uint8_t> bytes);
   void drop(const Digest& digest, const std::string& fault);
-  bool read(const Digest& digest);
 
   const TileFolder folder_;
   const bool images_;
@@ -69,7 +73,7 @@ class ReceivedContent {
   std::vector<Digest> wanted_;       ///< not asked for yet
   std::map<Digest, Partial> asked_;  ///< and not come whole
   std::set<Digest> given_up_;        ///< in this session
-  std::map<Digest, Bytes> held_;
+  std::map<Digest, Bytes> held_;     ///< images
   size_t held_bytes_ = 0;
   uint64_t bytes_received_ = 0;
   std::string fault_;

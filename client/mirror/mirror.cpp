@@ -261,8 +261,7 @@ void Mirror::replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bric
 
 void Mirror::set_bricks(const std::vector<BrickPatch>& bricks, MirrorChanges& changes) {
   for (const BrickPatch& patch : bricks) {
-    field_.set_brick(patch.coord, patch.brick);
-    field_.set_materials(patch.coord, patch.materials);
+    field_.set_brick(patch.coord, patch.brick, patch.materials);
     changes.bricks.push_back(patch.coord);
   }
 }

@@ -98,7 +98,7 @@ Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
   frame.tick = from.tick();
   frame.operations = check.value_or_refuse(decode_operations(as_span(from.operations())));
   frame.moved = check.value_or_refuse(unpack_transforms(as_span(from.moved())));
-  frame.ledger = read(from.ledger());
+  frame.ledger = read(from.ledger(), check);
   frame.field_hash = from.field_hash();
   frame.state_hash = from.state_hash();
   frame.settings = check.settings(from.settings());
@@ -143,7 +143,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
       check.refuse(
           fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max));
   }
-  keyframe.ledger = read(from.ledger());
+  keyframe.ledger = read(from.ledger(), check);
   keyframe.field_hash = from.field_hash();
   keyframe.state_hash = from.state_hash();
   keyframe.settings = check.settings(from.settings());

@@ -26,8 +26,10 @@ void write(recorded::Ledger& to, const Ledger& from) {
   to.set_moved(from.moved);
 }
 
-Ledger read(const recorded::Ledger& from) {
-  return {from.terrain(), from.pieces(), from.dust(), from.poured(), from.moved()};
+Ledger read(const recorded::Ledger& from, FieldChecker& check) {
+  return {ledger_mass(from.terrain(), check), ledger_mass(from.pieces(), check),
+          ledger_mass(from.dust(), check), ledger_mass(from.poured(), check),
+          ledger_mass(from.moved(), check)};
 }
 
 void write(recorded::MaterialLedger& to, const MaterialLedger& from) {

@@ -38,7 +38,8 @@ Result<T> checked(T value, const FieldChecker& check) {
 }
 
 void write(recorded::Ledger& to, const Ledger& from);
-Ledger read(const recorded::Ledger& from);
+/// Refuses masses beyond limits::ledger_mass_max.
+Ledger read(const recorded::Ledger& from, FieldChecker& check);
 
 void write(recorded::MaterialLedger& to, const MaterialLedger& from);
 MaterialLedger read(const recorded::MaterialLedger& from, FieldChecker& check);

@@ -234,7 +234,7 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   if (!reads_recording_format(moment.config.format)) check.refuse("its settings are of another format");
   moment.tick = from.tick();
   moment.next_piece = from.next_piece();
-  moment.ledger = scree::read(from.ledger());
+  moment.ledger = scree::read(from.ledger(), check);
   moment.field_hash = from.field_hash();
   moment.state_hash = from.state_hash();
   moment.motion.bodies = check.value_or_refuse(unpack_bodies(from.bodies()));

@@ -24,11 +24,23 @@ bool ContentStream::take_settings(const SettingValues& settings) {
   CHECK(bytes->size() <= limits::content_bytes_max);
   const Digest digest = sha256(*bytes);
   if (digest_ == digest) return false;
-  if (digest_)
+  if (digest_) {
     for (auto& [session, sent] : sent_) sent.erase(*digest_);
+    if (former_.size() >= limits::former_palettes_max) former_.clear();
+    former_.insert(*digest_);
+  }
+  former_.erase(digest);
   digest_ = digest;
   palette_ = std::move(bytes);
+  for (auto& [session, queue] : queues_) drop_former(queue);
   return true;
+}
+
+void ContentStream::drop_former(Queue& queue) const {
+  const auto first = queue.wanted.begin() + (queue.bytes == nullptr ? 0 : 1);
+  queue.wanted.erase(std::remove_if(first, queue.wanted.end(),
+                                    [&](const Digest& digest) { return former_.contains(digest); }),
+                     queue.wanted.end());
 }
 
 ContentStream::Bytes ContentStream::find(const Digest& digest) const {
@@ -38,6 +50,7 @@ ContentStream::Bytes ContentStream::find(const Digest& digest) const {
 }
 
 bool ContentStream::ask(uint64_t session, uint64_t party, const AskContentMessage& request) {
+  if (const auto queue = queues_.find(session); queue != queues_.end()) drop_former(queue->second);
   if (waiting(session) + request.wanted.size() > limits::contents_wanted_max) return false;
   for (const Digest& digest : request.wanted) {
     const auto sent = sent_.find(session);

@@ -1,7 +1,8 @@
 // Answers requests for content (proto/content.proto): the palette's bytes as it stands, and the images that
 // its rows name. What waits is bounded (limits::contents_wanted_max a session), and so are the bytes of a
 // tick, of each session and of all. Parties take turns, and the sessions of a party share its turns
-// (SessionTurns). Nothing is sent to a session twice. No sockets and no clock. Not thread-safe.
+// (SessionTurns). Nothing is sent to a session twice. A palette that has changed waits no longer: the session
+// is told of the next one, and asks for that. No sockets and no clock. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -54,12 +55,15 @@ class ContentStream {
     size_t room = 0;  ///< within serve()
   };
   Bytes find(const Digest& digest) const;
+  /// Drops palettes of before from what waits, but for one that is begun.
+  void drop_former(Queue& queue) const;
   static SharedBytes part_of(Queue& queue);
   SharedBytes next_part(uint64_t session, Queue& queue);
 
   std::shared_ptr<const Palette> own_;
   std::map<Digest, Bytes> images_;
   std::optional<Digest> digest_;
+  std::set<Digest> former_;  ///< palettes of before
   Bytes palette_;
   std::map<uint64_t, Queue> queues_;
   std::map<uint64_t, std::set<Digest>> sent_;  ///< of what is there

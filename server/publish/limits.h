@@ -53,6 +53,10 @@ inline constexpr int64_t tile_bytes_per_tick_all = 512 * 1024;
 inline constexpr int64_t content_bytes_per_tick = 32 * 1024;
 inline constexpr int64_t content_bytes_per_tick_all = 256 * 1024;
 
+/// Palettes of before that are known as such, so that they need not wait. Above: all are forgotten, and who
+/// asks for one later is answered that it is not there.
+inline constexpr size_t former_palettes_max = 1024;
+
 /// Bytes of a part by the slowest link. Less would be mostly its digest.
 inline constexpr size_t content_part_bytes_min = 512;
 

@@ -17,8 +17,7 @@ uint64_t hash_of(const std::vector<const BrickPatch*>& bricks) {
 }
 
 void set_edit(Field& field, BrickCoord brick, const PaintedBrick& edit) {
-  field.set_brick(brick, edit.brick);
-  field.set_materials(brick, edit.materials);
+  field.set_brick(brick, edit.brick, edit.materials);
 }
 
 /// A field forgets whole chunks: the other bricks are set again.

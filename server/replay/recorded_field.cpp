@@ -8,10 +8,7 @@ namespace scree {
 
 void follow_bricks(const TickDelta& delta, Field& field) {
   CHECK(delta.reverted.empty());
-  for (const BrickState& brick : delta.bricks) {
-    field.set_brick(brick.coord, *brick.brick);
-    field.set_materials(brick.coord, brick.materials);
-  }
+  for (const BrickState& brick : delta.bricks) field.set_brick(brick.coord, *brick.brick, brick.materials);
 }
 
 Result<std::shared_ptr<const TickDelta>> state_at_start(ReplaySource& source) {

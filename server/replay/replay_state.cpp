@@ -87,7 +87,8 @@ Result<void> ReplaySource::State::apply_operation(const Operation& operation, Ti
   const VoxelBox reads = read_box(operation, pieces, voxel_size_m);
   const BricksBefore stood = before != nullptr ? edits_within(field, reads) : BricksBefore();
   const Applied applied = apply(operation, field, pieces);
-  if (materials) materials->enter(applied.flows);
+  if (materials && !materials->enter(applied.flows))
+    return damaged("an operation gains more than its pieces and all dust have");
   delta.operations.push_back(describe(operation, reads, applied));
   changed.insert(applied.changed.begin(), applied.changed.end());
   for (const CreatedPiece& piece : applied.created) delta.spawned.push_back({piece.id, pieces.at(piece.id)});

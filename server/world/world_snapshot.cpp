@@ -23,9 +23,6 @@ constexpr float shape_slack_voxels = 4.0F;
 /// Ticks that a world may have counted: so many that no sum overflows.
 constexpr Tick tick_max = Tick{1} << 62U;
 
-/// Mass in a ledger, likewise.
-constexpr MassUnits mass_max = MassUnits{1} << 60U;
-
 /// Ids that pieces may have had, so that there are some left.
 constexpr PieceId next_piece_max = UINT32_MAX - (PieceId{1} << 24U);
 
@@ -77,8 +74,7 @@ class Restoring {
     for (const BrickPatch& patch : bricks) {
       if (last != nullptr && !(last->coord < patch.coord)) return fail("its bricks are not in order");
       if (!in_world(patch.coord)) return fail("a brick lies outside the world");
-      s_.field.set_brick(patch.coord, patch.brick);
-      s_.field.set_materials(patch.coord, patch.materials);
+      s_.field.set_brick(patch.coord, patch.brick, patch.materials);
       last = &patch;
     }
     return {};
@@ -160,8 +156,10 @@ class Restoring {
 
   Result<void> ledger() {
     const Ledger said = m_.ledger;
+    constexpr MassUnits most = limits::ledger_mass_max;
     for (const MassUnits mass : {said.terrain, said.pieces, said.dust, said.poured, said.moved})
-      if (mass < -mass_max || mass > mass_max) return fail("its ledger has more than there can be");
+      if (mass < -most || mass > most)
+        return fail("its ledger has more than there can be (limits.ledger_mass_max)");
     s_.ledger = measure_ ? measured() : m_.ledger;
     const Ledger& ledger = s_.ledger;
     for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.poured, ledger.moved})

@@ -107,7 +107,7 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   if (applied.terrain_gain > 0) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
-  materials.enter(applied.flows);
+  CHECK(materials.enter(applied.flows));
   for (const PieceId ended : pieces_ended_by(operation)) {
     CHECK(!pieces.contains(ended));
     shares.remove(traits.at(ended).owner);

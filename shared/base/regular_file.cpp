@@ -1,11 +1,15 @@
 #include "shared/base/regular_file.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
 namespace scree {
 
 namespace {
+
+/// A large limit is not to cost the memory of a large file.
+constexpr size_t read_at_first_bytes = size_t{64} << 10U;
 
 const char* words_on(std::filesystem::file_type type) {
   switch (type) {
@@ -45,10 +49,14 @@ Result<std::string> read_bytes_of(const std::string& path, size_t bytes_max) {
   TRY(check_is_file(path));
   std::ifstream in(path, std::ios::binary);
   if (!in) return fail("it cannot be read");
-  std::string bytes(bytes_max + 1, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (in.bad()) return fail("it cannot be read");
-  bytes.resize(static_cast<size_t>(in.gcount()));
+  std::string bytes;
+  while (in && bytes.size() <= bytes_max) {
+    const size_t had = bytes.size();
+    bytes.resize(std::min(bytes_max + 1, std::max(2 * had, read_at_first_bytes)));
+    in.read(bytes.data() + had, static_cast<std::streamsize>(bytes.size() - had));
+    if (in.bad()) return fail("it cannot be read");
+    bytes.resize(had + static_cast<size_t>(in.gcount()));
+  }
   bytes.shrink_to_fit();
   return bytes;
 }

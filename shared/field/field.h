@@ -68,8 +68,8 @@ class Field {
   BrickMaterials materials(BrickCoord coord) const;
   /// Changes what they say, and marks the brick as edited. Its codes stay.
   void set_materials(BrickCoord coord, const BrickMaterials& materials);
-  /// The ground's own materials there (ground_materials.h): no voxel says ground_own. Same lifetime as
-  /// brick().
+  /// The ground's own materials there (ground_materials.h): no voxel says ground_own. The reference stays
+  /// valid until the next call, or the field changes: copy what is kept.
   const BrickMaterials& ground_materials(BrickCoord coord) const;
   /// What decides the materials of a chunk's bricks, for those who read many: what bricks say, by their index
   /// (null: none says anything), and what the ground has (null: its bulk alone). Nothing where it takes more

@@ -34,7 +34,7 @@ struct NumberAt {
   }
   template <typename Owner>
   static void put(Owner& owner, float value) {
-    member_at<Path...>(owner) = value;
+    member_at<Path...>(owner) = value + 0.0F;  // no negative zero, which has other bytes
   }
 };
 
@@ -211,7 +211,7 @@ Result<void> set_number(MaterialRow& row, std::string_view member, double value)
   const MaterialNumber* found = find_in(numbers, member);
   if (found == nullptr) return no_member(numbers, "number", member);
   TRY(check(*found, value));
-  found->put(row, static_cast<float>(value) + 0.0F);  // no negative zero, which has other bytes
+  found->put(row, static_cast<float>(value));
   return {};
 }
 

@@ -32,7 +32,7 @@ struct NumberMember {
   std::string_view unit;  ///< empty: it has none
   std::string_view help;  ///< what it is, in a few words
   float (*get)(const Owner&);
-  void (*put)(Owner&, float);
+  void (*put)(Owner&, float);  ///< of zeros, the positive one: equal palettes have equal bytes
 };
 using MaterialNumber = NumberMember<MaterialRow>;
 using GroundNumber = NumberMember<GroundRows>;

@@ -21,7 +21,11 @@ MaterialLedger::Row& MaterialLedger::row(Material material) {
   return rows_[row_number(material)];
 }
 
-void MaterialLedger::enter(std::span<const MaterialFlow> flows) {
+bool MaterialLedger::enter(std::span<const MaterialFlow> flows) {
+  MassUnits left = 0;
+  for (const Row& one : rows_) left += one.dust;
+  for (const MaterialFlow& flow : flows) left -= flow.terrain + flow.pieces - flow.poured - flow.converted;
+  if (left < 0) return false;
   MassUnits missing = 0;
   for (const MaterialFlow& flow : flows) {
     Row& to = row(flow.material);
@@ -36,6 +40,7 @@ void MaterialLedger::enter(std::span<const MaterialFlow> flows) {
     to.dust = 0;
   }
   if (missing > 0) CHECK_EQ(convert(flows, missing), 0);
+  return true;
 }
 
 /// Takes the missing mass from dust: first of the flows' own materials, then of any. Returns what is left.

@@ -9,6 +9,15 @@
 
 namespace scree {
 
+namespace limits {
+/// Mass in any place of a ledger, to either side of 0, as a file or a message may name it. A world stays
+/// below: its box has fewer than 2^45 voxels (world_half_width_m, voxel_size_min_m), which weigh 2^53. The
+/// sums over time, such as of what was poured, grow by less than 2^33 a second (edit_voxel_cost_us): 2^55 is
+/// eleven weeks of nothing but edits on a whole core. The sum of a row, and that of a member over 255 rows,
+/// stay below 2^63. Above: refused.
+inline constexpr MassUnits ledger_mass_max = MassUnits{1} << 55U;
+}  // namespace limits
+
 /// Mass in all its places, in units of 1/254 voxel. Invariant, at every tick: terrain + pieces + dust =
 /// poured.
 struct Ledger {
@@ -58,8 +67,9 @@ class MaterialLedger {
   /// of.
   MaterialLedger(const Ledger& all, const MaterialMasses& pieces, Material material);
 
-  /// Enters one operation's flows, whose sum leaves no dust less than nothing.
-  void enter(std::span<const MaterialFlow> flows);
+  /// Enters one operation's flows. False, and nothing is entered, when they need more dust than there is: no
+  /// world's operations do, and those of a file may.
+  [[nodiscard]] bool enter(std::span<const MaterialFlow> flows);
 
   /// By material; those beyond have nothing.
   const std::vector<Row>& rows() const { return rows_; }

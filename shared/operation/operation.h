@@ -40,7 +40,7 @@ struct CarveOperation {
 struct FillOperation {
   static constexpr std::string_view plural = "fills";
   Shape shape;
-  /// Nothing: of what the voxels are already, as a brick's paint and the ground say.
+  /// Nothing: of what each voxel is already, by paint or by the ground.
   std::optional<Material> material{};
 
   bool operator==(const FillOperation&) const = default;

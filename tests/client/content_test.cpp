@@ -1,11 +1,13 @@
 // A client's palette and images: fetched once, kept for ever, and checked. A server that sends others costs
 // nothing else.
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
 
 #include "client/bot/bot.h"
 #include "client/cache/join_server.h"
+#include "client/cache/limits.h"
 #include "client/cache/received_content.h"
 #include "client/session/join_and_wait.h"
 #include "content/builtin_palette.h"
@@ -141,6 +143,62 @@ TEST_F(ReceivedContentTest, the_palette_before_stays_until_the_next_has_come) {
   content.accept(whole(sha256(bytes), bytes));
   EXPECT_EQ(*content.palette(), next);
   EXPECT_EQ(content.fault(), "");
+}
+
+/// Else a later palette could name it as an image, and it would be drawn unseen.
+TEST_F(ReceivedContentTest, what_came_as_a_palette_is_never_taken_for_an_image) {
+  const std::vector<uint8_t> nonsense(50, 0xFF);
+  ReceivedContent content = make(true);
+  content.begin_session(sha256(nonsense));
+  static_cast<void>(content.next_request());
+  EXPECT_FALSE(content.accept(whole(sha256(nonsense), nonsense)));
+  EXPECT_EQ(content.find(sha256(nonsense)), nullptr);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "cache/" + hex_of(sha256(nonsense)) + content_extension));
+  const std::vector<uint8_t> next = encode_palette(painted_palette(nonsense));
+  content.change_palette(sha256(next));
+  static_cast<void>(content.next_request());
+  EXPECT_EQ(content.accept(whole(sha256(next), next)), sha256(next));
+  EXPECT_EQ(content.find(sha256(nonsense)), nullptr);
+
+  // A palette that is one is no image, either.
+  ReceivedContent other = make(true);
+  other.begin_session(digest_);
+  static_cast<void>(other.next_request());
+  other.accept(whole(digest_, bytes_));
+  const std::vector<uint8_t> named = encode_palette(painted_palette(bytes_));
+  other.change_palette(sha256(named));
+  static_cast<void>(other.next_request());
+  other.accept(whole(sha256(named), named));
+  EXPECT_TRUE(other.is_current());
+  EXPECT_EQ(other.find(digest_), nullptr);
+}
+
+TEST_F(ReceivedContentTest, a_kept_file_that_is_no_image_is_not_taken_for_one) {
+  const std::vector<uint8_t> nonsense(50, 0xFF), bytes = encode_palette(painted_palette(nonsense));
+  TileFolder(folder_ / "cache", content_extension, limits::content_bytes_max)
+      .write(sha256(nonsense), nonsense);
+  ReceivedContent content = make(true);
+  content.begin_session(sha256(bytes));
+  static_cast<void>(content.next_request());
+  EXPECT_EQ(content.accept(whole(sha256(bytes), bytes)), sha256(bytes));
+  EXPECT_EQ(content.find(sha256(nonsense)), nullptr);
+  EXPECT_TRUE(holds(content.fault(), "an image of the server's palette cannot be used")) << content.fault();
+}
+
+/// Each is as large as a palette may be: together more than a client holds.
+TEST_F(ReceivedContentTest, palettes_that_cannot_be_used_take_no_memory) {
+  const std::vector<uint8_t> image = small_image(), bytes = encode_palette(painted_palette(image));
+  ReceivedContent content(TileFolder(""), true);
+  std::vector<uint8_t> nonsense(palette_bytes_max, 0xFF);
+  for (size_t i = 0; i * nonsense.size() <= limits::content_memory_max; ++i) {
+    std::memcpy(nonsense.data() + sizeof i, &i, sizeof i);
+    i == 0 ? content.begin_session(sha256(nonsense)) : content.change_palette(sha256(nonsense));
+    ASSERT_EQ(content.next_request().wanted.size(), 1U);
+    EXPECT_FALSE(content.accept(whole(sha256(nonsense), nonsense)));
+  }
+  content.change_palette(sha256(bytes));
+  static_cast<void>(content.next_request());
+  EXPECT_EQ(content.accept(whole(sha256(bytes), bytes)), sha256(bytes)) << content.fault();
 }
 
 // ---- with a server

@@ -11,6 +11,7 @@
 
 #include "content/builtin_palette.h"
 #include "content/files/palette_file.h"
+#include "content/palette_text.h"
 #include "crypto/sha256.h"
 #include "shared/material/material_members.h"
 #include "tests/content/small_palette.h"
@@ -194,6 +195,25 @@ TEST(PaletteCodec, the_specification_names_the_same_kinds) {
   EXPECT_EQ(names_in_proto("BreakLook", "BREAKS"), names_in_table<BreakLook>());
   EXPECT_EQ(names_in_proto("GrainAxis", "AXIS"), names_in_table<GrainAxis>());
   EXPECT_EQ(names_in_proto("SurfacePattern", "PATTERN"), names_in_table<SurfacePattern>());
+}
+
+/// A palette's digest is its name: equal ones have equal bytes.
+TEST(PaletteCodec, zero_has_no_sign) {
+  const auto bytes_with = [](float zero) {
+    Palette palette = small_palette();
+    palette.rows[0].friction = palette.rows[1].look.roughness = zero;
+    palette.ground.cap_depth_m = zero;
+    return encode_palette(palette);
+  };
+  const auto decoded = decode_palette(bytes_with(-0.0F));
+  ASSERT_TRUE(decoded) << decoded.error().message;
+  EXPECT_EQ(encode_palette(*decoded), bytes_with(0.0F));
+  const std::string ground = "[ground]\nbulk = 'a'\nsoil = 'a'\ncap = 'a'\n";
+  const std::string row = "[[material]]\nname = 'a'\n";
+  const auto plain = read_palette(ground + "cap_depth_m = 0.0\nsoil_depth_m = 0.0\n" + row, "plain");
+  const auto with_sign = read_palette(ground + "cap_depth_m = -0.0\nsoil_depth_m = -0.0\n" + row, "sign");
+  ASSERT_TRUE(plain && with_sign);
+  EXPECT_EQ(encode_palette(*with_sign), encode_palette(*plain));
 }
 
 }  // namespace

@@ -90,5 +90,34 @@ TEST_F(CoverImportTest, of_another_place_or_without_classes_is_refused_in_words)
   EXPECT_FALSE(std::filesystem::exists(folder_ / "made.ground"));
 }
 
+/// A raster of one row, as no file of the test holds such numbers.
+class OneRow final : public Raster {
+ public:
+  explicit OneRow(std::vector<double> cells) : cells_(std::move(cells)) {}
+  Shape shape() const override { return {static_cast<int>(cells_.size()), 1, 1.0, 1.0}; }
+  Result<void> read_row(int, std::span<double> to) override {
+    std::ranges::copy(cells_, to.begin());
+    return {};
+  }
+
+ private:
+  std::vector<double> cells_;
+};
+
+TEST_F(CoverImportTest, classes_beyond_whole_numbers_are_refused) {
+  const MaterialMap classes{{"-9223372036854775808", material::ice}, {"9007199254740991", material::ice}};
+  for (const double value : {1e300, -1e300, 9223372036854775808.0, 9007199254740993.0}) {
+    OneRow raster({0.0, value});
+    const auto refused = read_cover(raster, classes);
+    ASSERT_FALSE(refused) << value;
+    EXPECT_NE(refused.error().message.find("classes are whole numbers"), std::string::npos)
+        << refused.error().message;
+  }
+  OneRow raster({9007199254740991.0, -9007199254740991.0});
+  const auto cover = read_cover(raster, classes);
+  ASSERT_TRUE(cover) << cover.error().message;
+  EXPECT_EQ(cover->without, 1U);
+}
+
 }  // namespace
 }  // namespace scree

@@ -114,6 +114,26 @@ TEST_F(ContentStreamTest, settings_of_materials_make_another_palette) {
   EXPECT_EQ(*stream_->palette(), before);
 }
 
+TEST_F(ContentStreamTest, a_slow_session_may_ask_for_each_of_many_palettes) {
+  for (size_t change = 0; change < 4 * limits::contents_wanted_max; ++change) {
+    const Digest before = *stream_->palette();
+    ASSERT_TRUE(stream_->take_settings(
+        {{"material.rock.strength", change % 2 == 0 ? "77" : std::to_string(change)}}));
+    if (change % 3 == 0) {
+      ASSERT_TRUE(ask(before)) << "the news of the next one is on its way";
+    }
+    ASSERT_TRUE(ask(*stream_->palette())) << change;
+    if (change == 10) {
+      EXPECT_EQ(serve(1).size(), 1U) << "one is begun";
+    }
+    EXPECT_LE(stream_->waiting(1), 3U) << change;
+  }
+  std::map<Digest, size_t> sent;
+  for (int tick = 0; stream_->waiting(1) > 0 && tick < 10000; ++tick)
+    for (const ContentMessage& part : serve()) sent[part.digest] += part.part.size();
+  EXPECT_GT(sent[*stream_->palette()], 1000U);
+}
+
 using ContentServerTest = NetServerTest;
 
 TEST_F(ContentServerTest, a_welcome_names_the_palette_and_the_server_has_it) {

@@ -1,6 +1,7 @@
 // Terrain and pieces of several materials: what each operation makes of them, and the ledger of each.
 #include "tests/support/materials.h"
 
+#include <array>
 #include <gtest/gtest.h>
 #include <map>
 
@@ -32,7 +33,7 @@ struct Ground {
     else
       ledger.dust -= applied.terrain_gain + made - ended;
     if (applied.terrain_gain < 0) ledger.moved -= applied.terrain_gain;
-    materials.enter(applied.flows);
+    EXPECT_TRUE(materials.enter(applied.flows));
     EXPECT_TRUE(materials.agrees(ledger));
     expect_masses();
     return applied;
@@ -256,6 +257,18 @@ TEST(materials, little_is_converted_when_mixed_rubble_is_carved_and_merged_a_tho
   RecordProperty("converted_share", std::to_string(share));
   EXPECT_LE(share, 0.005);
   std::printf("converted %.4f %% of what was moved\n", 100.0 * share);
+}
+
+TEST(materials, flows_that_need_more_dust_than_there_is_are_not_entered) {
+  const std::vector<MaterialLedger::Row> rows{{-10, 4, 6, 0, 0}, {-5, 0, 5, 0, 0}};
+  MaterialLedger ledger(rows);
+  const MaterialFlow piece{.material = material::rock, .terrain = 0, .pieces = -4};
+  MaterialFlow gain{.material = material::soil, .terrain = 16};
+  EXPECT_FALSE(ledger.enter(std::array{piece, gain}));
+  EXPECT_EQ(ledger.rows(), rows);
+  gain.terrain = 15;
+  EXPECT_TRUE(ledger.enter(std::array{piece, gain}));
+  EXPECT_TRUE(ledger.agrees({.terrain = 0}));
 }
 
 TEST(materials, fields_of_every_kind_agree) {

@@ -64,5 +64,44 @@ TEST(RecordingCodec, that_a_session_cannot_go_on_is_kept_among_the_commands) {
   EXPECT_TRUE(std::holds_alternative<LeaveRequest>(read->at(1).body));
 }
 
+/// Sums of ledgers must not overflow, whatever a file says.
+TEST(RecordingCodec, a_ledger_with_more_than_there_can_be_is_refused) {
+  constexpr MassUnits most = MassUnits{1} << 55U;
+  for (MassUnits Ledger::*mass :
+       {&Ledger::terrain, &Ledger::pieces, &Ledger::dust, &Ledger::poured, &Ledger::moved})
+    for (const MassUnits sign : {1, -1}) {
+      RecordedFrame frame;
+      frame.ledger.*mass = sign * most;
+      EXPECT_TRUE(decode_recorded_frame(encode(frame)));
+      frame.ledger.*mass = sign * (most + 1);
+      const auto refused = decode_recorded_frame(encode(frame));
+      ASSERT_FALSE(refused);
+      EXPECT_NE(refused.error().message.find("limits.ledger_mass_max"), std::string::npos)
+          << refused.error().message;
+      RecordedKeyframe keyframe;
+      keyframe.ledger = frame.ledger;
+      EXPECT_FALSE(decode_recorded_keyframe(encode(keyframe)));
+    }
+}
+
+TEST(RecordingCodec, a_ledger_of_a_material_with_more_than_there_can_be_is_refused) {
+  using Row = MaterialLedger::Row;
+  constexpr MassUnits most = MassUnits{1} << 55U;
+  for (MassUnits Row::*mass : {&Row::terrain, &Row::pieces, &Row::dust, &Row::poured, &Row::converted})
+    for (const MassUnits sign : {1, -1}) {
+      std::vector<Row> rows(255);
+      rows.back().*mass = sign * most;
+      RecordedKeyframe keyframe;
+      keyframe.materials = MaterialLedger(rows);
+      EXPECT_TRUE(decode_recorded_keyframe(encode(keyframe)));
+      rows.back().*mass = sign * (most + 1);
+      keyframe.materials = MaterialLedger(rows);
+      const auto refused = decode_recorded_keyframe(encode(keyframe));
+      ASSERT_FALSE(refused);
+      EXPECT_NE(refused.error().message.find("limits.ledger_mass_max"), std::string::npos)
+          << refused.error().message;
+    }
+}
+
 }  // namespace
 }  // namespace scree

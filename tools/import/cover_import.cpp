@@ -16,6 +16,9 @@ namespace {
 /// A difference of the sizes of two rasters that is rounding.
 constexpr double same_size = 0.01;
 
+/// Number of a class, to either side of 0: beyond, doubles leave whole numbers out.
+constexpr double class_max = 9007199254740991.0;
+
 class Coverer {
  public:
   Coverer(const TerrainSource& source, const CoverGrid& cover, const CoverImport& how)
@@ -129,8 +132,9 @@ Result<CoverGrid> read_cover(Raster& raster, const MaterialMap& classes) {
   for (int z = 0; z < shape.rows; ++z) {
     TRY(raster.read_row(z, row));
     for (const double value : row) {
-      if (std::isfinite(value) && value != std::floor(value))
-        return fail(fmt::format("it holds {:.6g}: classes are whole numbers", value));
+      if (std::isfinite(value) && (value != std::floor(value) || std::abs(value) > class_max))
+        return fail(
+            fmt::format("it holds {:.6g}: classes are whole numbers within ±{:.0f}", value, class_max));
       VoxelMaterial own = ground_own;
       if (std::isfinite(value)) {
         const auto number = static_cast<int64_t>(value);

@@ -17,6 +17,7 @@
 #include "server/store/recording.h"
 #include "server/store/recording_writer.h"
 #include "shared/base/random.h"
+#include "shared/recombine/stamp_plan.h"
 #include "tests/fuzz/support/any_request.h"
 #include "tests/fuzz/support/fuzz_server.h"
 #include "tests/fuzz/support/scratch_file.h"
@@ -166,12 +167,26 @@ void write_session(Corpora& corpora) {
   }
 }
 
+/// A piece is stamped in the air, and gains more than its mass and all dust.
+RecordedFrame hostile_frame() {
+  RecordedFrame frame;
+  frame.tick = 1;
+  frame.operations = {CarveOperation{.shape = sphere({16.0F, 0.0F, 16.0F}, 2.5F), .first_piece = 1},
+                      StampOperation{.piece = 1,
+                                     .pose = quantise({{16.0F, 20.0F, 16.0F}}),
+                                     .shift = stamp_shift_max,
+                                     .method = StampMethod::sphere}};
+  return frame;
+}
+
 void write_recording(Corpora& corpora) {
   WorldConfig config;
   config.terrain = terrain;
   World world(config);
   const ScratchFile file("seeds");
   const RecordingHeader header{"seeds", config};
+  RecordedHeader without_palette = to_recorded(header);
+  without_palette.palette = nullptr;  // which would be most of a seed
   auto writer = RecordingWriter::create(file.path(), header);
   Seed rows;
   const auto row = [&](uint8_t table, Tick tick, const Bytes& data) {
@@ -179,7 +194,8 @@ void write_recording(Corpora& corpora) {
     corpora.add("packed", Seed().byte(static_cast<uint8_t>(5 + table)).raw(data).bytes);
   };
   rows.byte(1).byte(3);
-  row(0, 0, encode(to_recorded(header)));
+  row(0, 0, encode(without_palette));
+  Seed hostile = rows;
   PublishedState state;
   for (Tick tick = 1; tick <= 4; ++tick) {
     std::vector<Command> commands;
@@ -195,6 +211,8 @@ void write_recording(Corpora& corpora) {
   }
   (void)(*writer)->finish();
   corpora.add("recording", rows.bytes);
+  const Bytes frame = encode(hostile_frame());
+  corpora.add("recording", hostile.byte(1).byte(1).packet(frame).bytes);
 }
 
 /// A world with pieces in the air, whole and by its rows; and a ground.

@@ -4,9 +4,8 @@
 #include <assimp/material.h>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "shared/base/regular_file.h"
 #include "tools/import/import_palette.h"
 #include "tools/import/limits.h"
 
@@ -55,14 +54,10 @@ std::unique_ptr<Picture> SceneTextures::read(unsigned material) {
     picture = embedded(*own);
   } else {
     const std::filesystem::path file = std::filesystem::path(path_).parent_path() / name->C_Str();
-    std::error_code error;
-    if (files_.allows_picture(file) && std::filesystem::is_regular_file(file, error) &&
-        std::filesystem::file_size(file, error) <= limits::picture_bytes_max) {
-      std::ifstream in(file, std::ios::binary);
-      const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)),
-                                       std::istreambuf_iterator<char>());
-      picture = read_picture(bytes);
-    }
+    if (files_.allows_picture(file))
+      if (const auto bytes = read_bytes_of(file, limits::picture_bytes_max);
+          bytes && bytes->size() <= limits::picture_bytes_max)
+        picture = read_picture({reinterpret_cast<const uint8_t*>(bytes->data()), bytes->size()});
   }
   if (picture && !picture->pixels.empty()) return std::make_unique<Picture>(std::move(*picture));
   ++unread_;

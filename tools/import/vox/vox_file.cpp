@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 
 #include "shared/base/regular_file.h"
 #include "tools/import/colour_rows.h"
@@ -33,9 +31,8 @@ struct VoxHead {
 
 /// The child's part.
 Result<void> send_vox(ReaderChannel& channel, const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  const std::vector<uint8_t> bytes((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  const VoxScene scene = TRY(parse_vox(bytes));
+  const std::string bytes = TRY(read_bytes_of(path, limits::vox_file_bytes_max));
+  const VoxScene scene = TRY(parse_vox({reinterpret_cast<const uint8_t*>(bytes.data()), bytes.size()}));
   const VoxBricks placed = TRY(placed_voxels(scene));
   TRY(channel.put(VoxHead{placed.voxels, placed.copies, placed.hidden, scene.colours}));
   for (int i = 0; i < 256; ++i) {
@@ -74,6 +71,23 @@ class VoxPlace {
   std::array<double, 3> shift_{};
 };
 
+/// The voxels of a box become that colour. False: there are more bricks than may be.
+bool fill_box(ColouredBricks& bricks, const VoxelBox& box, uint8_t colour) {
+  bool fits = true;
+  for_each_brick(box, [&](BrickCoord coord) {
+    fits = fits && (bricks.size() < limits::vox_bricks_max || bricks.contains(coord));
+    if (!fits) return;
+    auto& brick = bricks[coord];
+    const VoxelCoord first = first_voxel(coord);
+    const VoxelBox part = common(box, {first, first + VoxelCoord{brick_size, brick_size, brick_size}});
+    for (int x = part.lo.x; x < part.hi.x; ++x)
+      for (int y = part.lo.y; y < part.hi.y; ++y)
+        for (int z = part.lo.z; z < part.hi.z; ++z)
+          brick[static_cast<size_t>(Brick::index(x & 7, y & 7, z & 7))] = colour;
+  });
+  return fits;
+}
+
 Result<ColouredBricks> in_world(const std::vector<SentBrick>& sent, const VoxPlace& place) {
   ColouredBricks bricks;
   for (const SentBrick& brick : sent)
@@ -82,12 +96,8 @@ Result<ColouredBricks> in_world(const std::vector<SentBrick>& sent, const VoxPla
       if (colour == 0) continue;
       const VoxelCoord own = first_voxel(brick.at) + VoxelCoord{i >> 6, (i >> 3) & 7, i & 7};
       const Range xs = place.range(0, own.x), ys = place.range(1, own.y), zs = place.range(2, own.z);
-      for (int x = xs.from; x < xs.to; ++x)
-        for (int y = ys.from; y < ys.to; ++y)
-          for (int z = zs.from; z < zs.to; ++z)
-            bricks[brick_of(VoxelCoord{x, y, z})][static_cast<size_t>(Brick::index(x & 7, y & 7, z & 7))] =
-                colour;
-      if (bricks.size() > limits::vox_bricks_max)
+      const VoxelBox box{{xs.from, ys.from, zs.from}, {xs.to, ys.to, zs.to}};
+      if (!box.empty() && !fill_box(bricks, box, colour))
         return fail(
             fmt::format("in the world, its voxels lie in more than {} bricks of 8 a side "
                         "(limits.vox_bricks_max); a smaller --scale makes fewer",
