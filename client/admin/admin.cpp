@@ -113,16 +113,16 @@ Result<Palette> palette_from(Talk& talk) {
 
 /// Joins, asks, and waits for the answer: an error when it is a refusal.
 template <typename Answer>
-Result<std::pair<Answer, Talk>> ask(const AdminServer& server, AdminRequest act) {
+Result<std::pair<Answer, Talk>> ask(const AdminServer& server, const AdminRequest& act) {
   Talk talk = TRY(join(server));
-  talk.send(AdminMessage{1, "", std::move(act)});
+  talk.send(AdminMessage{1, "", act});
   Result<Answer> answer = talk.answer<Answer>();
   TRY(answer);
   return std::pair{std::move(*answer), std::move(talk)};
 }
 
-Result<void> done_by(const AdminServer& server, AdminRequest act) {
-  const auto asked = TRY(ask<ReplyMessage>(server, std::move(act)));
+Result<void> done_by(const AdminServer& server, const AdminRequest& act) {
+  const auto asked = TRY(ask<ReplyMessage>(server, act));
   return {};
 }
 

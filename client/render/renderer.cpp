@@ -103,6 +103,7 @@ struct Renderer::Parts {
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
   std::shared_ptr<const Palette> palette = plain_palette();
+  GroundTints tints;
   MaterialTexelSet come;  ///< images of materials
   MaterialImages images;
   MaterialTable materials{*palette, images};
@@ -225,7 +226,8 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
                    shadows ? shadows->texture() : 0,
                    materials.texture(),
                    images.texture(),
-                   layers};
+                   layers,
+                   tints};
   if (method != nullptr && shadows) draw_shadows(*method, camera, pass);
 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
@@ -342,6 +344,7 @@ void Renderer::set_palette(const std::shared_ptr<const Palette>& palette) {
   CHECK(palette != nullptr);
   if (parts_->palette == palette) return;
   parts_->palette = palette;
+  parts_->tints = ground_tints(*palette);
   parts_->show_materials();
 }
 

@@ -2,6 +2,8 @@
 // material.glsl.
 
 uniform float u_ice_above_m;
+// What a palette makes of the colours below (client/render/scene/ground_tint.h).
+uniform vec3 u_bulk_tint, u_soil_tint, u_cap_tint;
 
 // Beds of sandstone, bent a little; scrub and sand where it is flat.
 vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
@@ -15,12 +17,12 @@ vec3 weathered(vec3 p, vec3 n, vec4 coarse, float fine) {
   vec3 scrub = vec3(0.165, 0.172, 0.075) * (0.70 + 0.60 * fine);
   float flatness = smoothstep(0.72, 0.90, n.y + 0.12 * (fine - 0.5));
   float green = smoothstep(0.42, 0.66, coarse.x + 0.22 * (fine - 0.5) + 0.006 * p.y);
-  vec3 ground = mix(rock, mix(sand, scrub, green), flatness);
+  vec3 ground = mix(rock * u_bulk_tint, mix(sand, scrub, green) * u_soil_tint, flatness);
   // Ice and old snow on the heights: where it is not too steep to lie, and in the cracks of the beds.
   float high = smoothstep(-0.9, 1.3, p.y - u_ice_above_m + 1.6 * (coarse.x - 0.5) + 0.5 * (fine - 0.5));
   float lies = smoothstep(0.30, 0.62, n.y + 0.20 * (fine - 0.5) + 0.10 * seam);
   vec3 ice = mix(vec3(0.50, 0.60, 0.68), vec3(0.80, 0.83, 0.86), smoothstep(0.35, 0.75, fine + 0.3 * n.y));
-  return mix(ground, ice, high * lies);
+  return mix(ground, ice * u_cap_tint, high * lies);
 }
 
 // How much shows of broken rock, cut or heaped, which is paler and warmer than what the weather has had, and bare. `worn`:
@@ -139,7 +141,7 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
       broken *= (1.0 + 0.14 * large.x + 0.12 * chip.y) * (1.0 - 0.60 * crack);
       open -= 0.4 * crack;
     }
-    albedo = mix(albedo, broken, bare);
+    albedo = mix(albedo, broken * u_bulk_tint, bare);
   }
   // The slopes bend the normal, less with distance, where they would only flicker.
   Rock rock = Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain), open, 1.0);
@@ -147,7 +149,7 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
   // Rubble is stones, whatever shape the field has room for; a layer thinner than a voxel has room for none.
   float piled = bare * worn.y / max(worn.x + worn.y, 1e-3) * smoothstep(0.12, 0.40, worn.y);
   if (piled > 0.0) {
-    vec3 bed = mix(vec3(0.46, 0.235, 0.12), vec3(0.56, 0.36, 0.21), coarse.x);
+    vec3 bed = mix(vec3(0.46, 0.235, 0.12), vec3(0.56, 0.36, 0.21), coarse.x) * u_bulk_tint;
     Rock rubble = rubble_at(p, shape_normal, bed, middle.yzw, uneven, 1.0 + fine - uneven, in_cleft, away);
     rock.albedo = mix(rock.albedo, rubble.albedo, piled);
     rock.normal = normalize(mix(rock.normal, normalize(rubble.normal), piled));

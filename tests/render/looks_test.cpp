@@ -5,6 +5,8 @@
 #include "client/render/levels/level_bricks.h"
 #include "client/render/levels/surface_looks.h"
 #include "client/render/pieces/piece_mesh.h"
+#include "client/render/scene/ground_tint.h"
+#include "content/builtin_palette.h"
 #include "shared/operation/operation.h"
 #include "tests/support/edge_uses.h"
 #include "tests/support/flat_terrain.h"
@@ -12,6 +14,16 @@
 
 namespace scree {
 namespace {
+
+/// The shader's ground is of the built-in palette, which needs no tint.
+TEST(GroundTints, are_the_colours_of_a_palette_over_those_of_the_built_in_one) {
+  Palette palette = builtin_palette();
+  const GroundTints none = ground_tints(palette);
+  for (const glm::vec3& tint : {none.bulk, none.soil, none.cap}) EXPECT_EQ(tint, glm::vec3(1.0F));
+  palette.rows[row_number(palette.ground.soil)].look.colour = {1.0F, 0.0F, 0.12F};
+  EXPECT_EQ(ground_tints(palette).soil, glm::vec3(5.0F, 0.0F, 2.0F));
+  EXPECT_EQ(ground_tints(palette).bulk, glm::vec3(1.0F));
+}
 
 constexpr Material brick{7}, concrete{6};  // of the built-in palette
 

@@ -9,6 +9,9 @@ void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_u
   program.set("u_sun", pass.lighting.sun);
   program.set("u_fog_m", pass.lighting.fog_m);
   program.set("u_ice_above_m", pass.lighting.layers.ice_above_m);
+  program.set("u_bulk_tint", pass.lighting.tints.bulk);
+  program.set("u_soil_tint", pass.lighting.tints.soil);
+  program.set("u_cap_tint", pass.lighting.tints.cap);
   program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
   program.set("u_shadow_map", shadow_unit);
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(shadow_unit));

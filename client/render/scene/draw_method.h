@@ -14,6 +14,7 @@
 #include "client/mirror/mirror.h"
 #include "client/render/scene/camera.h"
 #include "client/render/scene/draw_option.h"
+#include "client/render/scene/ground_tint.h"
 #include "shared/base/memory_count.h"
 
 namespace scree {
@@ -42,6 +43,7 @@ struct Lighting {
   unsigned materials = 0;           ///< GL texture of the palette's looks (client/render/gl/material_table.h)
   unsigned images = 0;              ///< GL texture of their images, a layer each; 0: there are none
   MaterialHeights layers;           ///< heights at which soil and ice cover the ground
+  GroundTints tints;                ///< of the ground that looks as it does by itself
 };
 
 /// One walk over the scene. For `shadow` only depth counts, and there is no shadow matrix yet.
