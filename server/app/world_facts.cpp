@@ -23,7 +23,7 @@ std::string hash_text(uint64_t hash) {
 
 std::string palette_facts(const Palette* palette) {
   const Palette& own = palette != nullptr ? *palette : builtin_palette();
-  const Json json{{"palette", palette == nullptr ? "built-in" : "of a file"},
+  const Json json{{"palette", own == builtin_palette() ? "built-in" : "of a file"},
                   {"digest", hex_of(palette_digest(own))},
                   {"rows", own.rows.size()},
                   {"names", own.names()}};
