@@ -175,7 +175,7 @@ class Images : public Materials {
     look.image_m = 2.0F;
     renderer_->set_palette(palette);
   }
-  /// Of the wall's face.
+  /// The colour of the wall's face at a place.
   std::array<int, 3> colour_at(const Image& image, float x_m, float y_m) const {
     const float half = std::tan(camera_.field_of_view * 0.5F) * (camera_.eye_m.z - face_z_m);
     const int row = static_cast<int>((0.5F - (y_m - camera_.eye_m.y) / half * 0.5F) * height);

@@ -172,7 +172,7 @@ TEST(paint, bytes_that_paint_what_is_not_there_are_refused) {
     ASSERT_FALSE(got) << word;
     EXPECT_NE(got.error().message.find(word), std::string::npos) << got.error().message;
   };
-  refused(7, 3, "painted bricks");
+  refused(7, 3, "bricks with materials");
   refused(8, 2, "beyond the last brick");
   // 255 says that each voxel has its own material: then their bytes are missing.
   refused(9, materials_max, "do not declare 1536 bytes");
