@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/proxy/proxy_fixture.h"
+#include "tests/support/patience.h"
 
 namespace scree {
 namespace {
@@ -35,7 +36,7 @@ TEST_F(ProxyCacheTest, pages_are_fresh_and_people_join_through_it) {
   run_caching_nginx();
   HttpClient browser(by_proxy(1));
   for (int i = 0; i < 3; ++i) EXPECT_EQ(browser.get("/").status, 200);
-  // The server counts a request when its own thread has seen it off.
+  // The counts that others see follow a moment later.
   for (const Within time(60.0); server->stats().web.requests < 3U && !time.over();) wait_a_moment();
   EXPECT_EQ(server->stats().web.requests, 3U) << "index.html has no hash in its name";
   for (int user = 1; user <= users; ++user) {
