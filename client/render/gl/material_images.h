@@ -22,7 +22,7 @@ class MaterialImages {
   /// From now on. Images beyond limits::material_images_max, in the palette's order, have no layer.
   void set(const Palette& palette, const MaterialTexelSet& come);
 
-  /// Of an image; −1: it has not come, or has no room.
+  /// The layer of an image; −1: it has not come, or has no room.
   int layer_of(const std::optional<Digest>& image) const;
   /// 0 while none has come.
   unsigned texture() const { return filled_.empty() ? 0 : texture_->name(); }

@@ -18,7 +18,7 @@ inline constexpr int worn_all = 58;
 Code packed_worn(int worn);
 /// What was packed, signed, in codes.
 int unpacked_worn(Code packed);
-/// Of that how far rock has come, in steps.
+/// How far rock has come, by what was packed, in steps.
 inline int unpacked_come(Code packed) {
   return static_cast<uint8_t>(packed) >> 4;
 }

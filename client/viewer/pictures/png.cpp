@@ -37,7 +37,7 @@ Result<void> write_frame(const std::string& folder, size_t frame, const Image& i
 
 namespace {
 
-/// Of a header whose reading has begun, or failed to begin.
+/// The header's reading has begun, or failed to begin.
 Result<Image> finish_reading(png_image& header, bool begun) {
   const auto wrong = [&](const std::string& why) {
     png_image_free(&header);

@@ -14,7 +14,7 @@
 
 namespace scree {
 
-/// Of the bytes of a PNG; any thread. Null: nobody decodes.
+/// Decodes the bytes of a PNG, on any thread. Null: nobody decodes.
 using DecodeImage = Result<Image> (*)(std::span<const uint8_t>);
 
 class ImageLoader {
