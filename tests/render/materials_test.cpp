@@ -5,7 +5,6 @@
 #include <string>
 
 #include "client/render/methods.h"
-#include "client/render/scene/limits.h"
 #include "client/viewer/pictures/png.h"
 #include "content/builtin_palette.h"
 #include "tests/support/flat_terrain.h"
@@ -175,7 +174,7 @@ class Images : public Materials {
     look.image_m = 2.0F;
     renderer_->set_palette(palette);
   }
-  /// The colour of the wall's face at a place.
+  /// At a point of the wall's face.
   std::array<int, 3> colour_at(const Image& image, float x_m, float y_m) const {
     const float half = std::tan(camera_.field_of_view * 0.5F) * (camera_.eye_m.z - face_z_m);
     const int row = static_cast<int>((0.5F - (y_m - camera_.eye_m.y) / half * 0.5F) * height);
@@ -208,19 +207,6 @@ TEST_P(Images, of_normals_turn_the_light) {
   const int even = brightness_with_normals({128, 128, 255});
   EXPECT_GT(brightness_with_normals({200, 128, 220}), even + 5) << "towards the sun, which is on the right";
   EXPECT_LT(brightness_with_normals({56, 128, 220}), even - 5);
-}
-
-TEST(MaterialTexels, are_means_of_the_pixels_they_cover) {
-  constexpr auto side = static_cast<size_t>(limits::material_image_side);
-  const MaterialTexels small = resampled(std::vector<uint8_t>{0, 0, 0, 200, 100, 50}, 2, 1);
-  ASSERT_EQ(small.size(), side * side * 4);
-  EXPECT_EQ(small[0], 0);
-  EXPECT_EQ(small[(side - 1) * 4], 200);
-  std::vector<uint8_t> stripes;
-  for (size_t i = 0; i < side * 2; ++i) stripes.insert(stripes.end(), 3, i % 2 == 0 ? 0 : 100);
-  const MaterialTexels mixed = resampled(stripes, static_cast<int>(side) * 2, 1);
-  EXPECT_EQ(mixed[0], 50);
-  EXPECT_EQ(mixed[3], 255);
 }
 
 std::vector<std::string> all_method_names() {
