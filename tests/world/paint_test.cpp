@@ -156,7 +156,7 @@ TEST(paint, what_cannot_be_painted_is_refused_by_name_and_changes_nothing) {
   EXPECT_NE(refusal(material::ice, sphere({1e6F, 0, 0}, 1.0F)).find("outside the world"), std::string::npos);
 }
 
-TEST(paint, bytes_that_paint_what_is_not_there_are_refused) {
+TEST(paint, bytes_with_materials_of_what_is_not_there_are_refused) {
   const std::vector<BrickPatch> bricks{{{0, 0, 0}, air_brick(), all_of(material::ice)},
                                        {{0, 0, 1}, air_brick(), {}}};
   const std::vector<uint8_t> bytes = encode_bricks(bricks);
@@ -172,7 +172,7 @@ TEST(paint, bytes_that_paint_what_is_not_there_are_refused) {
     ASSERT_FALSE(got) << word;
     EXPECT_NE(got.error().message.find(word), std::string::npos) << got.error().message;
   };
-  refused(7, 3, "painted bricks");
+  refused(7, 3, "bricks with materials");
   refused(8, 2, "beyond the last brick");
   // 255 says that each voxel has its own material: then their bytes are missing.
   refused(9, materials_max, "do not declare 1536 bytes");
