@@ -60,7 +60,7 @@ std::string world_facts(const std::string& path, const WorldRows& rows, const Ch
                   {"seed", moment.config.terrain.random_seed},
                   {"voxel_size_m", moment.config.terrain.voxel_size_m},
                   {"tick_rate_hz", moment.config.tick_rate_hz},
-                  {"materials", describe(palette, moment.config.palette == nullptr)},
+                  {"materials", describe(palette, palette == builtin_palette())},
                   {"settings", std::move(settings)},
                   {"tick", moment.tick},
                   {"seconds", static_cast<double>(moment.tick) / moment.config.tick_rate_hz},

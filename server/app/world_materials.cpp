@@ -28,7 +28,7 @@ Result<void> give_materials(RecordedHeader& header, const std::shared_ptr<const 
   if (const auto may = validate_change(kept, *materials); !may)
     return fail(may.error().message +
                 " (--materials); the world keeps its own materials without that option");
-  header.palette = *materials == builtin_palette() ? nullptr : materials;
+  header.palette = materials;
   return {};
 }
 

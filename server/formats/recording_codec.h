@@ -36,11 +36,12 @@ struct RecordedHeader {
   Digest ground{};        ///< of the file that the terrain's ground is from; zeros: it is generated
   uint32_t tick_rate_hz = 60;
   uint32_t merges_per_tick_max = 0;
-  SettingValues settings;                    ///< to start with
-  std::optional<Spawn> spawn{};              ///< as of WorldConfig: it is not among `settings`
-  uint32_t merge_burst_ticks = 0;            ///< of a recording's events: EventDeriver
-  uint32_t rules = 0;                        ///< by which the simulation serves (server/world/rules.h)
-  std::shared_ptr<const Palette> palette{};  ///< to start with; null: the built-in one
+  SettingValues settings;          ///< to start with
+  std::optional<Spawn> spawn{};    ///< as of WorldConfig: it is not among `settings`
+  uint32_t merge_burst_ticks = 0;  ///< of a recording's events: EventDeriver
+  uint32_t rules = 0;              ///< by which the simulation serves (server/world/rules.h)
+  /// To start with. Null in old files alone: the built-in one, whose digest a test of tests/content pins.
+  std::shared_ptr<const Palette> palette{};
 };
 
 struct RecordedFrame {

@@ -16,9 +16,7 @@ RecordedHeader to_recorded(const WorldConfig& config) {
   std::erase_if(out.settings, [](const SettingValue& value) { return value.name == spawn_setting; });
   out.spawn = config.spawn;
   out.rules = config.rules;
-  const bool builtin =
-      config.palette == shared_builtin_palette() || *config.palette == *shared_builtin_palette();
-  if (!builtin) out.palette = config.palette;
+  out.palette = config.palette;
   return out;
 }
 
@@ -29,7 +27,7 @@ Result<WorldConfig> config_of(const RecordedHeader& header) {
   config.tick_rate_hz = header.tick_rate_hz;
   config.merges_per_tick_max = header.merges_per_tick_max;
   config.rules = header.rules;
-  if (header.palette != nullptr) config.palette = header.palette;
+  config.palette = header.palette != nullptr ? header.palette : shared_builtin_palette();
   TRY(set_all(config, header.settings));
   config.spawn = header.spawn;
   TRY(validate(config));

@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 #include <limits>
 
+#include "server/formats/recording_codec.h"
 #include "server/world/limits.h"
+#include "server/world/recorded_values.h"
 #include "server/world/world.h"
 #include "shared/base/limits.h"
 #include "tests/support/rounds.h"
@@ -110,6 +112,16 @@ INSTANTIATE_TEST_SUITE_P(
       return "voxels_" + std::to_string(static_cast<int>(info.param.voxel_size_m * 100.0F)) + "_cm_at_" +
              std::to_string(info.param.tick_rate_hz) + "_hz";
     });
+
+/// A later release may have another built-in palette.
+TEST(WorldConfig, a_header_names_the_built_in_palette_too) {
+  const RecordedHeader header = to_recorded(WorldConfig{});
+  ASSERT_NE(header.palette, nullptr);
+  EXPECT_EQ(*header.palette, builtin_palette());
+  const auto decoded = decode_recorded_header(encode(header));
+  ASSERT_TRUE(decoded && decoded->palette != nullptr);
+  EXPECT_EQ(*decoded->palette, builtin_palette());
+}
 
 }  // namespace
 }  // namespace scree
