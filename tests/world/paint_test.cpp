@@ -156,7 +156,7 @@ TEST(paint, what_cannot_be_painted_is_refused_by_name_and_changes_nothing) {
   EXPECT_NE(refusal(material::ice, sphere({1e6F, 0, 0}, 1.0F)).find("outside the world"), std::string::npos);
 }
 
-TEST(paint, bytes_that_paint_what_is_not_there_are_refused) {
+TEST(paint, bytes_with_materials_of_what_is_not_there_are_refused) {
   const std::vector<BrickPatch> bricks{{{0, 0, 0}, air_brick(), all_of(material::ice)},
                                        {{0, 0, 1}, air_brick(), {}}};
   const std::vector<uint8_t> bytes = encode_bricks(bricks);
