@@ -224,6 +224,10 @@ MaterialWindow part_of(const MaterialWindow& window, const VoxelBox& box) {
           (box.lo.z - window.box.lo.z);
       std::copy_n(window.each.data() + row, count, to);
     }
+  // Decoders make it so, too: what a piece's breaks share out goes by it.
+  const Material first = part.each.front();
+  if (std::ranges::all_of(part.each, [first](Material other) { return other == first; }))
+    return {box, first, {}};
   return part;
 }
 
