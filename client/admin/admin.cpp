@@ -111,6 +111,18 @@ Result<Palette> palette_from(Talk& talk) {
   }
 }
 
+/// The first part of an image has its header; the rest is not waited for.
+Result<ImageFacts> facts_of_image(Talk& talk, const Digest& image) {
+  const AskContentMessage request{{image}};
+  talk.send(request);
+  for (;;) {
+    const auto part = TRY(talk.next<ContentMessage>("image"));
+    if (part.digest != image || part.offset != 0) continue;
+    const auto size = check_image(part.part);
+    return ImageFacts{part.total, size ? *size : ImageSize{}};
+  }
+}
+
 /// Joins, asks, and waits for the answer: an error when it is a refusal.
 template <typename Answer>
 Result<std::pair<Answer, Talk>> ask(const AdminServer& server, const AdminRequest& act) {
@@ -154,20 +166,12 @@ Result<Palette> read_materials(const AdminServer& server) {
   return palette_from(talk);
 }
 
-/// The first part of an image has its header.
 Result<ImageFactsOf> read_images(const AdminServer& server, const MaterialRow& row) {
   ImageFactsOf images;
   Talk talk = TRY(join(server));
   for (const std::optional<Digest>& image : {row.look.albedo, row.look.normal}) {
     if (!image || images.contains(*image)) continue;
-    talk.send(AskContentMessage{{*image}});
-    for (;;) {
-      const auto part = TRY(talk.next<ContentMessage>("image"));
-      if (part.digest != *image || part.offset != 0) continue;
-      const auto size = check_image(part.part);
-      images[*image] = {part.total, size ? *size : ImageSize{}};
-      break;
-    }
+    images[*image] = TRY(facts_of_image(talk, *image));
   }
   return images;
 }
