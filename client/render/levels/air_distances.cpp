@@ -1,5 +1,6 @@
 #include "client/render/levels/air_distances.h"
 
+#include <algorithm>
 #include <array>
 
 namespace scree {
