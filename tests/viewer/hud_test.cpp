@@ -294,5 +294,14 @@ TEST(CameraText, is_what_the_option_takes_however_often_one_turned) {
   EXPECT_EQ(camera_text(camera), "1.00,-2.50,3.25,5.0,-18.0");
 }
 
+TEST(CameraText, is_five_numbers_with_commas_and_nothing_else) {
+  const Result<Camera> camera = parse_camera("1, -2.5,3.25e0,90,-10");
+  ASSERT_TRUE(camera) << camera.error().message;
+  EXPECT_EQ(camera_text(*camera), "1.00,-2.50,3.25,90.0,-10.0");
+  for (const char* text : {"", "1,2,3,4", "1,2,3,4,", "1;2;3;4;5", "1,2,,4,5", "1,2,3,4,x", "1,2,3,4,5,6",
+                           "1,2,3,4,5 m", "1,2,nan,4,5", "1e9,2,3,4,5"})
+    EXPECT_FALSE(parse_camera(text)) << text;
+}
+
 }  // namespace
 }  // namespace scree

@@ -21,12 +21,13 @@ cmake --log-level=WARNING --preset dev >&2
 protoc -I proto --cpp_out="$folder/proto" proto/*.proto
 protoc -I proto -I server/formats --cpp_out="$folder/server/formats" server/formats/*.proto
 
-# The compiler's own command, with -fsyntax-only in place of the object. Clang reads headers faster; it knows no --param.
+# The compiler's own command, with -fsyntax-only in place of the object. Clang reads headers faster; it does not know all of
+# GCC's options.
 compiler=$(command -v clang++ || command -v c++)
 read_source() {
   local folder=$1 file=$2 command=$3 output
   [[ -e $file ]] || return 0 # the build makes it
-  command=$(sed -E 's/ -o [^ ]+ -c / /; s/ --param=[^ ]+//g; s/^(.* )?[^ ]*c\+\+ //' <<<"$command")
+  command=$(sed -E 's/ -o [^ ]+ -c / /; s/ (--param=[^ ]+|-femit-class-debug-always)//g; s/^(.* )?[^ ]*c\+\+ //' <<<"$command")
   # shellcheck disable=SC2086 # a list of words, with quoted ones
   output=$(cd "$folder" && eval "$compiler -fsyntax-only -w $command" 2>&1) && return
   printf '%s\n%s\n' "$file cannot be read by itself:" "$(grep -E 'error' <<<"$output" | head -n 3)"

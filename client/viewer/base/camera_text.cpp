@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
-#include <sstream>
 
 #include "shared/base/limits.h"
 
@@ -44,16 +44,20 @@ std::string camera_text(const Camera& camera) {
   return text;
 }
 
+// Without streams, which would be a tenth of the page's code.
 Result<Camera> parse_camera(const std::string& text) {
-  std::istringstream in(text);
   std::array<float, 5> values{};
+  const char* at = text.c_str();
   for (size_t i = 0; i < values.size(); ++i) {
-    char comma = ',';
-    if ((i > 0 && !(in >> comma)) || comma != ',' || !(in >> values[i]))
+    if (i > 0) ++at;  // the comma
+    char* end = nullptr;
+    values[i] = std::strtof(at, &end);
+    const bool goes_on = i + 1 < values.size();
+    if (end == at || (goes_on && *end != ','))
       return fail("'" + text + "' is not a camera; write x,y,z,yaw,pitch (metres, degrees)");
+    at = end;
   }
-  if (in.peek() != std::istringstream::traits_type::eof())
-    return fail("'" + text + "' has more than x,y,z,yaw,pitch");
+  if (at != text.c_str() + text.size()) return fail("'" + text + "' has more than x,y,z,yaw,pitch");
   const Result<Camera> place = camera_of(values);
   if (!place) return fail("'" + text + "': " + place.error().message);
   return place;

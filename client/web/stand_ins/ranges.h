@@ -21,6 +21,10 @@ template <typename T>
 unique_ptr<T> make_unique_for_overwrite(size_t n) {
   return unique_ptr<T>(new remove_extent_t<T>[n]);
 }
+template <typename T>
+enable_if_t<is_unbounded_array_v<T>, shared_ptr<T>> make_shared(size_t n) {
+  return shared_ptr<T>(new remove_extent_t<T>[n]());
+}
 
 namespace ranges {
 
@@ -86,9 +90,10 @@ template <typename R, typename Middle, typename Compare = less, typename Of = id
 constexpr void partial_sort(R&& r, Middle middle, Compare compare = {}, Of of = {}) {
   std::partial_sort(std::begin(r), middle, std::end(r), projected(compare, of));
 }
-template <typename R, typename Value>
-constexpr auto lower_bound(R&& r, const Value& value) {
-  return std::lower_bound(std::begin(r), std::end(r), value);
+template <typename R, typename Value, typename Compare = less, typename Of = identity>
+constexpr auto lower_bound(R&& r, const Value& value, Compare compare = {}, Of of = {}) {
+  return std::lower_bound(std::begin(r), std::end(r), value,
+                          [=](const auto& a, const Value& b) -> bool { return invoke(compare, invoke(of, a), b); });
 }
 template <typename R, typename Value>
 constexpr auto upper_bound(R&& r, const Value& value) {
