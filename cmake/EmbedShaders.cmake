@@ -6,6 +6,7 @@ string(APPEND TEXT "std::string_view shader_source(std::string_view name) {\n")
 foreach(SHADER ${SHADERS})
   get_filename_component(NAME ${SHADER} NAME)
   file(READ ${SHADER} SOURCE)
+  string(REGEX REPLACE " *//[^\n]*" "" SOURCE "${SOURCE}") # a browser fetches them; lines keep their numbers
   string(APPEND TEXT "  if (name == \"${NAME}\") return R\"GLSL(${SOURCE})GLSL\";\n")
 endforeach()
 string(APPEND TEXT "  return {};\n}\n\n}  // namespace scree\n")
