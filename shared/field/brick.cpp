@@ -56,11 +56,15 @@ uint64_t painted_brick_hash(BrickCoord coord, const Brick& brick, uint8_t materi
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-uint64_t mixed_brick_hash(BrickCoord coord, const Brick& brick, const uint8_t* voxels) {
-  std::array<unsigned char, hashed_bytes + brick_voxels> bytes;
+uint64_t mixed_brick_hash(BrickCoord coord, const Brick& brick, uint64_t hash_of_voxels) {
+  std::array<unsigned char, hashed_bytes + sizeof(hash_of_voxels)> bytes;
   lay_out(coord, brick, bytes.data());
-  std::memcpy(bytes.data() + hashed_bytes, voxels, brick_voxels);
+  std::memcpy(bytes.data() + hashed_bytes, &hash_of_voxels, sizeof(hash_of_voxels));
   return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+uint64_t hash_of_voxels(const std::array<uint8_t, brick_voxels>& voxels) {
+  return XXH3_64bits(voxels.data(), voxels.size());
 }
 
 }  // namespace scree

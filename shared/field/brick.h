@@ -56,7 +56,9 @@ const Brick* uniform_equivalent(const Brick& brick);
 uint64_t brick_hash(BrickCoord coord, const Brick& brick);
 /// XXH3 of the coordinate, the codes and the number of the material that all of the brick is of.
 uint64_t painted_brick_hash(BrickCoord coord, const Brick& brick, uint8_t material);
-/// XXH3 of the coordinate, the codes and brick_voxels bytes that say what each voxel is of.
-uint64_t mixed_brick_hash(BrickCoord coord, const Brick& brick, const uint8_t* voxels);
+/// XXH3 of the coordinate, the codes and hash_of_voxels() of what each voxel is of.
+uint64_t mixed_brick_hash(BrickCoord coord, const Brick& brick, uint64_t hash_of_voxels);
+/// XXH3 of what each voxel is of.
+uint64_t hash_of_voxels(const std::array<uint8_t, brick_voxels>& voxels);
 
 }  // namespace scree

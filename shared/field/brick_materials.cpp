@@ -127,8 +127,8 @@ BrickMaterials::BrickMaterials(const VoxelMaterials& voxels) {
     return;
   }
   count_less_one_ = static_cast<uint8_t>(values.count - 1);
-  auto plane = std::make_shared<uint8_t[]>(plane_bytes());
-  uint8_t* const packed = std::copy_n(values.list.begin(), values.count, plane.get());
+  auto plane = plane_of(voxels);
+  uint8_t* const packed = std::copy_n(values.list.begin(), values.count, plane.get() + sizeof(uint64_t));
   if (values.count == 2)
     pack_one_bit(voxels, values.list[0], packed);
   else
@@ -150,9 +150,8 @@ void BrickMaterials::pack(const VoxelMaterials& voxels) {
   }
   count_less_one_ = static_cast<uint8_t>(count - 1);
   const unsigned bits = bits_for(count), each = 8 / bits;
-  auto plane = std::make_shared<uint8_t[]>(plane_bytes());
-  std::copy_n(list.begin(), count, plane.get());
-  uint8_t* to = plane.get() + count;
+  auto plane = plane_of(voxels);
+  uint8_t* to = std::copy_n(list.begin(), count, plane.get() + sizeof(uint64_t));
   for (size_t i = 0; i < voxels.size(); i += each, ++to) {
     unsigned byte = 0;
     for (unsigned k = 0; k < each; ++k) byte |= static_cast<unsigned>(index[voxels[i + k]]) << (k * bits);
@@ -162,7 +161,22 @@ void BrickMaterials::pack(const VoxelMaterials& voxels) {
 }
 
 size_t BrickMaterials::plane_bytes() const {
-  return values() + size_t{brick_voxels} * bits_for(values()) / 8;
+  return sizeof(uint64_t) + values() + size_t{brick_voxels} * bits_for(values()) / 8;
+}
+
+/// A plane for so many values, with its hash and without its content.
+std::shared_ptr<uint8_t[]> BrickMaterials::plane_of(const VoxelMaterials& voxels) const {
+  auto plane = std::make_shared<uint8_t[]>(plane_bytes());
+  const uint64_t hash = hash_of_voxels(voxels);
+  std::memcpy(plane.get(), &hash, sizeof(hash));
+  return plane;
+}
+
+uint64_t BrickMaterials::hash_of_plane() const {
+  CHECK_DEBUG(!is_uniform());
+  uint64_t hash;
+  std::memcpy(&hash, plane_.get(), sizeof(hash));
+  return hash;
 }
 
 VoxelMaterial BrickMaterials::at(int index) const {
@@ -225,7 +239,7 @@ uint64_t brick_hash(BrickCoord coord, const Brick& brick, const BrickMaterials& 
   if (materials.is_ground()) return brick_hash(coord, brick);
   if (materials.is_uniform())
     return painted_brick_hash(coord, brick, static_cast<uint8_t>(material_of(materials.uniform())));
-  return mixed_brick_hash(coord, brick, materials.unpacked().data());
+  return mixed_brick_hash(coord, brick, materials.hash_of_plane());
 }
 
 }  // namespace scree

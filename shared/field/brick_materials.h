@@ -45,7 +45,7 @@ class BrickMaterials {
   }
   VoxelMaterial at(int index) const;
   /// Whether any voxel is of the ground's own.
-  bool says_ground() const { return (plane_ == nullptr ? all_ : *plane_.get()) == ground_own; }
+  bool says_ground() const { return (plane_ == nullptr ? all_ : *listed()) == ground_own; }
   void unpack(VoxelMaterials& to) const;
   VoxelMaterials unpacked() const;
   /// The values that occur, in order.
@@ -53,23 +53,27 @@ class BrickMaterials {
   /// What it takes in memory beside its own size.
   size_t bytes() const;
 
+  /// hash_of_voxels() of voxels that differ: it is kept, since bricks are hashed more often than changed.
+  uint64_t hash_of_plane() const;
+
   bool operator==(const BrickMaterials& other) const;
 
  private:
   /// The values that occur, in order, at least two; and the indices into them, the first in the lowest bits.
   size_t values() const { return size_t{count_less_one_} + 1; }
-  const VoxelMaterial* listed() const { return plane_.get(); }
-  const uint8_t* packed() const { return plane_.get() + values(); }
+  const VoxelMaterial* listed() const { return plane_.get() + sizeof(uint64_t); }
+  const uint8_t* packed() const { return listed() + values(); }
   size_t plane_bytes() const;
+  std::shared_ptr<uint8_t[]> plane_of(const VoxelMaterials& voxels) const;
   void pack(const VoxelMaterials& voxels);
 
-  std::shared_ptr<const uint8_t[]> plane_;  ///< list and indices in one; null: all_ of every voxel
+  std::shared_ptr<const uint8_t[]> plane_;  ///< hash, list and indices in one; null: all_ of every voxel
   VoxelMaterial all_ = ground_own;
   uint8_t count_less_one_ = 0;  ///< values of the list, less one
 };
 
 /// XXH3 of the coordinate, the codes, and what the voxels say: nothing where all are the ground's own, a
-/// material's number where all are of it, else 512 values.
+/// material's number where all are of it, else the hash of 512 values.
 uint64_t brick_hash(BrickCoord coord, const Brick& brick, const BrickMaterials& materials);
 
 }  // namespace scree

@@ -213,7 +213,8 @@ Window gather(const Field& field, const VoxelBox& box);
 
 /// Writes a window back. Returns the bricks whose codes changed, in order; the others are left alone.
 std::vector<BrickCoord> scatter(Field& field, const Window& window);
-/// The same, and changes what bricks' voxels say to what `said` returns for them, if it returns something.
+/// The same, and changes what bricks' voxels say to what `said` returns for them, where it returns something:
+/// another thing than they say.
 std::vector<BrickCoord> scatter(Field& field, const Window& window,
                                 const std::function<const BrickMaterials*(BrickCoord)>& said);
 

@@ -81,9 +81,9 @@ std::vector<BrickCoord> scatter(Field& field, const Window& window,
       copy_row(brick.codes.data() + to, window.codes.data() + from, count);
     });
     const BrickMaterials* now = said == nullptr ? nullptr : said(coord);
-    const bool says_other = now != nullptr && !(*now == field.materials(coord));
-    if (brick == old && !says_other) return;
-    if (says_other)
+    CHECK_DEBUG(now == nullptr || !(*now == field.materials(coord)));
+    if (brick == old && now == nullptr) return;
+    if (now != nullptr)
       field.set_brick(coord, brick, *now);
     else
       field.set_brick(coord, brick);

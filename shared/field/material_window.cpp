@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <optional>
 
 #include "shared/base/check.h"
@@ -271,54 +270,11 @@ Material material_near(const Window& codes, const MaterialWindow& materials, Vox
   return materials.each[own];
 }
 
-namespace {
-
-/// What the voxels of bricks say after changes.
-std::map<BrickCoord, BrickMaterials> said_after(const Field& field, std::span<const VoxelOf> voxels) {
-  struct Change {
-    VoxelMaterials now;
-    BrickMaterials ground;
-  };
-  std::map<BrickCoord, Change> bricks;
-  Change* change = nullptr;
-  BrickCoord last;
-  for (const auto& [voxel, material] : voxels) {
-    const BrickCoord coord = brick_of(voxel);
-    if (change == nullptr || coord != last) {
-      const auto [at, is_new] = bricks.try_emplace(coord);
-      change = &at->second;
-      last = coord;
-      if (is_new) {
-        field.materials(coord).unpack(change->now);
-        change->ground = field.ground_materials(coord);
-      }
-    }
-    const int i = Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7);
-    const bool own = said(material) == change->ground.at(i);
-    change->now[static_cast<size_t>(i)] = own ? ground_own : said(material);
-  }
-  std::map<BrickCoord, BrickMaterials> after;
-  for (const auto& [coord, made] : bricks) after.emplace_hint(after.end(), coord, BrickMaterials(made.now));
-  return after;
-}
-
-}  // namespace
-
-std::vector<BrickCoord> set_materials(Field& field, std::span<const VoxelOf> voxels) {
-  std::vector<BrickCoord> changed;
-  for (const auto& [coord, now] : said_after(field, voxels)) {
-    if (now == field.materials(coord)) continue;
-    field.set_materials(coord, now);
-    changed.push_back(coord);
-  }
-  return changed;
-}
-
-std::vector<BrickCoord> scatter(Field& field, const Window& window, std::span<const VoxelOf> voxels) {
-  const std::map<BrickCoord, BrickMaterials> says = said_after(field, voxels);
+std::vector<BrickCoord> scatter(Field& field, const Window& window, std::span<const BrickSays> says) {
+  CHECK_DEBUG(std::ranges::is_sorted(says, {}, &BrickSays::coord));
   return scatter(field, window, [&](BrickCoord coord) {
-    const auto found = says.find(coord);
-    return found == says.end() ? nullptr : &found->second;
+    const auto found = std::ranges::lower_bound(says, coord, {}, &BrickSays::coord);
+    return found == says.end() || found->coord != coord ? nullptr : &found->materials;
   });
 }
 

@@ -53,6 +53,12 @@ using BrickRock = std::array<Material, brick_voxels>;
 std::optional<Material> one_material_of(const Field& field, BrickCoord coord);
 BrickRock materials_of(const Field& field, BrickCoord coord);
 
+/// What a brick's voxels say of their materials.
+struct BrickSays {
+  BrickCoord coord;
+  BrickMaterials materials;
+};
+
 /// Reads the materials of single voxels of a box, without copying all of them, while the field stays as it
 /// is.
 class MaterialReader {
@@ -68,7 +74,7 @@ class MaterialReader {
   /// Copies them all.
   MaterialWindow window() const;
 
- private:
+  /// What a brick's voxels say, and what says the ground below them; both live as long as the reader.
   struct BrickOf {
     const BrickMaterials* said;
     const BrickMaterials* ground;
@@ -77,7 +83,12 @@ class MaterialReader {
     Material at(int index) const;
     void resolve(VoxelMaterials& to) const;
   };
+  /// The bricks that touch the box: how many, and the place of one among them, in order.
+  size_t bricks() const { return bricks_.size(); }
   size_t place_of(BrickCoord coord) const;
+  const BrickOf& brick_at(size_t place) const { return bricks_[place]; }
+
+ private:
   const BrickOf& brick(BrickCoord coord) const { return bricks_[place_of(coord)]; }
   void add_chunk(const Field& field, ChunkCoord chunk, const VoxelBox& part);
 
@@ -105,19 +116,9 @@ MaterialMasses masses_lost(const Window& before, const Window& after, const Mate
 /// if there is none, its own. The windows have the same box.
 Material material_near(const Window& codes, const MaterialWindow& materials, VoxelCoord voxel);
 
-/// A voxel, and what it is of.
-struct VoxelOf {
-  VoxelCoord voxel;
-  Material material{};
-};
-
-/// Writes a window of codes back, and gives voxels in it their materials, as set_materials() does. Returns
-/// the bricks that changed, in order.
-std::vector<BrickCoord> scatter(Field& field, const Window& window, std::span<const VoxelOf> voxels);
-
-/// Gives voxels their materials. Where that is the ground's own, the field says nothing. Returns the bricks
-/// whose materials changed, in order.
-std::vector<BrickCoord> set_materials(Field& field, std::span<const VoxelOf> voxels);
+/// Writes a window of codes back, and what bricks in it say, which are in order. Returns the bricks that
+/// changed, in order.
+std::vector<BrickCoord> scatter(Field& field, const Window& window, std::span<const BrickSays> says);
 
 /// The terrain's material at a place (metres): of the voxel nearest to it.
 Material material_at(const Field& field, glm::vec3 p_m);

@@ -8,6 +8,7 @@
 #include "shared/base/overloaded.h"
 #include "shared/falling/island.h"
 #include "shared/field/edit.h"
+#include "shared/field/material_changes.h"
 #include "shared/field/paint.h"
 #include "shared/fracture/material_shares.h"
 #include "shared/fracture/seeds.h"
@@ -84,7 +85,7 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
 /// Puts codes and materials into the field, and notes the bricks that changed.
 void write(Field& field, const Window& codes, const AddedMaterials& added, Applied& applied) {
   enter_terrain(applied, added.gains);
-  applied.changed = added.changes.empty() ? scatter(field, codes) : scatter(field, codes, added.changes);
+  applied.changed = added.says.empty() ? scatter(field, codes) : scatter(field, codes, added.says);
 }
 
 Applied apply_fill(const FillOperation& fill_op, Field& field) {
@@ -250,18 +251,19 @@ Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces
 /// What paint makes of the voxels with rock that `within` holds: changes, and what they weigh by material.
 template <typename F>
 AddedMaterials paint_of(const MaterialReader& were, const Window& codes, Material material, F&& within) {
+  std::vector<uint8_t> solid(codes.codes.size());
+  std::transform(codes.codes.begin(), codes.codes.end(), solid.begin(),
+                 [](Code code) { return static_cast<uint8_t>(occupancy(code)); });
   AddedMaterials added;
-  size_t at = 0;
-  for (int x = codes.box.lo.x; x < codes.box.hi.x; ++x)
-    for (int y = codes.box.lo.y; y < codes.box.hi.y; ++y)
-      for (int z = codes.box.lo.z; z < codes.box.hi.z; ++z) {
-        const MassUnits mass = occupancy(codes.codes[at++]);
-        const VoxelCoord voxel{x, y, z};
-        if (mass == 0 || !within(voxel) || were.at(voxel) == material) continue;
-        add(added.gains, were.at(voxel), -mass);
-        add(added.gains, material, mass);
-        added.changes.push_back({voxel, material});
-      }
+  MaterialChanges changes(were);
+  changes.change(solid, [&](VoxelCoord voxel, size_t at, Material was) {
+    if (was == material || !within(voxel)) return was;
+    const MassUnits mass = occupancy(codes.codes[at]);
+    add(added.gains, was, -mass);
+    add(added.gains, material, mass);
+    return material;
+  });
+  added.says = changes.says();
   return added;
 }
 
@@ -276,7 +278,7 @@ Applied apply_paint(const PaintOperation& op, Field& field) {
       });
   Applied applied;
   applied.changed =
-      op.whole_bricks ? paint_bricks(field, shape, op.material) : set_materials(field, added.changes);
+      op.whole_bricks ? paint_bricks(field, shape, op.material) : scatter(field, codes, added.says);
   for (const MaterialMass& gain : added.gains) {
     MaterialFlow& flow = flow_of(applied, gain.material);
     flow.terrain += gain.mass;

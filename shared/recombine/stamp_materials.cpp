@@ -4,7 +4,7 @@
 #include <array>
 
 #include "shared/base/check.h"
-#include "shared/field/eight_bytes.h"
+#include "shared/field/material_changes.h"
 
 namespace scree {
 
@@ -36,37 +36,22 @@ class PieceFrame {
   glm::vec3 origin_{};
 };
 
-/// The voxels of a box by their places in a window.
-class Places {
- public:
-  explicit Places(const VoxelBox& box) : lo_(box.lo), size_(box.size()) {}
-
-  VoxelCoord at(size_t index) const {
-    const auto i = static_cast<int>(index), row = i / size_.z;
-    return lo_ + VoxelCoord{row / size_.y, row % size_.y, i % size_.z};
-  }
-
- private:
-  VoxelCoord lo_, size_;
-};
-
 /// `material_of(voxel, was)`: of what fills it by half or more.
 template <typename F>
 AddedMaterials add_materials(const MaterialReader& were, const Window& before, const Window& after,
                              F&& material_of) {
   CHECK(before.box == after.box && before.box == were.box());
   AddedMaterials added;
-  const Places places(before.box);
   std::array<MassUnits, 256> gains{};
-  for_each_nonzero(mass_changes(before.codes, after.codes), [&](size_t i) {
-    const VoxelCoord voxel = places.at(i);
+  MaterialChanges changes(were);
+  changes.change(mass_changes(before.codes, after.codes), [&](VoxelCoord voxel, size_t i, Material was) {
     const int had = occupancy(before.codes[i]), has = occupancy(after.codes[i]);
-    const Material was = were.at(voxel);
     const Material is = has >= 2 * had ? material_of(voxel, was) : was;
     gains[row_number(was)] -= had;
     gains[row_number(is)] += has;
-    if (is != was) added.changes.push_back({voxel, is});
+    return is;
   });
+  added.says = changes.says();
   added.gains = listed(gains);
   return added;
 }

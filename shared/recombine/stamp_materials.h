@@ -23,8 +23,8 @@ struct MergedPiece {
 bool are_all_of(std::span<const MergedPiece> pieces, Material material);
 
 struct AddedMaterials {
-  MaterialMasses gains;          ///< of the terrain, by material
-  std::vector<VoxelOf> changes;  ///< voxels that are of another material now, in a window's order
+  MaterialMasses gains;         ///< of the terrain, by material
+  std::vector<BrickSays> says;  ///< bricks that say another thing of their voxels now, in order
 };
 
 /// The materials of a merge that turned `before` into `after`, both over the reader's box. `bring`: the

@@ -61,8 +61,8 @@ const std::vector<OldFiles>& old_files() {
        "df7ccc8990e9032ce40c652e4f85d7be0dfe688ef6a7fb5c54730150f2bf8b31",
        {"hills.scree", "hills_cut.scree"},
        119,
-       0xB0F52CA205EC72E3,
-       0xB53CC27D5DB115F8,
+       0x5837C7A68F5A091E,
+       0x1524ECC0DC004A4A,
        true,
        true}};
   return all;

@@ -92,8 +92,9 @@ constexpr void partial_sort(R&& r, Middle middle, Compare compare = {}, Of of = 
 }
 template <typename R, typename Value, typename Compare = less, typename Of = identity>
 constexpr auto lower_bound(R&& r, const Value& value, Compare compare = {}, Of of = {}) {
-  return std::lower_bound(std::begin(r), std::end(r), value,
-                          [=](const auto& a, const Value& b) -> bool { return invoke(compare, invoke(of, a), b); });
+  return std::lower_bound(std::begin(r), std::end(r), value, [=](const auto& a, const Value& b) -> bool {
+    return invoke(compare, invoke(of, a), b);
+  });
 }
 template <typename R, typename Value>
 constexpr auto upper_bound(R&& r, const Value& value) {
