@@ -91,6 +91,14 @@ TEST_F(ImportMaterials, of_meshes_change_between_two_voxels_of_a_brick) {
   EXPECT_TRUE(scree::holds(said_, "of the palette: brick, glass")) << said_;
 }
 
+TEST_F(ImportMaterials, of_meshes_that_touch_are_those_of_each_up_to_the_face_between) {
+  import(two_blocks("brick", "glass"));
+  for (const float off_m : {0.25F, 0.5F, 1.0F, 1.75F}) {
+    EXPECT_EQ(at({-off_m, 4.0F, 2.0F}), "brick") << off_m;
+    EXPECT_EQ(at({off_m, 4.0F, 2.0F}), "glass") << off_m;
+  }
+}
+
 TEST_F(ImportMaterials, of_other_names_become_rows_of_their_colours) {
   import(two_blocks("Red_Tiles", "Moss"));
   EXPECT_EQ(at({-2.0F, 4.0F, 0.25F}), "red_tiles");
