@@ -24,14 +24,16 @@ Material named(std::string_view name) {
   return *builtin_palette().named(name);
 }
 
-/// Two blocks of 4 m that touch at x = 0, of two materials.
-std::string two_blocks(const std::string& left, const std::string& right) {
+/// Two blocks of 4 m that touch at x = 0, of two materials; the right one goes beyond the left by `wider_m`
+/// on four sides.
+std::string two_blocks(const std::string& left, const std::string& right, int wider_m = 0) {
   std::string obj = "mtllib two.mtl\n";
   int first = 1;
   for (const auto& [x, material] : {std::pair(-4, left), std::pair(0, right)}) {
+    const int lo = x == 0 ? -wider_m : 0, side = 4 - 2 * lo;
     for (int i = 0; i < 8; ++i)
-      obj += "v " + std::to_string(x + 4 * (i >> 2)) + " " + std::to_string(2 + 4 * ((i >> 1) & 1)) + " " +
-             std::to_string(4 * (i & 1)) + "\n";
+      obj += "v " + std::to_string(x + 4 * (i >> 2)) + " " + std::to_string(2 + lo + side * ((i >> 1) & 1)) +
+             " " + std::to_string(lo + side * (i & 1)) + "\n";
     obj += "usemtl " + material + "\n";
     for (const auto& quad :
          {std::array{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}}) {
@@ -89,6 +91,15 @@ TEST_F(ImportMaterials, of_meshes_change_between_two_voxels_of_a_brick) {
   EXPECT_EQ(file_->palette(), shared_builtin_palette());
   EXPECT_EQ(file_->header().format, 2U) << "older programs know no bricks and glass";
   EXPECT_TRUE(scree::holds(said_, "of the palette: brick, glass")) << said_;
+}
+
+TEST_F(ImportMaterials, of_meshes_that_touch_are_those_of_each_up_to_the_face_between) {
+  // Faces that are the same are none; of these, each block has its own.
+  import(two_blocks("brick", "glass", 1));
+  for (const float off_m : {0.25F, 0.5F, 1.0F, 1.75F}) {
+    EXPECT_EQ(at({-off_m, 4.0F, 2.0F}), "brick") << off_m;
+    EXPECT_EQ(at({off_m, 4.0F, 2.0F}), "glass") << off_m;
+  }
 }
 
 TEST_F(ImportMaterials, of_other_names_become_rows_of_their_colours) {

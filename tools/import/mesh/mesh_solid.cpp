@@ -89,7 +89,8 @@ class MeshSolid final : public Solid {
   bool is_inside(VoxelCoord voxel) const override {
     return box_.grown(1).holds(voxel) && tree_.winding(metres(voxel)) > 0.5;
   }
-  /// Each voxel's is that of the triangle nearest to it; far from all triangles, all of a brick have one.
+  /// Each voxel's is that of the triangle nearest to it, on whose inner side it lies; far from all triangles,
+  /// all of a brick have one.
   BrickMaterials materials(BrickCoord brick) const override {
     if (mesh_.materials.empty()) return {};
     if (one_material_) return BrickMaterials(mesh_.materials.front());
@@ -98,7 +99,7 @@ class MeshSolid final : public Solid {
     const glm::dvec3 centre = metres(first) + glm::dvec3(middle * voxel_m_);
     const double reach_m = middle * 1.7321 * voxel_m_;
     const WindingTree::Nearest nearest = tree_.nearest(centre);
-    const VoxelMaterial one = mesh_.materials[nearest.triangle];
+    const VoxelMaterial one = mesh_.materials[tree_.owner(centre)];
     const auto is_one = [&](uint32_t triangle) { return mesh_.materials[triangle] == one; };
     if (nearest.distance > far_reaches * reach_m ||
         tree_.all_near(centre, nearest.distance + 2.0 * reach_m, is_one))
@@ -106,7 +107,7 @@ class MeshSolid final : public Solid {
     VoxelMaterials voxels;
     for (int i = 0; i < brick_voxels; ++i)
       voxels[static_cast<size_t>(i)] =
-          mesh_.materials[tree_.nearest(metres(first + VoxelCoord{i >> 6, (i >> 3) & 7, i & 7})).triangle];
+          mesh_.materials[tree_.owner(metres(first + VoxelCoord{i >> 6, (i >> 3) & 7, i & 7}))];
     return BrickMaterials(voxels);
   }
 

@@ -29,6 +29,11 @@ double solid_angle(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
   return 2.0 * std::atan2(glm::dot(a, glm::cross(b, c)), below);
 }
 
+/// On the inner side of its plane, or on it.
+bool is_behind(const glm::dvec3& p, const std::array<glm::dvec3, 3>& t) {
+  return glm::dot(p - t[0], glm::cross(t[1] - t[0], t[2] - t[0])) <= 0.0;
+}
+
 }  // namespace
 
 WindingTree::WindingTree(const TriangleMesh& mesh) {
@@ -114,29 +119,39 @@ double WindingTree::winding(const glm::dvec3& p) const {
 
 WindingTree::Nearest WindingTree::nearest(const glm::dvec3& p) const {
   Nearest best;
-  find_nearest(0, p, best);
+  find_nearest(0, p, Side::any, best);
   return best;
+}
+
+uint32_t WindingTree::owner(const glm::dvec3& p) const {
+  const Nearest of_any = nearest(p);
+  if (of_any.is_behind || !(winding(p) > 0.5)) return of_any.triangle;
+  Nearest behind;
+  find_nearest(0, p, Side::behind, behind);
+  return behind.distance < none ? behind.triangle : of_any.triangle;
 }
 
 bool WindingTree::reaches(const Node& node, const glm::dvec3& p, double reach) const {
   return glm::length(node.centre - p) - node.radius <= reach;
 }
 
-void WindingTree::find_nearest(uint32_t at, const glm::dvec3& p, Nearest& best) const {
+void WindingTree::find_nearest(uint32_t at, const glm::dvec3& p, Side side, Nearest& best) const {
   const Node& node = nodes_[at];
   if (glm::length(node.centre - p) - node.radius > best.distance) return;
   if (node.right == 0) {
     for (uint32_t i = node.first; i < node.first + node.count; ++i) {
-      const double distance = distance_to(p, triangles_[i][0], triangles_[i][1], triangles_[i][2]);
-      if (std::pair(distance, numbers_[i]) < std::pair(best.distance, best.triangle))
-        best = {distance, numbers_[i]};
+      const Corners& t = triangles_[i];
+      const double distance = distance_to(p, t[0], t[1], t[2]);
+      if (std::pair(distance, numbers_[i]) >= std::pair(best.distance, best.triangle)) continue;
+      const bool behind = is_behind(p, t);
+      if (side == Side::any || behind) best = {distance, numbers_[i], behind};
     }
     return;
   }
   const bool right_first =
       glm::length(nodes_[node.right].centre - p) < glm::length(nodes_[at + 1].centre - p);
-  find_nearest(right_first ? node.right : at + 1, p, best);
-  find_nearest(right_first ? at + 1 : node.right, p, best);
+  find_nearest(right_first ? node.right : at + 1, p, side, best);
+  find_nearest(right_first ? at + 1 : node.right, p, side, best);
 }
 
 double WindingTree::winding(uint32_t at, const glm::dvec3& p) const {

@@ -12,13 +12,18 @@ class WindingTree {
   explicit WindingTree(const TriangleMesh& mesh);
 
   double winding(const glm::dvec3& p) const;
-  /// The triangle nearest to a place, and how far it is.
+  static constexpr double none = 1e300;
+  /// The triangle nearest to a place, and how far it is; `none` away: there is no such triangle.
   struct Nearest {
-    double distance = 1e300;
+    double distance = none;
     uint32_t triangle = 0;
+    bool is_behind = false;  ///< the place lies on the triangle's inner side
   };
   /// The mesh has a triangle.
   Nearest nearest(const glm::dvec3& p) const;
+  /// The triangle whose part of the mesh has the place: within the mesh, the nearest one that the place lies
+  /// behind. Where two parts touch, each has a triangle at the same distance.
+  uint32_t owner(const glm::dvec3& p) const;
   /// Whether f(triangle) is true of each triangle within reach of p, and of some more; it ends with the first
   /// of which it is not.
   template <typename F>
@@ -50,7 +55,8 @@ class WindingTree {
       if (!f(numbers_[i])) return false;
     return true;
   }
-  void find_nearest(uint32_t node, const glm::dvec3& p, Nearest& best) const;
+  enum class Side : uint8_t { any, behind };
+  void find_nearest(uint32_t node, const glm::dvec3& p, Side side, Nearest& best) const;
 
   std::vector<Corners> triangles_;  ///< or pieces of slender ones
   std::vector<uint32_t> numbers_;   ///< of the triangles in the mesh
