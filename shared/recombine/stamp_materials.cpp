@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
+#include <limits>
 
 #include "shared/base/check.h"
 #include "shared/field/material_changes.h"
@@ -36,17 +38,69 @@ class PieceFrame {
   glm::vec3 origin_{};
 };
 
-/// `material_of(voxel, was)`: of what fills it by half or more.
+/// Voxels that hold rests of two materials, of which each counts for one alone: for the new one where its
+/// share is a bound or more. That bound from a quarter to three quarters is taken that converts least in sum:
+/// with a fixed one, what falls on rock in thin layers would become rock bit by bit.
+class MixedVoxels {
+ public:
+  /// The share of what is new, in sixteenths, rounded down.
+  static int share_of(int had, int has) { return 16 * (has - had) / has; }
+
+  void add(int had, int has) {
+    const auto share = static_cast<size_t>(share_of(had, has));
+    had_[share] += had;
+    gained_[share] += has - had;
+  }
+  int bound() const {
+    MassUnits to_old = 0;  // if the bound were 0, less what would become new
+    for (size_t share = 0; share < shares; ++share) to_old -= had_[share];
+    int best = half;
+    MassUnits least = std::numeric_limits<MassUnits>::max();
+    for (int bound = 0; bound <= most; ++bound) {
+      const MassUnits sum = std::abs(to_old);
+      const bool is_nearer = sum == least && std::abs(bound - half) < std::abs(best - half);
+      if (bound >= fewest && (sum < least || is_nearer)) {
+        best = bound;
+        least = sum;
+      }
+      to_old += had_[static_cast<size_t>(bound)] + gained_[static_cast<size_t>(bound)];
+    }
+    return best;
+  }
+
+ private:
+  static constexpr size_t shares = 16;
+  static constexpr int fewest = 4, half = 8, most = 12;
+  std::array<MassUnits, shares> had_{}, gained_{};
+};
+
+/// `material_of(voxel, was)`: of what fills it.
 template <typename F>
 AddedMaterials add_materials(const MaterialReader& were, const Window& before, const Window& after,
                              F&& material_of) {
   CHECK(before.box == after.box && before.box == were.box());
+  const std::vector<uint8_t> where = mass_changes(before.codes, after.codes);
+  MaterialChanges changes(were);
+  // What fills each voxel: of those that gain, in the window's order.
+  std::vector<Material> fills;
+  MixedVoxels mixed;
+  changes.ask(where, [&](VoxelCoord voxel, size_t i, Material was) {
+    const int had = occupancy(before.codes[i]), has = occupancy(after.codes[i]);
+    if (has < had) return;
+    fills.push_back(material_of(voxel, was));
+    if (had > 0 && fills.back() != was) mixed.add(had, has);
+  });
   AddedMaterials added;
   std::array<MassUnits, 256> gains{};
-  MaterialChanges changes(were);
-  changes.change(mass_changes(before.codes, after.codes), [&](VoxelCoord voxel, size_t i, Material was) {
+  const int bound = mixed.bound();
+  auto fill = fills.begin();
+  changes.change(where, [&](VoxelCoord, size_t i, Material was) {
     const int had = occupancy(before.codes[i]), has = occupancy(after.codes[i]);
-    const Material is = has >= 2 * had ? material_of(voxel, was) : was;
+    Material is = was;
+    if (has >= had) {
+      const Material other = *fill++;
+      if (MixedVoxels::share_of(had, has) >= bound) is = other;
+    }
     gains[row_number(was)] -= had;
     gains[row_number(is)] += has;
     return is;

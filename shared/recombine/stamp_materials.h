@@ -1,6 +1,7 @@
 // Which material the voxels of a merge or a fill are of. It is decided after the codes, by one rule for every
-// method: a voxel takes the new material where half of its mass or more is new; of a merged piece, that of
-// the piece's nearest solid voxel. Pure; deterministic.
+// method: a voxel takes the new material where enough of its mass is new; of a merged piece, that of the
+// piece's nearest solid voxel. Enough is a share between a quarter and three quarters: that by which the
+// merge converts least in sum. Pure; deterministic.
 #pragma once
 
 #include <memory>

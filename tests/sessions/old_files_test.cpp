@@ -58,11 +58,11 @@ const std::vector<OldFiles>& old_files() {
       {"format_2",
        "hills",
        "scree-server 0.2.0",
-       "df7ccc8990e9032ce40c652e4f85d7be0dfe688ef6a7fb5c54730150f2bf8b31",
+       "d608d388e03637fb9130bd8f2850f723a5909c8e49968f9c0cc8447b50282cf4",
        {"hills.scree", "hills_cut.scree"},
        119,
-       0x5837C7A68F5A091E,
-       0x1524ECC0DC004A4A,
+       0x1378DFA96508E289,
+       0xA0E74AC3003E4F87,
        true,
        true}};
   return all;

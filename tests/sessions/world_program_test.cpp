@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* ground_hash = "df7ccc8990e9032ce40c652e4f85d7be0dfe688ef6a7fb5c54730150f2bf8b31";
+constexpr const char* ground_hash = "d608d388e03637fb9130bd8f2850f723a5909c8e49968f9c0cc8447b50282cf4";
 
 class WorldProgramTest : public ::testing::Test {
  protected:
