@@ -21,9 +21,8 @@ class MaterialChanges {
   /// voxel becomes of what it returns. `where`: a byte for each voxel, in a window's order.
   template <typename F>
   void change(std::span<const uint8_t> where, F&& material_of);
-  /// Calls `ask(voxel, its place, was)` in the same order, and changes nothing.
-  template <typename F>
-  void ask(std::span<const uint8_t> where, F&& ask);
+  /// A voxel of the box becomes of another material than it was.
+  void set(VoxelCoord voxel, Material material) { brick(brick_of(voxel)).set(index_of(voxel), material); }
 
   /// What bricks say now; those that say another thing, in order. Where a voxel is of the ground's own
   /// material, they say nothing.
@@ -46,9 +45,9 @@ class MaterialChanges {
     VoxelMaterials says_;  ///< written where it differs
   };
   BrickChange& brick(BrickCoord coord);
-  /// Calls f(voxel, its place, its brick, its index in it) for each voxel whose byte is not 0.
-  template <typename F>
-  void for_each(std::span<const uint8_t> where, F&& f);
+  static size_t index_of(VoxelCoord voxel) {
+    return static_cast<size_t>(Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7));
+  }
 
   const MaterialReader& were_;
   std::vector<std::unique_ptr<BrickChange>> by_place_;  ///< null: nothing was asked of it
@@ -56,21 +55,6 @@ class MaterialChanges {
 
 template <typename F>
 void MaterialChanges::change(std::span<const uint8_t> where, F&& material_of) {
-  for_each(where, [&](VoxelCoord voxel, size_t place, BrickChange& of, size_t index) {
-    const Material was = of.was(index), is = material_of(voxel, place, was);
-    if (is != was) of.set(index, is);
-  });
-}
-
-template <typename F>
-void MaterialChanges::ask(std::span<const uint8_t> where, F&& ask) {
-  for_each(where, [&](VoxelCoord voxel, size_t place, BrickChange& of, size_t index) {
-    ask(voxel, place, of.was(index));
-  });
-}
-
-template <typename F>
-void MaterialChanges::for_each(std::span<const uint8_t> where, F&& f) {
   const VoxelBox& box = were_.box();
   CHECK_EQ(where.size(), Window::count(box));
   const auto row = static_cast<size_t>(box.hi.z - box.lo.z);
@@ -84,8 +68,9 @@ void MaterialChanges::for_each(std::span<const uint8_t> where, F&& f) {
         ++x;
       }
     const VoxelCoord voxel{x, y, box.lo.z + static_cast<int>(place - first)};
-    f(voxel, place, brick(brick_of(voxel)),
-      static_cast<size_t>(Brick::index(voxel.x & 7, voxel.y & 7, voxel.z & 7)));
+    BrickChange& of = brick(brick_of(voxel));
+    const Material was = of.was(index_of(voxel)), is = material_of(voxel, place, was);
+    if (is != was) of.set(index_of(voxel), is);
   });
 }
 

@@ -43,35 +43,47 @@ class PieceFrame {
 /// with a fixed one, what falls on rock in thin layers would become rock bit by bit.
 class MixedVoxels {
  public:
-  /// The share of what is new, in sixteenths, rounded down.
+  /// Bounds, as shares of what is new in sixteenths, rounded down.
+  static constexpr int fewest = 4, half = 8, most = 12;
   static int share_of(int had, int has) { return 16 * (has - had) / has; }
 
   void add(int had, int has) {
-    const auto share = static_cast<size_t>(share_of(had, has));
-    had_[share] += had;
-    gained_[share] += has - had;
+    const int share = share_of(had, has);
+    if (share < fewest) {
+      to_old_ += has - had;
+    } else if (share >= most) {
+      to_old_ -= had;
+    } else {
+      had_[static_cast<size_t>(share)] += had;
+      both_[static_cast<size_t>(share)] += has;
+    }
   }
   int bound() const {
-    MassUnits to_old = 0;  // if the bound were 0, less what would become new
-    for (size_t share = 0; share < shares; ++share) to_old -= had_[share];
+    MassUnits to_old = to_old_;  // what becomes old, less what becomes new, where all else becomes new
+    for (const MassUnits had : had_) to_old -= had;
     int best = half;
     MassUnits least = std::numeric_limits<MassUnits>::max();
-    for (int bound = 0; bound <= most; ++bound) {
+    for (int bound = fewest; bound <= most; ++bound) {
       const MassUnits sum = std::abs(to_old);
-      const bool is_nearer = sum == least && std::abs(bound - half) < std::abs(best - half);
-      if (bound >= fewest && (sum < least || is_nearer)) {
+      if (sum < least || (sum == least && std::abs(bound - half) < std::abs(best - half))) {
         best = bound;
         least = sum;
       }
-      to_old += had_[static_cast<size_t>(bound)] + gained_[static_cast<size_t>(bound)];
+      if (bound < most) to_old += both_[static_cast<size_t>(bound)];
     }
     return best;
   }
 
  private:
-  static constexpr size_t shares = 16;
-  static constexpr int fewest = 4, half = 8, most = 12;
-  std::array<MassUnits, shares> had_{}, gained_{};
+  MassUnits to_old_ = 0;
+  std::array<MassUnits, most> had_{}, both_{};  ///< by share: what was there, and that with what is new
+};
+
+/// A voxel whose material the bound decides.
+struct OpenVoxel {
+  VoxelCoord voxel;
+  Material was, other;
+  int had, has;
 };
 
 /// `material_of(voxel, was)`: of what fills it.
@@ -79,32 +91,36 @@ template <typename F>
 AddedMaterials add_materials(const MaterialReader& were, const Window& before, const Window& after,
                              F&& material_of) {
   CHECK(before.box == after.box && before.box == were.box());
-  const std::vector<uint8_t> where = mass_changes(before.codes, after.codes);
-  MaterialChanges changes(were);
-  // What fills each voxel: of those that gain, in the window's order.
-  std::vector<Material> fills;
-  MixedVoxels mixed;
-  changes.ask(where, [&](VoxelCoord voxel, size_t i, Material was) {
-    const int had = occupancy(before.codes[i]), has = occupancy(after.codes[i]);
-    if (has < had) return;
-    fills.push_back(material_of(voxel, was));
-    if (had > 0 && fills.back() != was) mixed.add(had, has);
-  });
   AddedMaterials added;
   std::array<MassUnits, 256> gains{};
-  const int bound = mixed.bound();
-  auto fill = fills.begin();
-  changes.change(where, [&](VoxelCoord, size_t i, Material was) {
-    const int had = occupancy(before.codes[i]), has = occupancy(after.codes[i]);
-    Material is = was;
-    if (has >= had) {
-      const Material other = *fill++;
-      if (MixedVoxels::share_of(had, has) >= bound) is = other;
-    }
+  const auto enter = [&](Material was, int had, Material is, int has) {
     gains[row_number(was)] -= had;
     gains[row_number(is)] += has;
+  };
+  MaterialChanges changes(were);
+  MixedVoxels mixed;
+  std::vector<OpenVoxel> open;
+  changes.change(mass_changes(before.codes, after.codes), [&](VoxelCoord voxel, size_t i, Material was) {
+    const int had = occupancy(before.codes[i]), has = occupancy(after.codes[i]);
+    Material is = has < had ? was : material_of(voxel, was);
+    if (is != was && had > 0) {
+      mixed.add(had, has);
+      const int share = MixedVoxels::share_of(had, has);
+      if (share >= MixedVoxels::fewest && share < MixedVoxels::most) {
+        open.push_back({voxel, was, is, had, has});
+        return was;
+      }
+      if (share < MixedVoxels::fewest) is = was;
+    }
+    enter(was, had, is, has);
     return is;
   });
+  const int bound = mixed.bound();
+  for (const OpenVoxel& one : open) {
+    const bool is_new = MixedVoxels::share_of(one.had, one.has) >= bound;
+    if (is_new) changes.set(one.voxel, one.other);
+    enter(one.was, one.had, is_new ? one.other : one.was, one.has);
+  }
   added.says = changes.says();
   added.gains = listed(gains);
   return added;
