@@ -255,7 +255,7 @@ TEST(materials, little_is_converted_when_mixed_rubble_is_carved_and_merged_a_tho
     converted += std::max<MassUnits>(row.converted, 0);
   const double share = static_cast<double>(converted) / static_cast<double>(ground.ledger.moved);
   RecordProperty("converted_share", std::to_string(share));
-  EXPECT_LE(share, 0.005);
+  EXPECT_LE(share, 0.003) << "by a fixed bound of a half it was 0.0034";
   std::printf("converted %.4f %% of what was moved\n", 100.0 * share);
 }
 
