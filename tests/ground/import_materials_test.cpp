@@ -11,6 +11,7 @@
 #include "tests/support/test_folder.h"
 #include "tools/export/mesh_export.h"
 #include "tools/export/vdb/vdb_export.h"
+#include "tools/import/colour_rows.h"
 #include "tools/import/files/material_choice.h"
 #include "tools/import/files/solid_files.h"
 #include "tools/import/gdal/gdal_raster.h"
