@@ -228,10 +228,8 @@ TEST_F(BotTest, the_report_is_json_that_programs_can_read) {
 
 TEST(Bot, a_server_that_is_not_there_is_a_failure_in_words) {
   BotConfig nobody;
-  {
-    const RawServer closed;
-    nobody.port = closed.port();
-  }
+  const RawServer closed = RawServer::closed();
+  nobody.port = closed.port();
   const BotReport report = Bot(nobody).run();
   EXPECT_NE(report.failure.find("cannot connect"), std::string::npos) << report.failure;
   EXPECT_NE(to_json(report).find("\"ok\": false"), std::string::npos);

@@ -65,12 +65,8 @@ void wait_for_close(Connection& connection) {
 }
 
 TEST(Connection, a_port_without_a_server_is_named) {
-  uint16_t free_port = 0;
-  {
-    const RawServer server;
-    free_port = server.port();
-  }
-  const std::string reason = failure(free_port);
+  const RawServer closed = RawServer::closed();
+  const std::string reason = failure(closed.port());
   EXPECT_TRUE(holds(reason, "127.0.0.1:")) << reason;
   EXPECT_TRUE(holds(reason, "cannot connect")) << reason;
 }

@@ -20,13 +20,15 @@ class RejoinTest : public ::testing::Test {
  protected:
   void SetUp() override { server_ = start(); }
 
-  static std::unique_ptr<LiveServer> start(uint16_t port = 0) {
+  static LiveConfig live_config() {
     LiveConfig config;
     config.world.terrain = flat_terrain;
     config.pacing = Pacing::by_hand;
     config.world.service.requests_per_second = 1000.0;
-    config.net.port = port;
-    auto started = LiveServer::start(config);
+    return config;
+  }
+  static std::unique_ptr<LiveServer> start() {
+    auto started = LiveServer::start(live_config());
     EXPECT_TRUE(started) << started.error().message;
     return started ? std::move(*started) : nullptr;
   }
@@ -111,11 +113,17 @@ TEST_F(RejoinTest, a_lost_connection_goes_on_as_the_same_session_with_what_the_m
 }
 
 TEST_F(RejoinTest, another_world_at_the_same_address_is_not_mistaken_for_it) {
-  visit(config(8));
-  const uint16_t port = server_->port();
-  server_.reset();
-  server_ = start(port);
-  ASSERT_TRUE(server_);
+  // Another program of this machine may get the port in between; then all begins at a new one.
+  for (int attempt = 0, again = 0; again == 0; ++attempt) {
+    ASSERT_LT(attempt, 5);
+    visit(config(8));
+    LiveConfig same = live_config();
+    same.net.port = server_->port();
+    server_.reset();
+    auto restarted = LiveServer::start(same);
+    again = restarted ? 1 : 0;
+    server_ = restarted ? std::move(*restarted) : start();
+  }
   BotConfig elsewhere = config(4);
   elsewhere.random_seed = 3;
   EXPECT_EQ(visit(elsewhere).seen.chunks_kept, 0U);

@@ -142,22 +142,24 @@ TEST(HeightsImport, the_ground_has_the_scale_of_the_raster_whatever_the_samples)
     int ground_columns, ground_rows;
   };
   const TestFolder folder;
-  for (const auto& [columns, rows, cell_x_m, cell_z_m, sample_m, ground_columns, ground_rows] :
-       {Case{10, 10, 5.0, 5.0, 30.0, 3, 3}, Case{21, 31, 1.0, 1.0, 7.0, 4, 6},
-        Case{41, 61, 1.0, 1.0, 7.0, 7, 10}, Case{41, 81, 4.0, 4.0, 5.0, 33, 65},
-        Case{51, 51, 10.0, 10.7, 10.0, 51, 55}}) {
-    const double middle_x_m = 0.5 * (columns - 1) * cell_x_m, middle_z_m = 0.5 * (rows - 1) * cell_z_m;
-    FunctionRaster slope(columns, rows, cell_x_m, [&](int x, int z) {
+  for (const Case& one : {Case{10, 10, 5.0, 5.0, 30.0, 3, 3}, Case{21, 31, 1.0, 1.0, 7.0, 4, 6},
+                          Case{41, 61, 1.0, 1.0, 7.0, 7, 10}, Case{41, 81, 4.0, 4.0, 5.0, 33, 65},
+                          Case{51, 51, 10.0, 10.7, 10.0, 51, 55}}) {
+    const double cell_x_m = one.cell_x_m, cell_z_m = one.cell_z_m;
+    const double middle_x_m = 0.5 * (one.columns - 1) * cell_x_m,
+                 middle_z_m = 0.5 * (one.rows - 1) * cell_z_m;
+    FunctionRaster slope(one.columns, one.rows, cell_x_m, [&](int x, int z) {
       return slope_m(x * cell_x_m - middle_x_m, z * cell_z_m - middle_z_m);
     });
     slope.deepen(cell_z_m);
-    const auto ground = import_and_open(slope, folder / "a.ground", {.sample_m = sample_m, .zero_m = 0.0});
-    EXPECT_EQ(ground->layout().columns, ground_columns);
-    EXPECT_EQ(ground->layout().rows, ground_rows);
-    if (columns < 40) continue;  // the spline meets the edge everywhere
+    const auto ground =
+        import_and_open(slope, folder / "a.ground", {.sample_m = one.sample_m, .zero_m = 0.0});
+    EXPECT_EQ(ground->layout().columns, one.ground_columns);
+    EXPECT_EQ(ground->layout().rows, one.ground_rows);
+    if (one.columns < 40) continue;  // the spline meets the edge everywhere
     for (const double part : {-0.3, 0.0, 0.25}) {
       const double x_m = part * middle_x_m, z_m = part * middle_z_m;
-      EXPECT_NEAR(height_at(*ground, x_m, z_m), slope_m(x_m, z_m), 0.15) << sample_m << " at " << part;
+      EXPECT_NEAR(height_at(*ground, x_m, z_m), slope_m(x_m, z_m), 0.15) << one.sample_m << " at " << part;
     }
   }
 }

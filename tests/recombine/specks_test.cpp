@@ -42,7 +42,8 @@ std::vector<Island> specks_by_brute_force(const Field& field, const VoxelBox& bo
             if (seen[window.index(next.x, next.y, next.z)]++ == 0) voxels.push_back(next);
             seen[window.index(next.x, next.y, next.z)] = 1;
           }
-        Island island{{box.hi, box.lo}, *std::ranges::min_element(voxels), int64_t(voxels.size())};
+        Island island{
+            {box.hi, box.lo}, *std::min_element(voxels.begin(), voxels.end()), int64_t(voxels.size())};
         for (const VoxelCoord& v : voxels) {
           VoxelBox& b = island.box;
           b.lo = {std::min(b.lo.x, v.x), std::min(b.lo.y, v.y), std::min(b.lo.z, v.z)};

@@ -20,16 +20,9 @@ namespace scree {
 
 class RawServer {
  public:
-  explicit RawServer(const char* ip = "127.0.0.1") : listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    ::inet_pton(AF_INET, ip, &address.sin_addr);
-    ::bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
-    ::listen(listener_, 4);
-    socklen_t size = sizeof address;
-    ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
-    port_ = ntohs(address.sin_port);
-  }
+  explicit RawServer(const char* ip = "127.0.0.1") : RawServer(ip, true) {}
+  /// Nobody can come in, and no other program of this machine gets its port meanwhile.
+  static RawServer closed() { return RawServer("127.0.0.1", false); }
   ~RawServer() {
     hang_up();
     ::close(listener_);
@@ -103,6 +96,16 @@ class RawServer {
   }
 
  private:
+  RawServer(const char* ip, bool listens) : listener_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    ::inet_pton(AF_INET, ip, &address.sin_addr);
+    ::bind(listener_, reinterpret_cast<const sockaddr*>(&address), sizeof address);
+    if (listens) ::listen(listener_, 4);
+    socklen_t size = sizeof address;
+    ::getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
+    port_ = ntohs(address.sin_port);
+  }
   static bool ready(int socket, short events, int within_ms = 10000) {
     pollfd waiting{socket, events, 0};
     return ::poll(&waiting, 1, within_ms) == 1;
