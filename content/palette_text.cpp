@@ -29,6 +29,7 @@ struct BrokenPrecondition {};
 #include "shared/base/near_name.h"
 #include "shared/base/text.h"
 #include "shared/material/material_members.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -93,7 +94,7 @@ std::vector<std::string> make_row_names() {
   std::vector<std::string> names = number_names();
   std::ranges::copy(choice_names(), std::back_inserter(names));
   for (const ImageMember& image : image_members) names.emplace_back(image.name);
-  names.emplace_back("name");
+  for (const char* name : {"name", "rubble_of", "fill", "loose"}) names.emplace_back(name);
   for (size_t i = 0; i < names.size(); ++i)
     for (size_t dot = names[i].find('.'); dot != std::string::npos; dot = names[i].find('.', dot + 1))
       if (std::string group = names[i].substr(0, dot); std::ranges::find(names, group) == names.end())
@@ -186,6 +187,7 @@ class PaletteReader {
   Result<MaterialRow> read_row(const toml::table& table);
   Result<void> read_members(MaterialRow& row, const toml::table& table, const std::string& prefix);
   Result<void> read_member(MaterialRow& row, const std::string& name, const toml::node& node);
+  Result<void> read_rubble(MaterialRow& row, const std::string& name, const toml::node& node);
   Result<void> read_image(MaterialRow& row, const ImageMember& image, const toml::node& node);
   Result<void> read_ground(const toml::table& document);
   Result<void> read_layer(const GroundLayer& layer, const toml::table& table);
@@ -193,7 +195,8 @@ class PaletteReader {
 
   std::string name_;
   const ReadImage& read_image_;
-  std::string subject_;  ///< the row that is being read, in words
+  std::string subject_;          ///< the row that is being read, in words
+  std::optional<uint8_t> fill_;  ///< of the row that is being read
   Palette palette_;
 };
 
@@ -202,6 +205,7 @@ Result<Palette> PaletteReader::read(const toml::table& document) {
     if (key != "material" && key != "ground") return refuse_name(key, key, {"material", "ground"});
   TRY(read_materials(document));
   TRY(read_ground(document));
+  add_rubble(palette_);
   if (const auto valid = validate(palette_); !valid) return refuse(0, valid.error().message);
   return std::move(palette_);
 }
@@ -243,7 +247,10 @@ Result<MaterialRow> PaletteReader::read_row(const toml::table& table) {
   row.name = name->as_string()->get();
   TRY(at(*name, check_material_name(row.name)));
   subject_ = row.name;
+  fill_.reset();
   TRY(read_members(row, table, ""));
+  if (fill_ && !row.rubble) return refuse(table.source(), "fill is of rubble alone: rubble_of is missing");
+  if (fill_) row.rubble->fill = *fill_;
   return row;
 }
 
@@ -264,6 +271,7 @@ Result<void> PaletteReader::read_members(MaterialRow& row, const toml::table& ta
 
 Result<void> PaletteReader::read_member(MaterialRow& row, const std::string& name, const toml::node& node) {
   if (name == "name") return {};  // read before, for it stands in errors
+  if (name == "rubble_of" || name == "fill" || name == "loose") return read_rubble(row, name, node);
   for (const ImageMember& image : image_members)
     if (image.name == name) return read_image(row, image, node);
   if (number_of(row, name)) {
@@ -272,6 +280,33 @@ Result<void> PaletteReader::read_member(MaterialRow& row, const std::string& nam
   }
   if (!node.is_string()) return refuse_type(node, name, "a text");
   return at(node, set_choice(row, name, showable(node.as_string()->get(), shown_bytes_max)));
+}
+
+/// `fill` alone says nothing: `rubble_of` stands beside it, before or after.
+Result<void> PaletteReader::read_rubble(MaterialRow& row, const std::string& name, const toml::node& node) {
+  if (name == "loose") {
+    if (!node.is_boolean()) return refuse_type(node, name, "true or false");
+    row.loose = node.as_boolean()->get();
+    return {};
+  }
+  if (name == "fill") {
+    const std::optional<double> value = number_in(node);
+    if (!value) return refuse_type(node, name, "a number");
+    if (!(*value >= 0.25 && *value <= 0.99))
+      return refuse(node.source(), "fill must lie between 0.25 and 0.99");
+    fill_ = static_cast<uint8_t>(*value * fill_solid + 0.5);
+    return {};
+  }
+  if (!node.is_string()) return refuse_type(node, name, "a text");
+  const std::string stones = node.as_string()->get();
+  const std::optional<Material> of = palette_.named(stones);
+  if (!of) {
+    const auto rows = palette_.names();
+    return refuse(node.source(), "rubble_of " + in_quotes(stones) + " is no material above it" +
+                                     near_of(stones, {rows.begin(), rows.end()}));
+  }
+  row.rubble = RubbleOf{.of = *of};
+  return {};
 }
 
 Result<void> PaletteReader::read_image(MaterialRow& row, const ImageMember& image, const toml::node& node) {

@@ -31,28 +31,28 @@ static_assert(kinds == kind_with_material);
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
 /// takes no byte of its own.
 constexpr unsigned shift_bits = 14;
-/// A stamp has one of its method's two numbers, for one piece or for several together; as many more where it
-/// brings materials.
+/// A stamp has one of its method's two numbers, for one piece or for several together; as many more for each
+/// thing that it can bring.
 struct WireMethod {
   StampMethod method;
   bool together;
-  bool brings_materials;
+  Brings brings;
 
   bool operator==(const WireMethod&) const = default;
 };
 constexpr auto wire_methods = [] {
   constexpr size_t numbers = kind_count<StampMethod> + kinds_that<StampMethod, lays>.size();
-  std::array<WireMethod, 2 * numbers> methods{};
+  std::array<WireMethod, 3 * numbers> methods{};
   size_t places = 0;  // a bit for each number that a row has
   const auto enter = [&](size_t number, WireMethod method) {
     methods.at(number) = method;
     places |= size_t{1} << number;
   };
   for (const StampMethod method : all_kinds<StampMethod>) {
-    for (const bool brings : {false, true}) {
-      enter(traits_of(method).wire + (brings ? numbers : 0), {method, false, brings});
-      if (lays(method))
-        enter(traits_of(method).wire_together.value() + (brings ? numbers : 0), {method, true, brings});
+    for (const Brings brings : {Brings::nothing, Brings::materials, Brings::rubble}) {
+      const size_t first = static_cast<size_t>(brings) * numbers;
+      enter(traits_of(method).wire + first, {method, false, brings});
+      if (lays(method)) enter(traits_of(method).wire_together.value() + first, {method, true, brings});
     }
   }
   if (places + 1 != size_t{1} << methods.size())
@@ -121,8 +121,8 @@ struct Writing {
     const uint64_t shift = fold_sign(stamp.shift);
     CHECK(shift >> shift_bits == 0);
     // The number after the last, which nobody reads, where there is no such method.
-    const auto method = std::ranges::find(
-        wire_methods, WireMethod{stamp.method, !stamp.others.empty(), stamp.brings_materials});
+    const auto method =
+        std::ranges::find(wire_methods, WireMethod{stamp.method, !stamp.others.empty(), stamp.brings});
     writer.varint((static_cast<uint64_t>(method - wire_methods.begin()) << shift_bits) | shift);
     if (stamp.others.empty()) return;
     CHECK(stamp.others.size() < limits::stamp_group_max);
@@ -205,7 +205,7 @@ void read(ByteReader& reader, PieceId id, StampOperation& stamp) {
   if (stamp.shift < -stamp_shift_max)
     reader.refuse(fmt::format("shift of a stamp is beyond ±{}", stamp_shift_max));
   stamp.method = method.method;
-  stamp.brings_materials = method.brings_materials;
+  stamp.brings = method.brings;
   if (!method.together) return;
   const uint64_t others = reader.varint("number of pieces stamped together", limits::stamp_group_max - 1);
   if (others == 0) reader.refuse("a stamp together with none");

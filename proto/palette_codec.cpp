@@ -59,6 +59,11 @@ void write_row(wire::PaletteRow& to, const MaterialRow& from) {
   write_bearing(*to.mutable_bearing(), from.bearing);
   write_sound(*to.mutable_sound(), from.sound);
   write_look(*to.mutable_look(), from.look);
+  if (from.rubble) {
+    to.mutable_rubble()->set_of(static_cast<uint32_t>(row_number(from.rubble->of)));
+    to.mutable_rubble()->set_fill(from.rubble->fill);
+  }
+  to.set_loose(from.loose);
 }
 
 /// A number that no byte holds becomes one that validate() refuses.
@@ -112,6 +117,9 @@ Result<MaterialRow> read_row(const wire::PaletteRow& from) {
   row.bearing = read_bearing(from.bearing());
   row.sound = read_sound(from.sound());
   row.look = TRY(read_look(from.look()));
+  if (from.has_rubble())
+    row.rubble = RubbleOf{Material{byte_of(from.rubble().of())}, byte_of(from.rubble().fill())};
+  row.loose = from.loose();
   return row;
 }
 

@@ -239,15 +239,40 @@ MaterialMasses masses_of(const Window& codes, const MaterialWindow& materials) {
   return listed(sums);
 }
 
-MaterialMasses masses_lost(const Window& before, const Window& after, const MaterialWindow& materials) {
+RockWindow rock_of(MaterialWindow materials, const RubbleRows& rows) {
+  RockWindow rock;
+  if (rows.any) {
+    rock.fills.all = rows.fill[row_number(materials.all)];
+    materials.all = rows.stones[row_number(materials.all)];
+    const auto has_pores = [&](Material one) { return rows.fill[row_number(one)] != fill_solid; };
+    if (std::ranges::any_of(materials.each, has_pores)) {
+      rock.fills.each.resize(materials.each.size());
+      for (size_t i = 0; i < materials.each.size(); ++i) {
+        rock.fills.each[i] = rows.fill[row_number(materials.each[i])];
+        materials.each[i] = rows.stones[row_number(materials.each[i])];
+      }
+      if (const Material first = materials.each.front();
+          std::ranges::all_of(materials.each, [first](Material one) { return one == first; }))
+        materials = {materials.box, first, {}};
+    } else if (!materials.is_uniform()) {
+      rock.fills.all = fill_solid;
+    }
+  }
+  rock.stones = std::move(materials);
+  return rock;
+}
+
+MaterialMasses masses_lost(const Window& before, const Window& after, const RockWindow& rock) {
   CHECK(before.box == after.box);
   std::array<MassUnits, 256> sums{};
-  if (materials.is_uniform()) {
-    sums[row_number(materials.all)] = mass_of(before) - mass_of(after);
+  if (rock.stones.is_uniform()) {
+    sums[row_number(rock.stones.all)] = mass_of(before, rock.fills) - mass_of(after, rock.fills);
   } else {
-    CHECK_EQ(before.codes.size(), materials.each.size());
+    CHECK_EQ(before.codes.size(), rock.stones.each.size());
     for_each_nonzero(mass_changes(before.codes, after.codes), [&](size_t i) {
-      sums[row_number(materials.each[i])] += occupancy(before.codes[i]) - occupancy(after.codes[i]);
+      const int fill = rock.fills.at(i);
+      sums[row_number(rock.stones.each[i])] +=
+          mass_in_voxel(occupancy(before.codes[i]), fill) - mass_in_voxel(occupancy(after.codes[i]), fill);
     });
   }
   return listed(sums);

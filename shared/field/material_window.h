@@ -12,6 +12,7 @@
 #include "shared/field/field.h"
 #include "shared/field/mass.h"
 #include "shared/field/window.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -28,6 +29,13 @@ struct MaterialWindow {
 
   bool operator==(const MaterialWindow&) const = default;
 };
+
+/// What each voxel of a window would be once cut, and how much of it its stones fill (RubbleRows).
+struct RockWindow {
+  MaterialWindow stones;
+  FillWindow fills;
+};
+RockWindow rock_of(MaterialWindow materials, const RubbleRows& rows);
 
 /// Mass of one material.
 struct MaterialMass {
@@ -108,9 +116,9 @@ MaterialWindow part_of(const MaterialWindow& window, const VoxelBox& box);
 /// Mass of the codes by material. Both windows have the same box.
 MaterialMasses masses_of(const Window& codes, const MaterialWindow& materials);
 
-/// What the terrain lost of each material, in order, none of it 0. `after` has at no voxel more than
-/// `before`; all three have the same box.
-MaterialMasses masses_lost(const Window& before, const Window& after, const MaterialWindow& materials);
+/// What the terrain lost of each material, in order, none of it 0: of rubble, that of its stones. All three
+/// have the same box.
+MaterialMasses masses_lost(const Window& before, const Window& after, const RockWindow& rock);
 
 /// The material of the solid voxel (code < 0) nearest to one, which is in the box, at most two voxels away;
 /// if there is none, its own. The windows have the same box.

@@ -186,9 +186,9 @@ std::vector<PolygonMesh> conform_cells(const PolygonMesh& mesh, const std::vecto
   return parts;
 }
 
-Cut cut_by_conforming(const Window& volume, const Window& before, const Window& after,
+Cut cut_by_conforming(const Window& volume, std::vector<uint8_t> lost,
                       const std::vector<glm::vec3>& seeds_voxels) {
-  return cut_as_polygons(conform_cutting, volume, before, after, seeds_voxels);
+  return cut_as_polygons(conform_cutting, volume, std::move(lost), seeds_voxels);
 }
 
 }  // namespace scree

@@ -3,12 +3,17 @@
 // table and a file of its own. A cutter decides bits, so it is part of the operation. Voxels; deterministic.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "shared/base/check.h"
 #include "shared/base/kind_table.h"
+#include "shared/base/limits.h"
 #include "shared/field/piece.h"
 
 namespace scree {
@@ -30,10 +35,9 @@ struct Cut {
   std::vector<uint16_t> piece_of_cell{};
 };
 
-/// Cuts `volume` (= before ∩ shape). The cutter shares out the mass that the terrain lost, Σ
-/// occupancy(before) − occupancy(after), so that Σ piece mass + dust is exactly that. All three windows have
-/// the same box.
-using CutFunction = Cut(const Window& volume, const Window& before, const Window& after,
+/// Cuts `volume`. The cutter shares out the mass that was lost at each voxel (units, in the window's order),
+/// so that Σ piece mass + dust is exactly its sum.
+using CutFunction = Cut(const Window& volume, std::vector<uint8_t> lost,
                         const std::vector<glm::vec3>& seeds_voxels);
 
 /// The cutter `field` works on codes, without any mesh (field_cutter.cpp). It shares the mass out by nearest
@@ -79,9 +83,17 @@ constexpr CutterRow row_of(Cutter cutter) {
 /// The cutter for volumes that are too large for the chosen one, and for what a client predicts.
 inline constexpr Cutter cheapest_cutter = Cutter::field;
 
+inline Cut cut_volume(Cutter cutter, const Window& volume, std::vector<uint8_t> lost,
+                      const std::vector<glm::vec3>& seeds_voxels) {
+  CHECK(lost.size() == volume.codes.size() && seeds_voxels.size() <= limits::seeds_max);
+  return traits_of(cutter).cut(volume, std::move(lost), seeds_voxels);
+}
+/// Cuts `volume` (= before ∩ shape), all of which is without pores. All three windows have the same box.
 inline Cut cut_volume(Cutter cutter, const Window& volume, const Window& before, const Window& after,
                       const std::vector<glm::vec3>& seeds_voxels) {
-  return traits_of(cutter).cut(volume, before, after, seeds_voxels);
+  CHECK(volume.box == before.box && volume.box == after.box);
+  CHECK_DEBUG(std::ranges::equal(before.codes, after.codes, std::ranges::less_equal()));
+  return cut_volume(cutter, volume, mass_changes(before.codes, after.codes), seeds_voxels);
 }
 
 }  // namespace scree

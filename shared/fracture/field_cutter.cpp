@@ -20,10 +20,6 @@ namespace {
 
 using Label = CellLabel;
 
-bool gains_nothing(const Window& before, const Window& after) {
-  return std::ranges::equal(before.codes, after.codes, std::ranges::less_equal());
-}
-
 /// Mass lost nearest to each seed: exact enough to tell which cells are too light.
 std::vector<MassUnits> rough_masses(const std::vector<uint8_t>& lost, const std::vector<Label>& labels,
                                     size_t cells) {
@@ -113,12 +109,9 @@ std::vector<PartMass> masses_of(const VoxelBox& box, const std::vector<uint8_t>&
 
 }  // namespace
 
-Cut cut_by_field(const Window& volume, const Window& before, const Window& after,
+Cut cut_by_field(const Window& volume, std::vector<uint8_t> lost,
                  const std::vector<glm::vec3>& seeds_voxels) {
-  CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
   Cut cut;
-  CHECK_DEBUG(gains_nothing(before, after));
-  std::vector<uint8_t> lost = mass_changes(before.codes, after.codes);
   const MassUnits total = std::accumulate(lost.begin(), lost.end(), MassUnits{0});
   if (seeds_voxels.empty() || total < limits::piece_mass_min) {
     cut.dust = total;
@@ -152,12 +145,12 @@ Cut cut_by_field(const Window& volume, const Window& before, const Window& after
     bounds[pb].neighbours.push_back(seeds_voxels[a]);
   }
   std::vector<CellPart> parts = cut_parts(volume, bounds);
-  const std::vector<PartMass> masses = masses_of(before.box, lost, {labels, piece_of}, parts);
+  const std::vector<PartMass> masses = masses_of(volume.box, lost, {labels, piece_of}, parts);
   for (size_t i = 0; i < parts.size(); ++i) {
     Volume& piece = cut.pieces[i].volume;
     piece.window = std::move(parts[i].window);
     piece.mass = masses[i].mass;
-    piece.centre_voxels = centre_of_mass(masses[i], before.box.lo);
+    piece.centre_voxels = centre_of_mass(masses[i], volume.box.lo);
   }
   CHECK_EQ(std::accumulate(masses.begin(), masses.end(), MassUnits{0},
                            [](MassUnits sum, const PartMass& part) { return sum + part.mass; }),

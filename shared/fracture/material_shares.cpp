@@ -115,12 +115,15 @@ std::vector<MassUnits> weights_of(const Cut& cut, const MaterialWindow& material
 
 }  // namespace
 
-MaterialMasses masses_lost(const Cut& cut, const Window& before, const Window& after,
-                           const MaterialWindow& materials) {
-  if (cut.lost.empty() || materials.is_uniform()) return masses_lost(before, after, materials);
-  CHECK_EQ(cut.lost.size(), materials.each.size());
+MaterialMasses masses_lost(const std::vector<uint8_t>& lost, const MaterialWindow& materials) {
   std::array<MassUnits, 256> sums{};
-  for_each_nonzero(cut.lost, [&](size_t i) { sums[row_number(materials.each[i])] += cut.lost[i]; });
+  MassUnits& all = sums[row_number(materials.all)];
+  if (materials.is_uniform()) {
+    for (const uint8_t units : lost) all += units;
+    return listed(sums);
+  }
+  CHECK_EQ(lost.size(), materials.each.size());
+  for_each_nonzero(lost, [&](size_t i) { sums[row_number(materials.each[i])] += lost[i]; });
   return listed(sums);
 }
 

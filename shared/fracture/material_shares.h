@@ -6,9 +6,8 @@
 
 namespace scree {
 
-/// What the terrain lost of each material, as masses_lost(), by the cut's own count where the cutter told.
-MaterialMasses masses_lost(const Cut& cut, const Window& before, const Window& after,
-                           const MaterialWindow& materials);
+/// What was lost at each voxel (units, in a window's order), by material: in order, none of it 0.
+MaterialMasses masses_lost(const std::vector<uint8_t>& lost, const MaterialWindow& materials);
 
 /// Gives each of the cut's pieces the materials of its voxels, and shares `lost`, the mass that was cut by
 /// material, out among pieces and dust: each piece's and the dust's sum stays, and so does each material's.

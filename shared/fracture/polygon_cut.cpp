@@ -22,13 +22,6 @@ constexpr int window_margin = 2;
 /// Faces smaller than this, voxels², are rounding's, and join no cells.
 constexpr double touch_area = 1e-6;
 
-MassUnits mass_lost(const Window& before, const Window& after) {
-  MassUnits sum = 0;
-  for (size_t i = 0; i < before.codes.size(); ++i)
-    sum += occupancy(before.codes[i]) - occupancy(after.codes[i]);
-  return sum;
-}
-
 double area_of(const PolygonMesh& mesh, const PolygonFace& face) {
   const glm::dvec3 tip = mesh.vertices[mesh.edges[face.first_edge].from];
   double area = 0.0;
@@ -175,12 +168,11 @@ PolygonParts cut_polygons(const PolygonCutting& cutting, const Window& volume,
   return cut;
 }
 
-Cut cut_as_polygons(const PolygonCutting& cutting, const Window& volume, const Window& before,
-                    const Window& after, const std::vector<glm::vec3>& seeds_voxels) {
-  if (faces_of(volume) > polygon_faces_max) return cut_by_field(volume, before, after, seeds_voxels);
-  CHECK(volume.box == before.box && volume.box == after.box && seeds_voxels.size() <= limits::seeds_max);
+Cut cut_as_polygons(const PolygonCutting& cutting, const Window& volume, std::vector<uint8_t> lost,
+                    const std::vector<glm::vec3>& seeds_voxels) {
+  if (faces_of(volume) > polygon_faces_max) return cut_by_field(volume, std::move(lost), seeds_voxels);
   Cut cut;
-  const MassUnits total = mass_lost(before, after);
+  const MassUnits total = std::accumulate(lost.begin(), lost.end(), MassUnits{0});
   cut.dust = total;
   if (seeds_voxels.empty() || total < limits::piece_mass_min) return cut;
   const PolygonParts polygons = cut_polygons(cutting, volume, seeds_voxels);

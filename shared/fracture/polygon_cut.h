@@ -34,7 +34,7 @@ PolygonParts cut_polygons(const PolygonCutting& cutting, const Window& volume,
 /// Cuts as a CutFunction does. The lost mass is shared out in proportion to the volumes of the parts, to the
 /// unit; the codes of a piece are the distances to its polygons. A volume so thin that it has no polygons
 /// becomes dust; one of more than polygon_faces_max faces is cut by `field`.
-Cut cut_as_polygons(const PolygonCutting& cutting, const Window& volume, const Window& before,
-                    const Window& after, const std::vector<glm::vec3>& seeds_voxels);
+Cut cut_as_polygons(const PolygonCutting& cutting, const Window& volume, std::vector<uint8_t> lost,
+                    const std::vector<glm::vec3>& seeds_voxels);
 
 }  // namespace scree

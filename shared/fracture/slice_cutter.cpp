@@ -79,9 +79,9 @@ std::vector<PolygonMesh> slice_by_cells(const PolygonMesh& mesh, const std::vect
   return Slicing(cells).run(mesh);
 }
 
-Cut cut_by_slices(const Window& volume, const Window& before, const Window& after,
+Cut cut_by_slices(const Window& volume, std::vector<uint8_t> lost,
                   const std::vector<glm::vec3>& seeds_voxels) {
-  return cut_as_polygons(slice_cutting, volume, before, after, seeds_voxels);
+  return cut_as_polygons(slice_cutting, volume, std::move(lost), seeds_voxels);
 }
 
 }  // namespace scree

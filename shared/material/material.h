@@ -17,6 +17,9 @@ constexpr size_t row_number(Material material) {
   return static_cast<size_t>(material);
 }
 
+/// Mass of a full voxel of a material without pores. Of rubble, whose stones fill a part of it, less.
+inline constexpr int fill_solid = 128;
+
 /// The rows that the ground's layers are of where no palette says other ones: the first of the built-in one.
 namespace material {
 inline constexpr Material rock{0}, soil{1}, ice{2};

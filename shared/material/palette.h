@@ -3,7 +3,8 @@
 // A world, a recording and a welcome carry it by its digest (proto/palette_codec.h). Rows can be added, but
 // never removed or renumbered, because voxels hold their numbers. No kernel that decides bits of the field
 // reads a row's numbers: they drive bodies, breaks, falls, sounds and drawing, and may change in a running
-// world. Only `ground` decides bits, and stays. A value; metres, kilograms, seconds, pascals.
+// world. Only `ground`, and what is rubble of what, decide bits, and stay. A value; metres, kilograms,
+// seconds, pascals.
 #pragma once
 
 #include <array>
@@ -118,6 +119,18 @@ struct MaterialLook {
   bool operator==(const MaterialLook&) const = default;
 };
 
+/// A row that is rubble: of which row its stones are, and how much of it they fill. Both decide bits, and
+/// stay.
+struct RubbleOf {
+  Material of{};
+  /// In 128ths: 0.62, so that broken rock takes 1.6 times its volume (swell factor of rock: 50 to 80 %,
+  /// Hartman, SME Mining Engineering Handbook, 1992, table 9.1.1).
+  uint8_t fill = 79;
+
+  bool operator==(const RubbleOf&) const = default;
+};
+inline constexpr int rubble_fill_min = 32, rubble_fill_max = fill_solid - 1;
+
 struct MaterialRow {
   std::string name;
   float density_kg_m3 = 2600.0F;
@@ -136,6 +149,9 @@ struct MaterialRow {
   Bearing bearing;
   MaterialSound sound;
   MaterialLook look;
+  std::optional<RubbleOf> rubble{};
+  /// Loose ground such as sand, which a merge leaves as it is. Decides bits, and stays.
+  bool loose = false;
 
   bool operator==(const MaterialRow&) const = default;
 };

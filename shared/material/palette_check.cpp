@@ -21,6 +21,21 @@ Result<void> check_row(const MaterialRow& row) {
   return {};
 }
 
+/// Rubble names an earlier row, which is none: so no walk from rubble to stones goes in a circle.
+Result<void> check_rubble(const Palette& palette, size_t number) {
+  const MaterialRow& row = palette.rows[number];
+  if (!row.rubble) return {};
+  const size_t of = row_number(row.rubble->of);
+  if (of >= number)
+    return fail("it is rubble of material " + std::to_string(of) + ", which must come before it");
+  if (palette.rows[of].rubble)
+    return fail("it is rubble of " + palette.rows[of].name + ", which is rubble itself");
+  if (row.loose) return fail("it is rubble, so it is not loose ground as well");
+  if (row.rubble->fill < rubble_fill_min || row.rubble->fill > rubble_fill_max)
+    return fail("the fill of rubble must lie between 0.25 and 0.99");
+  return {};
+}
+
 Result<void> check_ground(const Palette& palette) {
   const GroundRows& ground = palette.ground;
   const auto check_layer = [&](Material layer, const char* what) -> Result<void> {
@@ -63,6 +78,9 @@ Result<void> validate(const Palette& palette) {
     if (!names.insert(row.name).second) return fail(row.name + ": two materials have this name");
     if (const auto checked = check_row(row); !checked) return fail(row.name + ": " + checked.error().message);
   }
+  for (size_t i = 0; i < palette.rows.size(); ++i)
+    if (const auto checked = check_rubble(palette, i); !checked)
+      return fail(palette.rows[i].name + ": " + checked.error().message);
   return check_ground(palette);
 }
 
@@ -76,6 +94,8 @@ Result<void> validate_change(const Palette& before, const Palette& next) {
     if (next.rows[i].name != name)
       return fail("material " + std::to_string(i) + " is " + name + " so far, and " + next.rows[i].name +
                   " in the new palette: materials keep their numbers and names; new ones come last");
+    if (next.rows[i].rubble != before.rows[i].rubble || next.rows[i].loose != before.rows[i].loose)
+      return fail(name + ": what is rubble or loose stays so, with the same fill: its mass depends on it");
   }
   if (!(next.ground == before.ground))
     return fail("the new palette has another [ground] than so far, which decides the terrain");

@@ -70,12 +70,13 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   const Window volume = extract(before, solid);
   Applied applied;
   applied.seeds_voxels = seeds_of(carve_op, volume, dx);
-  const MaterialWindow materials = gather_materials(field, before.box);
-  Cut cut = cut_volume(carve_op.cutter, volume, before, after, applied.seeds_voxels);
-  const MaterialMasses lost = masses_lost(cut, before, after, materials);
+  const RockWindow rock = rock_of(gather_materials(field, before.box), field.rubble());
+  std::vector<uint8_t> lost_at = mass_changes(before.codes, after.codes, rock.fills);
+  const MaterialMasses lost = masses_lost(lost_at, rock.stones);
+  Cut cut = cut_volume(carve_op.cutter, volume, std::move(lost_at), applied.seeds_voxels);
   for (const MaterialMass& one : lost) flow_of(applied, one.material).terrain -= one.mass;
   applied.terrain_gain = -sum_of(lost);
-  share_materials(cut, materials, lost);
+  share_materials(cut, rock.stones, lost);
   enter(std::move(cut), carve_op.first_piece, pieces, applied);
   applied.changed = scatter(field, after);
   CHECK_EQ(mass_created(applied, pieces) + applied.dust, -applied.terrain_gain);
@@ -94,11 +95,11 @@ Applied apply_fill(const FillOperation& fill_op, Field& field) {
   Window after = before;
   fill(after, codes_of(shape, after.box));
   const AddedMaterials added =
-      fill_materials(MaterialReader(field, before.box), before, after, fill_op.material);
+      fill_materials(MaterialReader(field, before.box), field.rubble(), before, after, fill_op.material);
   Applied applied;
   applied.terrain_gain = sum_of(added.gains);
   if (fill_op.material)
-    flow_of(applied, *fill_op.material).poured += applied.terrain_gain;
+    flow_of(applied, field.rubble().stones[row_number(*fill_op.material)]).poured += applied.terrain_gain;
   else
     for (const MaterialMass& gain : added.gains) flow_of(applied, gain.material).poured += gain.mass;
   write(field, after, added, applied);
@@ -115,11 +116,15 @@ std::shared_ptr<const Volume> remove_piece(PieceTable& pieces, PieceId id) {
 
 using Volumes = std::vector<std::shared_ptr<const Volume>>;
 
+std::vector<MergedPiece> merged_pieces(const StampOperation& op, const Volumes& volumes) {
+  std::vector<MergedPiece> merged{{*volumes.front(), op.pose}};
+  for (size_t i = 0; i < op.others.size(); ++i) merged.push_back({*volumes[i + 1], op.others[i].pose});
+  return merged;
+}
+
 /// The terrain around the pieces, and the same merged with them.
 struct Stamped {
   Window before, after;
-
-  MassUnits gain() const { return mass_of(after) - mass_of(before); }
 };
 
 Stamped stamped(const StampOperation& op, const Field& field, const Volumes& volumes) {
@@ -136,7 +141,9 @@ Stamped stamped(const StampOperation& op, const Field& field, const Volumes& vol
   }
   MassUnits mass = 0;
   for (const auto& one : volumes) mass += one->mass;
-  stamp_laid(laying_of(op.method), made.after, laid, mass, op.shift);
+  stamp_laid(laying_of(op.method), made.after, laid, mass, op.shift,
+             merge_fills(MaterialReader(field, made.before.box), field.rubble(), merged_pieces(op, volumes),
+                         op.brings, dx));
   return made;
 }
 
@@ -144,14 +151,7 @@ Stamped stamped(const StampOperation& op, const Field& field, const Volumes& vol
 bool gives(const StampOperation& op, const Field& field, const Volumes& volumes,
            const PreparedStamp& prepared) {
   const Stamped made = stamped(op, field, volumes);
-  return made.before.codes == prepared.before.codes && made.after.codes == prepared.after.codes &&
-         made.gain() == prepared.gain;
-}
-
-std::vector<MergedPiece> merged_pieces(const StampOperation& op, const Volumes& volumes) {
-  std::vector<MergedPiece> merged{{*volumes.front(), op.pose}};
-  for (size_t i = 0; i < op.others.size(); ++i) merged.push_back({*volumes[i + 1], op.others[i].pose});
-  return merged;
+  return made.before.codes == prepared.before.codes && made.after.codes == prepared.after.codes;
 }
 
 Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
@@ -166,20 +166,27 @@ Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
     CHECK_DEBUG(gives(op, field, volumes, *prepared));
   else
     computed = stamped(op, field, volumes);
-  applied.terrain_gain = holds ? prepared->gain : computed.gain();
   const Window& before = holds ? prepared->before : computed.before;
   const Window& after = holds ? prepared->after : computed.after;
   const MaterialReader were(field, after.box);
   const std::vector<MergedPiece> merged = merged_pieces(op, volumes);
+  const RubbleRows& rows = field.rubble();
   const auto one = were.uniform();
-  if (one && (!op.brings_materials || are_all_of(merged, *one))) {
+  const bool stays =
+      one && rows.fill[row_number(*one)] == fill_solid &&
+      (op.brings == Brings::nothing || (are_all_of(merged, *one) && (op.brings == Brings::materials ||
+                                                                     rows.rubble[row_number(*one)] == *one)));
+  if (stays) {
+    applied.terrain_gain = mass_of(after) - mass_of(before);
     flow_of(applied, *one).terrain += applied.terrain_gain;
     applied.changed = scatter(field, after);
-    return applied;
+  } else {
+    const AddedMaterials added =
+        merge_materials(were, rows, before, after, merged, op.brings, field.source().voxel_size_m);
+    applied.terrain_gain = sum_of(added.gains);
+    write(field, after, added, applied);
   }
-  write(field, after,
-        merge_materials(were, before, after, merged, op.brings_materials, field.source().voxel_size_m),
-        applied);
+  if (holds) CHECK_EQ(applied.terrain_gain, prepared->gain);
   return applied;
 }
 
@@ -205,9 +212,9 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
 }
 
 /// The materials of an island, and its mass by material: what the terrain lost.
-void give_materials(Volume& volume, const Window& before, const Window& after,
-                    const MaterialWindow& materials, Applied& applied) {
-  MaterialMasses lost = masses_lost(before, after, materials);
+void give_materials(Volume& volume, const Window& before, const Window& after, const RockWindow& rock,
+                    Applied& applied) {
+  MaterialMasses lost = masses_lost(before, after, rock);
   for (const MaterialMass& one : lost) flow_of(applied, one.material).terrain -= one.mass;
   // Redistancing may add a little to what stays. The piece has no less than nothing of any material.
   const auto most = std::ranges::max_element(lost, {}, &MaterialMass::mass);
@@ -221,22 +228,24 @@ void give_materials(Volume& volume, const Window& before, const Window& after,
     volume.materials.all = lost.front().material;
     return;
   }
-  volume.materials = part_of(materials, volume.window.box);
+  volume.materials = part_of(rock.stones, volume.window.box);
   volume.masses = std::move(lost);
 }
 
 Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces) {
   Window window = gather(field, lift_box(op.box));
-  const MaterialWindow materials = gather_materials(field, window.box);
-  const Window before = materials.is_uniform() ? Window() : window;
+  const RockWindow rock = rock_of(gather_materials(field, window.box), field.rubble());
+  const bool one = rock.stones.is_uniform() && rock.fills.is_solid();
+  const Window before = one ? Window() : window;
   Volume volume = lift(window, op.box, op.start);
-  volume.materials.all = materials.all;
+  volume.materials.all = rock.stones.all;
+  if (!rock.fills.is_solid()) volume.mass = sum_of(masses_lost(before, window, rock));
   Applied applied;
   applied.terrain_gain = -volume.mass;
-  if (materials.is_uniform())
-    enter_terrain(applied, {{materials.all, applied.terrain_gain}});
+  if (one)
+    enter_terrain(applied, {{rock.stones.all, applied.terrain_gain}});
   else
-    give_materials(volume, before, window, materials, applied);
+    give_materials(volume, before, window, rock, applied);
   applied.changed = scatter(field, window);
   if (volume.mass < limits::piece_mass_min) {
     applied.dust = volume.mass;
@@ -248,20 +257,35 @@ Applied apply_island(const IslandOperation& op, Field& field, PieceTable& pieces
   return applied;
 }
 
+/// What a voxel becomes by paint, which adds no mass and takes none: rubble stays rubble, of other stones,
+/// and what is solid stays solid. Where that cannot be, the voxel stays what it was.
+Material painted(const RubbleRows& rows, Material was, Material paint) {
+  const Material stones = rows.stones[row_number(paint)];
+  const bool is_rubble = rows.fill[row_number(was)] != fill_solid;
+  const Material is = is_rubble ? rows.rubble[row_number(stones)] : stones;
+  return rows.fill[row_number(is)] == rows.fill[row_number(was)] ? is : was;
+}
+
 /// What paint makes of the voxels with rock that `within` holds: changes, and what they weigh by material.
 template <typename F>
-AddedMaterials paint_of(const MaterialReader& were, const Window& codes, Material material, F&& within) {
+AddedMaterials paint_of(const MaterialReader& were, const RubbleRows& rows, const Window& codes,
+                        Material material, F&& within) {
   std::vector<uint8_t> solid(codes.codes.size());
   std::transform(codes.codes.begin(), codes.codes.end(), solid.begin(),
                  [](Code code) { return static_cast<uint8_t>(occupancy(code)); });
   AddedMaterials added;
   MaterialChanges changes(were);
   changes.change(solid, [&](VoxelCoord voxel, size_t at, Material was) {
-    if (was == material || !within(voxel)) return was;
-    const MassUnits mass = occupancy(codes.codes[at]);
-    add(added.gains, was, -mass);
-    add(added.gains, material, mass);
-    return material;
+    const Material is = painted(rows, was, material);
+    if (was == is || !within(voxel)) return was;
+    const int occupied = occupancy(codes.codes[at]);
+    const auto enter = [&](Material one, int sign) {
+      const size_t row = row_number(one);
+      add(added.gains, rows.stones[row], sign * mass_in_voxel(occupied, rows.fill[row]));
+    };
+    enter(was, -1);
+    enter(is, 1);
+    return is;
   });
   added.says = changes.says();
   return added;
@@ -272,7 +296,7 @@ Applied apply_paint(const PaintOperation& op, Field& field) {
   const Window codes = gather(field, op.whole_bricks ? paint_box(shape) : band_box(shape));
   const std::vector<BrickCoord> bricks = op.whole_bricks ? bricks_of(shape) : std::vector<BrickCoord>();
   const AddedMaterials added =
-      paint_of(MaterialReader(field, codes.box), codes, op.material, [&](VoxelCoord voxel) {
+      paint_of(MaterialReader(field, codes.box), field.rubble(), codes, op.material, [&](VoxelCoord voxel) {
         if (op.whole_bricks) return std::ranges::binary_search(bricks, brick_of(voxel));
         return distance(shape, glm::vec3(voxel.x, voxel.y, voxel.z)) <= 0.0F;
       });

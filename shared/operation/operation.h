@@ -64,9 +64,8 @@ struct StampOperation {
   int32_t shift = 0;  ///< decides how the mass is met, as the method defines it
   StampMethod method = StampMethod::stamp;
   std::vector<StampedPiece> others{};
-  /// The voxels become what the pieces are of (stamp_materials.h). False in recordings from before pieces had
-  /// materials of their own: the voxels stay what they were.
-  bool brings_materials = true;
+  /// What the voxels become (stamp_materials.h).
+  Brings brings = Brings::rubble;
 
   bool operator==(const StampOperation&) const = default;
 };

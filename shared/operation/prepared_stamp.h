@@ -25,11 +25,11 @@ struct PreparedStamp {
 /// Plans the merge of a piece at a pose by a method (plan_stamp()), which chooses the operation's shift for
 /// the budget. The piece must be in the table.
 PreparedStamp prepare_stamp(Field& field, const PieceTable& pieces, PieceId piece, const QuantisedPose& pose,
-                            StampMethod method, MassUnits budget);
+                            StampMethod method, MassUnits budget, Brings brings = Brings::rubble);
 
 /// Plans the merge of several pieces in one pass by a method that lays; they can_merge_together().
 PreparedStamp prepare_group(Field& field, const PieceTable& pieces, std::span<const StampedPiece> group,
-                            StampMethod method, MassUnits budget);
+                            StampMethod method, MassUnits budget, Brings brings = Brings::rubble);
 
 /// All of the operation's pieces on the terrain's grid, in one window; `volumes` has the operation's order.
 Window lay_all(const StampOperation& op, const std::vector<std::shared_ptr<const Volume>>& volumes,

@@ -26,6 +26,9 @@ constexpr int uniform_sixteenths = 11;
 /// Half a voxel over all shifts, where edges are kept.
 constexpr int keeping_sixteenths = 5;
 
+/// A voxel over all shifts, where what is brought has pores: it takes more room than the piece did.
+constexpr int swelling_sixteenths = 11;
+
 /// A voxel farther than this from the piece's surface has no part in its edges or clefts.
 constexpr int near_surface = 64;
 
@@ -176,6 +179,34 @@ int settled_sum(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code*
   return sum;
 }
 
+/// The same of voxels that have pores (MergeFills), as mass.
+SCREE_VECTOR_CLONES
+int settled_mass(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
+                 const Code* __restrict terrain, const uint8_t* __restrict were,
+                 const uint8_t* __restrict brought, const uint8_t* __restrict inner) {
+  int sum = 0;
+  for (ptrdiff_t i = 0; i < count; ++i) {
+    const int8_t own = c[i], was = terrain[i];
+    const int8_t signs = crossing_signs(c + i, step_x, step_y);
+    const auto settled = static_cast<int8_t>(own < 0 ? code_solid : code_air);
+    const uint8_t is = occupancy_byte(signs < 0 ? own : settled);
+    const auto stays = static_cast<uint8_t>((was < 0 ? 0xFF : 0) | (is == occupancy_byte(was) ? 0xFF : 0));
+    const auto fill = static_cast<uint8_t>((were[i] & stays) | (brought[i] & ~stays));
+    sum += static_cast<uint8_t>(mass_in_voxel(is, fill) & inner[i]);
+  }
+  return sum;
+}
+
+/// Σ mass of the inner voxels, of these fills.
+SCREE_VECTOR_CLONES
+int filled_sum(size_t count, const Code* __restrict codes, const uint8_t* __restrict fills,
+               const uint8_t* __restrict inner) {
+  int sum = 0;
+  for (size_t i = 0; i < count; ++i)
+    sum += static_cast<uint8_t>(mass_in_voxel(occupancy_byte(codes[i]), fills[i]) & inner[i]);
+  return sum;
+}
+
 /// All ones for core voxels near the piece that touch a zero crossing, else 0.
 SCREE_VECTOR_CLONES
 void find_surface(ptrdiff_t count, ptrdiff_t step_x, ptrdiff_t step_y, const Code* __restrict c,
@@ -215,18 +246,34 @@ void mark_inner(const VoxelCoord& size, int layers, uint8_t* mask) {
 
 }  // namespace
 
-MassUnits settling_gain(const Window& window) {
-  CHECK(std::min({window.box.size().x, window.box.size().y, window.box.size().z}) >= 3);
-  const ptrdiff_t step_y = window.box.size().z, step_x = step_y * window.box.size().y;
-  const ptrdiff_t first = step_x + step_y + 1;
-  std::vector<uint8_t> inner(window.codes.size());
-  mark_inner(window.box.size(), 1, inner.data());
-  return settled_sum(static_cast<ptrdiff_t>(window.codes.size()) - 2 * first, step_x, step_y,
-                     window.codes.data() + first, inner.data() + first) -
-         inner_sum(inner.size(), window.codes.data(), inner.data());
+MassUnits merge_gain(const Window& terrain, const Window& merged, const MergeFills& fills) {
+  const VoxelCoord size = terrain.box.size();
+  CHECK(terrain.box == merged.box && std::min({size.x, size.y, size.z}) >= 3);
+  const ptrdiff_t step_y = size.z, step_x = step_y * size.y, first = step_x + step_y + 1;
+  const size_t voxels = merged.codes.size();
+  const auto count = static_cast<ptrdiff_t>(voxels) - 2 * first;
+  std::vector<uint8_t> inner(voxels);
+  mark_inner(size, 1, inner.data());
+  if (fills.are_solid())
+    return mass_of(merged) - mass_of(terrain) +
+           settled_sum(count, step_x, step_y, merged.codes.data() + first, inner.data() + first) -
+           inner_sum(voxels, merged.codes.data(), inner.data());
+  MassUnits gain = 0;
+  const auto settled_occupancy = [&](size_t i) {
+    const Code own = merged.codes[i];
+    if (inner[i] == 0) return occupancy(own);
+    const bool crosses = crossing_signs(merged.codes.data() + i, step_x, step_y) < 0;
+    return crosses ? occupancy(own) : (own < 0 ? units_per_voxel : 0);
+  };
+  for (size_t i = 0; i < voxels; ++i) {
+    const int is = settled_occupancy(i);
+    gain += mass_in_voxel(is, fills.after(i, terrain.codes[i], is)) -
+            mass_in_voxel(occupancy(terrain.codes[i]), fills.were.at(i));
+  }
+  return gain;
 }
 
-MergePatch::MergePatch(const Window& terrain, const Window& piece, Edges edges)
+MergePatch::MergePatch(const Window& terrain, const Window& piece, Edges edges, const MergeFills& fills)
     : box_(terrain.box),
       edges_(edges),
       step_x_(static_cast<ptrdiff_t>(box_.size().y) * box_.size().z),
@@ -254,7 +301,9 @@ MergePatch::MergePatch(const Window& terrain, const Window& piece, Edges edges)
   std::ranges::copy(terrain.codes, terrain_);
   mark_inner(box_.size(), 1, inner_);
   mark_inner(box_.size(), 2, core_);
-  before_ = inner_sum(all_, terrain_, inner_);
+  enter_fills(fills);
+  before_ =
+      fill_room_.empty() ? inner_sum(all_, terrain_, inner_) : filled_sum(all_, terrain_, were_, inner_);
   const VoxelCoord size = piece.box.size();
   const Code* row = piece.codes.data();
   for (int x = 0; x < size.x; ++x)
@@ -269,7 +318,32 @@ MergePatch::MergePatch(const Window& terrain, const Window& piece, Edges edges)
              concave_ + first_);
   std::memcpy(codes_, united_, all_);
   mark_surface();
-  single_codes_ = MassUnits{3} * count_marks(all_, marks_);
+  single_codes_ = MassUnits{3} * count_marks(all_, marks_) * fill_ / fill_solid;
+}
+
+void MergePatch::enter_fills(const MergeFills& fills) {
+  if (fills.are_solid()) return;
+  fill_room_.assign(2 * all_, fill_solid);
+  were_ = fill_room_.data();
+  brought_ = were_ + all_;
+  const auto enter = [&](const FillWindow& from, uint8_t* to) {
+    CHECK(from.each.empty() || from.each.size() == voxels_);
+    if (from.each.empty())
+      std::memset(to, from.all, voxels_);
+    else
+      std::memcpy(to, from.each.data(), voxels_);
+  };
+  enter(fills.were, were_);
+  enter(fills.brought, brought_);
+  fill_ = *std::min_element(brought_, brought_ + voxels_);
+}
+
+/// As the patch stands, once redistanced, of the inner voxels.
+MassUnits MergePatch::mass() const {
+  const auto count = static_cast<ptrdiff_t>(count_);
+  if (fill_room_.empty()) return settled_sum(count, step_x_, step_y_, codes_ + first_, inner_ + first_);
+  return settled_mass(count, step_x_, step_y_, codes_ + first_, terrain_ + first_, were_ + first_,
+                      brought_ + first_, inner_ + first_);
 }
 
 MassUnits MergePatch::shape(int roundness) {
@@ -277,15 +351,17 @@ MassUnits MergePatch::shape(int roundness) {
   CHECK(size <= stamp_roundness_max + 1);
   const int curved = edges_ == Edges::round ? std::min(size, roundness_half) : 0;
   const Amounts by{static_cast<int16_t>(curved),
-                   static_cast<int16_t>(edges_ == Edges::round ? (size - curved) * uniform_sixteenths / 16
-                                                               : size * keeping_sixteenths / 16)};
+                   static_cast<int16_t>(
+                       edges_ == Edges::round
+                           ? (size - curved) * uniform_sixteenths / 16
+                           : size * (fill_ == fill_solid ? keeping_sixteenths : swelling_sixteenths) / 16)};
   if (roundness >= 0)
     grow(all_, by, united_, piece_, concave_, shaped_);
   else
     shrink(all_, by, united_, terrain_, convex_, touched_, shaped_);
   const auto count = static_cast<ptrdiff_t>(count_);
   fill_pits(count, step_x_, step_y_, shaped_ + first_, core_ + first_, codes_ + first_);
-  return settled_sum(count, step_x_, step_y_, codes_ + first_, inner_ + first_) - before_;
+  return mass() - before_;
 }
 
 void MergePatch::mark_surface() {
@@ -357,7 +433,7 @@ int MergePatch::move_ramp_ends(int units) {
   return moved;
 }
 
-MassUnits MergePatch::place(MassUnits units) {
+MassUnits MergePatch::place_steps(MassUnits units) {
   constexpr int step = 6;  // units a code on the ramp
   list_surface();
   const int direction = units < 0 ? -1 : 1;
@@ -377,6 +453,21 @@ MassUnits MergePatch::place(MassUnits units) {
   if (units - placed > 0 && units - placed < step) placed += move_ramp_ends(static_cast<int>(units - placed));
   CHECK(units < 0 ? placed > units - step : placed <= units);
   return placed;
+}
+
+MassUnits MergePatch::place(MassUnits units) {
+  if (fill_room_.empty()) return place_steps(units);
+  // A step weighs what its voxel's material fills, so the steps are counted again after they were taken. What
+  // is too much goes at last.
+  constexpr int rounds_max = 8, rounds_up = 4;
+  constexpr MassUnits near_enough = 4;
+  const MassUnits start = mass(), wanted = start + units;
+  for (int round = 0; round < rounds_max; ++round) {
+    const MassUnits left = wanted - mass();
+    if (left >= 0 && (left <= near_enough || round >= rounds_up)) break;
+    if (place_steps(left < 0 ? left : left * fill_solid / std::max(fill_, 1)) == 0) break;
+  }
+  return mass() - start;
 }
 
 }  // namespace scree

@@ -7,6 +7,7 @@
 
 #include "shared/field/mass.h"
 #include "shared/field/window.h"
+#include "shared/recombine/stamp_plan.h"
 
 namespace scree {
 
@@ -21,7 +22,8 @@ class MergePatch {
 
   /// Unites the two and closes the gaps between them. `terrain` has the piece's box grown by the margin;
   /// `piece` has at least one layer around the voxels that may become rock.
-  MergePatch(const Window& terrain, const Window& piece, Edges edges);
+  /// `fills` are those of the terrain's window.
+  MergePatch(const Window& terrain, const Window& piece, Edges edges, const MergeFills& fills = {});
   MergePatch(const MergePatch&) = delete;
   MergePatch& operator=(const MergePatch&) = delete;
 
@@ -33,7 +35,7 @@ class MergePatch {
   MassUnits single_codes() const { return single_codes_; }
 
   /// Moves voxels at the surface by single codes, all over the piece, until the mass has changed by `units`
-  /// more; returns the change reached. Once after each shape().
+  /// more, or nearly; returns the change reached, which is not more. Once after each shape().
   MassUnits place(MassUnits units);
 
   /// The terrain united with the piece, as shape() and place() left it, not redistanced.
@@ -43,6 +45,9 @@ class MergePatch {
   /// The surface voxels that move: those in a cleft or at an edge; all that the piece reaches; all.
   enum class Tier { bent, piece, around };
 
+  void enter_fills(const MergeFills& fills);
+  MassUnits mass() const;
+  MassUnits place_steps(MassUnits units);
   void mark_surface();
   void list_surface();
   void list_movable(int direction, Tier tier);
@@ -65,19 +70,24 @@ class MergePatch {
   Code* united_;
   Code* shaped_;
   Code* codes_;
-  uint8_t* touched_;  ///< all ones where the piece changed the terrain
-  uint8_t* inner_;    ///< all ones where the voxel's mass counts: all but the outermost layer
-  uint8_t* core_;     ///< all ones where changes count in all their neighbours: two layers in
-  uint8_t* marks_;    ///< all ones at the surface near the piece, as mark_surface last found it
-  int16_t* convex_;   ///< how far rounding raises the piece here
-  int16_t* concave_;  ///< how far filling lowers the union here
+  uint8_t* touched_;                ///< all ones where the piece changed the terrain
+  uint8_t* inner_;                  ///< all ones where the voxel's mass counts: all but the outermost layer
+  uint8_t* core_;                   ///< all ones where changes count in all their neighbours: two layers in
+  uint8_t* marks_;                  ///< all ones at the surface near the piece, as mark_surface last found it
+  int16_t* convex_;                 ///< how far rounding raises the piece here
+  int16_t* concave_;                ///< how far filling lowers the union here
+  std::vector<uint8_t> fill_room_;  ///< empty where all is solid
+  uint8_t* were_ = nullptr;
+  uint8_t* brought_ = nullptr;
+  int fill_ = fill_solid;  ///< least of those that are brought
   std::vector<uint32_t> surface_;
   std::vector<uint32_t> movable_;
   MassUnits before_ = 0;
   MassUnits single_codes_ = 0;
 };
 
-/// Mass that redistancing alone adds to a window, which has at least three voxels a side.
-MassUnits settling_gain(const Window& window);
+/// Mass that a window, which has at least three voxels a side, gains by becoming `merged` and by being
+/// redistanced then.
+MassUnits merge_gain(const Window& terrain, const Window& merged, const MergeFills& fills);
 
 }  // namespace scree

@@ -87,9 +87,10 @@ VoxelBox merge_box(const Window& laid) {
   return laid.box.grown(MergePatch::margin);
 }
 
-void stamp_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass, int shift) {
+void stamp_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass, int shift,
+                const MergeFills& fills) {
   CHECK(std::abs(shift) <= stamp_shift_max);
-  MergePatch patch(window, laid, laying.edges);
+  MergePatch patch(window, laid, laying.edges, fills);
   const MassUnits mass = piece_mass + MassUnits{dust_steps(shift)} * stamp_dust_step;
   patch.place(mass - patch.shape(roundness(shift)));
   window.codes = patch.codes();
@@ -97,8 +98,8 @@ void stamp_laid(const Laying& laying, Window& window, const Window& laid, MassUn
 }
 
 StampPlan plan_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass,
-                    MassUnits budget) {
-  MergePatch patch(window, laid, laying.edges);
+                    MassUnits budget, const MergeFills& fills) {
+  MergePatch patch(window, laid, laying.edges, fills);
   const int dust = static_cast<int>(
       std::clamp<MassUnits>((budget - piece_mass) / stamp_dust_step, 0, (1 << stamp_dust_bits) - 1));
   const MassUnits mass = piece_mass + MassUnits{dust} * stamp_dust_step;

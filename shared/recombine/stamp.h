@@ -48,11 +48,12 @@ Window together(std::vector<Window> laid);
 VoxelBox merge_box(const Window& laid);
 
 /// Merges a laid piece into `window`, the terrain over merge_box(laid), with a given shift.
-void stamp_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass, int shift);
+void stamp_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass, int shift,
+                const MergeFills& fills = {});
 
 /// Plans like plan_stamp() and leaves the stamped terrain in `window`, which has the box merge_box(laid).
 StampPlan plan_laid(const Laying& laying, Window& window, const Window& laid, MassUnits piece_mass,
-                    MassUnits budget);
+                    MassUnits budget, const MergeFills& fills = {});
 
 /// Merges a piece into `window`, which must cover stamp_box(). The window gains the piece's mass and the
 /// shift's dust, as nearly as single codes allow at the shift's roundness.

@@ -86,10 +86,10 @@ struct OpenVoxel {
   int had, has;
 };
 
-/// `material_of(voxel, was)`: of what fills it.
+/// Where all is solid. `material_of(voxel, was)`: of what fills it.
 template <typename F>
-AddedMaterials add_materials(const MaterialReader& were, const Window& before, const Window& after,
-                             F&& material_of) {
+AddedMaterials add_solid(const MaterialReader& were, const Window& before, const Window& after,
+                         F&& material_of) {
   CHECK(before.box == after.box && before.box == were.box());
   AddedMaterials added;
   std::array<MassUnits, 256> gains{};
@@ -126,6 +126,98 @@ AddedMaterials add_materials(const MaterialReader& were, const Window& before, c
   return added;
 }
 
+/// Where something has pores: MergeFills says which voxels become of what `material_of` says.
+template <typename F>
+AddedMaterials add_filled(const MaterialReader& were, const RubbleRows& rows, const Window& before,
+                          const Window& after, F&& material_of) {
+  CHECK(before.box == after.box && before.box == were.box());
+  AddedMaterials added;
+  std::array<MassUnits, 256> gains{};
+  const auto enter = [&](Material material, int occupied, int sign) {
+    const size_t row = row_number(material);
+    gains[row_number(rows.stones[row])] += sign * mass_in_voxel(occupied, rows.fill[row]);
+  };
+  MaterialChanges changes(were);
+  changes.change(mass_changes(before.codes, after.codes), [&](VoxelCoord voxel, size_t i, Material was) {
+    const Material is = before.codes[i] < 0 ? was : material_of(voxel, was);
+    enter(was, occupancy(before.codes[i]), -1);
+    enter(is, occupancy(after.codes[i]), 1);
+    return is;
+  });
+  added.says = changes.says();
+  added.gains = listed(gains);
+  return added;
+}
+
+bool has_pores(const MaterialReader& were, const RubbleRows& rows) {
+  const auto pores = [&](Material one) { return rows.fill[row_number(one)] != fill_solid; };
+  for (size_t place = 0; place < were.bricks(); ++place) {
+    const MaterialReader::BrickOf& brick = were.brick_at(place);
+    if (const auto one = brick.uniform()) {
+      if (pores(*one)) return true;
+      continue;
+    }
+    VoxelMaterials voxels;
+    brick.resolve(voxels);
+    if (std::ranges::any_of(voxels, [&](VoxelMaterial one) { return pores(material_of(one)); })) return true;
+  }
+  return false;
+}
+
+/// The pieces at their poses, and of what each place is by the nearest of them.
+class MergedRock {
+ public:
+  MergedRock(const RubbleRows& rows, std::span<const MergedPiece> pieces, Brings brings, float voxel_size_m)
+      : rows_(rows), brings_(brings) {
+    CHECK(!pieces.empty() && brings != Brings::nothing);
+    const Material first = pieces.front().volume.materials.all;
+    if (are_all_of(pieces, first)) all_ = become(first);
+    if (!all_)
+      for (const MergedPiece& piece : pieces) frames_.emplace_back(piece, voxel_size_m);
+  }
+
+  std::optional<Material> uniform() const { return all_; }
+  Material at(VoxelCoord voxel) const {
+    if (all_) return *all_;
+    const PieceFrame* nearest = nullptr;
+    VoxelCoord place{};
+    Code least = code_air;
+    for (const PieceFrame& frame : frames_) {
+      const VoxelCoord own = frame.nearest(voxel);
+      const Code code = frame.code(own);
+      if (nearest != nullptr && code >= least) continue;
+      nearest = &frame;
+      place = own;
+      least = code;
+    }
+    return become(nearest->material(place));
+  }
+
+ private:
+  Material become(Material material) const {
+    return brings_ == Brings::rubble ? rows_.rubble[row_number(material)] : material;
+  }
+
+  const RubbleRows& rows_;
+  Brings brings_;
+  std::optional<Material> all_;
+  std::vector<PieceFrame> frames_;
+};
+
+/// The fill that all that pieces bring has, if it is one.
+std::optional<uint8_t> one_fill(const RubbleRows& rows, std::span<const MergedPiece> pieces, Brings brings) {
+  std::optional<uint8_t> one;
+  for (const MergedPiece& piece : pieces)
+    for (const MaterialMass& part : masses_of(piece.volume)) {
+      const Material material =
+          brings == Brings::rubble ? rows.rubble[row_number(part.material)] : part.material;
+      const uint8_t fill = rows.fill[row_number(material)];
+      if (one && *one != fill) return std::nullopt;
+      one = fill;
+    }
+  return one;
+}
+
 }  // namespace
 
 bool are_all_of(std::span<const MergedPiece> pieces, Material material) {
@@ -134,34 +226,49 @@ bool are_all_of(std::span<const MergedPiece> pieces, Material material) {
   });
 }
 
-AddedMaterials merge_materials(const MaterialReader& were, const Window& before, const Window& after,
-                               std::span<const MergedPiece> pieces, bool bring, float voxel_size_m) {
-  CHECK(!pieces.empty());
-  const Material first = pieces.front().volume.materials.all;
-  if (!bring) return fill_materials(were, before, after, std::nullopt);
-  if (are_all_of(pieces, first)) return fill_materials(were, before, after, first);
-  std::vector<PieceFrame> frames;
-  for (const MergedPiece& piece : pieces) frames.emplace_back(piece, voxel_size_m);
-  return add_materials(were, before, after, [&](VoxelCoord voxel, Material) {
-    const PieceFrame* nearest = nullptr;
-    VoxelCoord place{};
-    Code least = code_air;
-    for (const PieceFrame& frame : frames) {
-      const VoxelCoord own = frame.nearest(voxel);
-      const Code code = frame.code(own);
-      if (nearest != nullptr && code >= least) continue;
-      nearest = &frame;
-      place = own;
-      least = code;
-    }
-    return nearest->material(place);
-  });
+MergeFills merge_fills(const MaterialReader& were, const RubbleRows& rows,
+                       std::span<const MergedPiece> pieces, Brings brings, float voxel_size_m) {
+  MergeFills fills;
+  if (!rows.any) return fills;
+  if (has_pores(were, rows)) fills.were = rock_of(were.window(), rows).fills;
+  if (brings == Brings::nothing) {
+    fills.brought = fills.were;
+    return fills;
+  }
+  if (const auto one = one_fill(rows, pieces, brings)) {
+    fills.brought.all = *one;
+    return fills;
+  }
+  const MergedRock rock(rows, pieces, brings, voxel_size_m);
+  const VoxelBox& box = were.box();
+  fills.brought.each.reserve(Window::count(box));
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z)
+        fills.brought.each.push_back(rows.fill[row_number(rock.at({x, y, z}))]);
+  return fills;
 }
 
-AddedMaterials fill_materials(const MaterialReader& were, const Window& before, const Window& after,
-                              std::optional<Material> material) {
-  return add_materials(were, before, after,
-                       [material](VoxelCoord, Material was) { return material.value_or(was); });
+AddedMaterials merge_materials(const MaterialReader& were, const RubbleRows& rows, const Window& before,
+                               const Window& after, std::span<const MergedPiece> pieces, Brings brings,
+                               float voxel_size_m) {
+  CHECK(!pieces.empty());
+  if (brings == Brings::nothing) return fill_materials(were, rows, before, after, std::nullopt);
+  const MergedRock rock(rows, pieces, brings, voxel_size_m);
+  const auto material_of = [&](VoxelCoord voxel, Material) { return rock.at(voxel); };
+  const auto one = one_fill(rows, pieces, brings);
+  if (one == static_cast<uint8_t>(fill_solid) && !(rows.any && has_pores(were, rows)))
+    return add_solid(were, before, after, material_of);
+  return add_filled(were, rows, before, after, material_of);
+}
+
+AddedMaterials fill_materials(const MaterialReader& were, const RubbleRows& rows, const Window& before,
+                              const Window& after, std::optional<Material> material) {
+  const auto material_of = [material](VoxelCoord, Material was) { return material.value_or(was); };
+  const bool brings_pores = material && rows.fill[row_number(*material)] != fill_solid;
+  if (!rows.any || !(brings_pores || has_pores(were, rows)))
+    return add_solid(were, before, after, material_of);
+  return add_filled(were, rows, before, after, material_of);
 }
 
 }  // namespace scree

@@ -1,5 +1,6 @@
 #include "shared/recombine/stamp_method.h"
 
+#include "shared/base/check.h"
 #include "shared/base/overloaded.h"
 
 namespace scree {
@@ -19,11 +20,13 @@ void stamp(StampMethod method, Window& window, const Volume& volume, const Quant
 }
 
 StampPlan plan_stamp(StampMethod method, const Window& window, const Volume& volume,
-                     const QuantisedPose& pose, float voxel_size_m, MassUnits budget) {
+                     const QuantisedPose& pose, float voxel_size_m, MassUnits budget,
+                     const MergeFills& fills) {
   return std::visit(Overloaded{[&](const WholeStamp& whole) {
-                                 return whole.plan(window, volume, pose, voxel_size_m, budget);
+                                 return whole.plan(window, volume, pose, voxel_size_m, budget, fills);
                                },
                                [&](const Laying& laying) {
+                                 CHECK(fills.are_solid());
                                  return plan_stamp(laying, window, volume, pose, voxel_size_m, budget);
                                }},
                     traits_of(method).kernel);

@@ -24,7 +24,7 @@ struct WholeStamp {
   void (*stamp)(Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m,
                 int shift) = nullptr;
   StampPlan (*plan)(const Window& window, const Volume& volume, const QuantisedPose& pose, float voxel_size_m,
-                    MassUnits budget) = nullptr;
+                    MassUnits budget, const MergeFills& fills) = nullptr;
 };
 
 struct StampMethodRow {
@@ -82,8 +82,9 @@ void stamp(StampMethod method, Window& window, const Volume& volume, const Quant
            float voxel_size_m, int shift);
 
 /// Finds the shift whose gain comes nearest the budget, and this gain, exactly; each method's own plan says
-/// when the gain may exceed the budget.
+/// when the gain may exceed the budget. Of a method that lays, all is solid; else plan_laid() plans.
 StampPlan plan_stamp(StampMethod method, const Window& window, const Volume& volume,
-                     const QuantisedPose& pose, float voxel_size_m, MassUnits budget);
+                     const QuantisedPose& pose, float voxel_size_m, MassUnits budget,
+                     const MergeFills& fills = {});
 
 }  // namespace scree

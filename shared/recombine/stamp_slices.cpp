@@ -161,14 +161,13 @@ void stamp_slices(Window& window, const Volume& volume, const QuantisedPose& pos
 }
 
 StampPlan plan_slices(const Window& window, const Volume& volume, const QuantisedPose& pose,
-                      float voxel_size_m, MassUnits budget) {
+                      float voxel_size_m, MassUnits budget, const MergeFills& fills) {
   const auto voxels = drawn_voxels(draw_slices(volume, pose, voxel_size_m, window.box), window.box);
-  const MassUnits before = mass_of(window);
   const auto gain_of = [&](int shift) -> MassUnits {
     if (shift == -stamp_shift_max) return 0;
     Window drawn = window;
     draw(drawn, voxels, shift);
-    return mass_of(drawn) + settling_gain(drawn) - before;
+    return merge_gain(window, drawn, fills);
   };
   return search_shift(-stamp_shift_max, stamp_shift_max, budget, gain_of);
 }

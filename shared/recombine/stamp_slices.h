@@ -27,6 +27,6 @@ void stamp_slices(Window& window, const Volume& volume, const QuantisedPose& pos
 
 /// Plans like plan_stamp(), but the gain never exceeds a budget that is not negative.
 StampPlan plan_slices(const Window& window, const Volume& volume, const QuantisedPose& pose,
-                      float voxel_size_m, MassUnits budget);
+                      float voxel_size_m, MassUnits budget, const MergeFills& fills = {});
 
 }  // namespace scree

@@ -47,14 +47,13 @@ void stamp_sphere(Window& window, const Volume& volume, const QuantisedPose& pos
 }
 
 StampPlan plan_sphere(const Window& window, const Volume& volume, const QuantisedPose& pose,
-                      float voxel_size_m, MassUnits budget) {
+                      float voxel_size_m, MassUnits budget, const MergeFills& fills) {
   const Shape ball = ball_of(volume, pose, voxel_size_m);
-  const MassUnits before = mass_of(window);
   const auto gain_of = [&](int shift) -> MassUnits {
     if (shift == -stamp_shift_max) return 0;
     Window filled = window;
     fill(filled, codes_of(resized(ball, shift), window.box));
-    return mass_of(filled) + settling_gain(filled) - before;
+    return merge_gain(window, filled, fills);
   };
   return search_shift(-stamp_shift_max, stamp_shift_max, budget, gain_of);
 }

@@ -220,7 +220,7 @@ TEST(materials, recordings_of_before_play_as_they_were) {
   EXPECT_EQ(ground.field.materials({4, 0, 0}), all_of(material::ice)) << "air of painted bricks, too";
   ground.act(ball({0.0F, -0.5F, 0.0F}, 1.5F, 1, 1));
   StampOperation merge{1, quantise({{8.0F, 1.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}}), 0};
-  merge.brings_materials = false;
+  merge.brings = Brings::nothing;
   ground.act(merge);
   EXPECT_EQ(ground.field.materials({4, 0, 0}), all_of(material::ice));
   ground.act(FillOperation{sphere({8.0F, 3.0F, 0.0F}, 1.0F)});

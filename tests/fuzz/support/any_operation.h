@@ -80,7 +80,7 @@ inline StampOperation any_stamp(FuzzInput& input) {
                        any_kind<StampMethod>(input)};
   for (uint32_t others = input.below(8) / 5 * input.below(4); others > 0; --others)
     stamp.others.push_back({any_piece(input), any_pose(input)});
-  stamp.brings_materials = input.flag();
+  stamp.brings = static_cast<Brings>(input.below(3));
   return stamp;
 }
 
