@@ -10,73 +10,17 @@
 #include "shared/operation/operation.h"
 #include "shared/operation/prepared_stamp.h"
 #include "tests/support/flat_terrain.h"
+#include "tests/support/ledger_ground.h"
 
 namespace scree {
 namespace {
 
 constexpr Material concrete{6}, brick{7}, glass{9};
 
-/// A field with its pieces and both ledgers, as a world keeps them.
-struct Ground {
-  explicit Ground(const TerrainSource& source = flat_terrain) : field(source) {}
-
-  Applied act(const Operation& operation) {
-    MassUnits ended = 0;
-    for (const PieceId id : pieces_ended_by(operation)) ended += pieces.at(id)->mass;
-    Applied applied = apply(operation, field, pieces);
-    MassUnits made = 0;
-    for (const CreatedPiece& piece : applied.created) made += pieces.at(piece.id)->mass;
-    ledger.terrain += applied.terrain_gain;
-    ledger.pieces += made - ended;
-    if (std::holds_alternative<FillOperation>(operation))
-      ledger.poured += applied.terrain_gain;
-    else
-      ledger.dust -= applied.terrain_gain + made - ended;
-    if (applied.terrain_gain < 0) ledger.moved -= applied.terrain_gain;
-    EXPECT_TRUE(materials.enter(applied.flows));
-    EXPECT_TRUE(materials.agrees(ledger));
-    expect_masses();
-    return applied;
-  }
-
-  /// The pieces' masses by material are those of the ledger.
-  void expect_masses() const {
-    std::map<Material, MassUnits> sums;
-    for (const auto& [id, volume] : pieces) {
-      const MaterialMasses masses = masses_of(*volume);
-      EXPECT_EQ(sum_of(masses), volume->mass);
-      for (const MaterialMass& one : masses) {
-        EXPECT_GT(one.mass, 0);
-        sums[one.material] += one.mass;
-      }
-    }
-    for (size_t row = 0; row < materials.rows().size(); ++row)
-      EXPECT_EQ(materials.rows()[row].pieces, sums[static_cast<Material>(row)]) << "material " << row;
-  }
-
-  Material at(glm::vec3 p_m) const { return material_at(field, p_m); }
-
-  MapField field;
-  PieceTable pieces;
-  Ledger ledger;
-  MaterialLedger materials;
-};
-
 /// A wall of brick, 1 m thick, with a lintel of concrete on it.
 void build_wall(Ground& ground) {
   ground.act(FillOperation{box({0.0F, 1.5F, 0.0F}, {2.0F, 1.5F, 0.5F}), brick});
   ground.act(FillOperation{box({0.0F, 3.5F, 0.0F}, {2.0F, 0.5F, 0.5F}), concrete});
-}
-
-CarveOperation ball(glm::vec3 at_m, float radius_m, uint32_t seeds, PieceId first,
-                    Cutter cutter = Cutter::field) {
-  return {.shape = sphere(at_m, radius_m),
-          .pattern = SeedPattern::uniform,
-          .seeds = seeds,
-          .random_seed = 5,
-          .impact_m = at_m,
-          .first_piece = first,
-          .cutter = cutter};
 }
 
 QuantisedPose some_pose(glm::vec3 around_m, Random& random) {
@@ -148,7 +92,7 @@ TEST(materials, a_carve_gives_pieces_what_lay_where_they_were_cut) {
   for (const Cutter cutter : all_kinds<Cutter>) {
     Ground ground;
     build_wall(ground);
-    ground.act(ball({0.0F, 3.0F, 0.0F}, 1.2F, 6, 1, cutter));
+    ground.act(carve_ball({0.0F, 3.0F, 0.0F}, 1.2F, 6, 1, cutter));
     ASSERT_GE(ground.pieces.size(), 2U);
     size_t mixed = 0;
     for (const auto& [id, volume] : ground.pieces) {
@@ -172,7 +116,7 @@ TEST(materials, a_carve_gives_pieces_what_lay_where_they_were_cut) {
 TEST(materials, a_broken_piece_shares_its_materials_out_to_the_unit) {
   Ground ground;
   build_wall(ground);
-  ground.act(ball({0.0F, 3.0F, 0.0F}, 1.4F, 1, 1));
+  ground.act(carve_ball({0.0F, 3.0F, 0.0F}, 1.4F, 1, 1));
   ASSERT_TRUE(ground.pieces.contains(1));
   const MaterialMasses whole = masses_of(*ground.pieces.at(1));
   ASSERT_EQ(whole.size(), 2U);
@@ -189,7 +133,7 @@ TEST(materials, every_method_of_merging_brings_the_materials_of_the_piece) {
   for (const StampMethod method : all_kinds<StampMethod>) {
     Ground ground;
     build_wall(ground);
-    ground.act(ball({0.0F, 3.0F, 0.0F}, 1.0F, 1, 1));
+    ground.act(carve_ball({0.0F, 3.0F, 0.0F}, 1.0F, 1, 1));
     const auto volume = ground.pieces.at(1);
     const QuantisedPose pose = quantise({{8.0F, 1.2F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}});
     const PreparedStamp prepared = prepare_stamp(ground.field, ground.pieces, 1, pose, method, volume->mass);
@@ -218,7 +162,7 @@ TEST(materials, recordings_of_before_play_as_they_were) {
   Ground ground;
   ground.act(PaintOperation{box({8.0F, 0.0F, 0.0F}, {4.0F, 4.0F, 4.0F}), material::ice, true});
   EXPECT_EQ(ground.field.materials({4, 0, 0}), all_of(material::ice)) << "air of painted bricks, too";
-  ground.act(ball({0.0F, -0.5F, 0.0F}, 1.5F, 1, 1));
+  ground.act(carve_ball({0.0F, -0.5F, 0.0F}, 1.5F, 1, 1));
   StampOperation merge{1, quantise({{8.0F, 1.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}}), 0};
   merge.brings = Brings::nothing;
   ground.act(merge);
@@ -236,7 +180,7 @@ TEST(materials, little_is_converted_when_mixed_rubble_is_carved_and_merged_a_tho
   PieceId next = 1;
   for (int cycle = 0; cycle < 1000; ++cycle) {
     const glm::vec3 at(random.unit() * 4.0F - 2.0F, random.unit() * 5.0F, random.unit() * 4.0F - 2.0F);
-    ground.act(ball(at, 0.6F + 0.5F * random.unit(), 3, next));
+    ground.act(carve_ball(at, 0.6F + 0.5F * random.unit(), 3, next));
     next += 3;
     while (!ground.pieces.empty()) {
       const PieceId id = ground.pieces.begin()->first;
@@ -282,7 +226,7 @@ TEST(materials, fields_of_every_kind_agree) {
     const auto any = static_cast<Material>(random.below(12));
     Operation operation = FillOperation{sphere(at, 1.0F), any};
     if (i % 4 == 1) operation = PaintOperation{sphere(at, 1.5F), any};
-    if (i % 4 == 2) operation = ball(at, 1.2F, 2, next);
+    if (i % 4 == 2) operation = carve_ball(at, 1.2F, 2, next);
     if (i % 4 == 3 && !of_map.empty()) {
       StampOperation merge{of_map.begin()->first, some_pose(at, random), 0};
       operation = merge;
