@@ -128,6 +128,43 @@ GroundRows read_rows(const wire::GroundRows& from, FieldChecker& check) {
           depth(from.cap_depth_m(), "depth of the ground's cap")};
 }
 
+void write(wire::RubbleRows& to, const RubbleRows& from) {
+  const RubbleRows none;
+  size_t rows = from.rubble.size();
+  while (rows > 0 && from.rubble[rows - 1] == none.rubble[rows - 1] && from.fill[rows - 1] == fill_solid)
+    --rows;
+  for (size_t i = 0; i < rows; ++i) {
+    to.mutable_rubble()->push_back(static_cast<char>(from.rubble[i]));
+    to.mutable_stones()->push_back(static_cast<char>(from.stones[i]));
+    to.mutable_fill()->push_back(static_cast<char>(from.fill[i]));
+  }
+}
+
+RubbleRows read_rubble(const wire::RubbleRows& from, FieldChecker& check) {
+  RubbleRows rows;
+  const size_t count = from.rubble().size();
+  if (count > materials_max || from.stones().size() != count || from.fill().size() != count) {
+    check.refuse("the lists of rubble are not of one length, of 255 at most");
+    return rows;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    rows.rubble[i] = static_cast<Material>(static_cast<uint8_t>(from.rubble()[i]));
+    rows.stones[i] = static_cast<Material>(static_cast<uint8_t>(from.stones()[i]));
+    rows.fill[i] = static_cast<uint8_t>(from.fill()[i]);
+    rows.any = rows.any || rows.fill[i] != fill_solid;
+  }
+  for (size_t i = 0; i < count; ++i) {
+    const size_t stones = row_number(rows.stones[i]), rubble = row_number(rows.rubble[i]);
+    const bool is_rubble = rows.fill[i] != fill_solid;
+    const bool agrees =
+        is_rubble ? rows.fill[i] >= rubble_fill_min && rows.fill[i] < fill_solid && stones < i &&
+                        rubble == i && rows.fill[stones] == fill_solid
+                  : stones == i && (rubble == i || (rubble < count && rows.fill[rubble] != fill_solid));
+    if (!agrees) check.refuse(fmt::format("material {} is neither rubble nor what becomes rubble", i));
+  }
+  return rows;
+}
+
 void write(wire::TileRequest& to, const AskTilesMessage& from) {
   to.set_wanted(pack_keys(from.wanted));
   to.set_held(pack_keys(from.held));

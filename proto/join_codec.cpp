@@ -87,6 +87,7 @@ void write(wire::Welcome& to, const WelcomeMessage& from) {
   to.mutable_terrain()->set_random_seed(from.terrain.random_seed);
   to.mutable_terrain()->set_voxel_size_m(from.terrain.voxel_size_m);
   if (from.terrain.rows != GroundRows{}) write(*to.mutable_terrain()->mutable_rows(), from.terrain.rows);
+  if (from.terrain.rubble->any) write(*to.mutable_terrain()->mutable_rubble(), *from.terrain.rubble);
   to.set_interest_radius_m(from.interest_radius_m);
   to.set_replay(from.replay);
   to.set_role(static_cast<wire::Role>(from.role));
@@ -117,6 +118,8 @@ WelcomeMessage read_welcome(const wire::Welcome& from, FieldChecker& check) {
     check.refuse("voxel_size_m is not within the limits (limits.voxel_size_min_m, voxel_size_max_m)");
   welcome.terrain.voxel_size_m = voxel_size_m;
   if (from.terrain().has_rows()) welcome.terrain.rows = read_rows(from.terrain().rows(), check);
+  if (from.terrain().has_rubble())
+    welcome.terrain.rubble = Rubble(read_rubble(from.terrain().rubble(), check));
   welcome.interest_radius_m = check.not_negative(from.interest_radius_m(), "interest_radius_m");
   welcome.replay = from.replay();
   welcome.role = check.kind_or(from.role(), Role::viewer);

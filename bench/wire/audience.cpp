@@ -94,7 +94,7 @@ Result<AudienceOutcome> show_storm(const Audience& audience) {
   const float ground_m = ground_height_m(config.terrain, 0.0F, 0.0F);
   CommandQueue commands;
   NetConfig net;
-  net.terrain = config.terrain;
+  net.terrain = world.config().terrain;
   net.service = config.service;
   raise_descriptors(2 * sessions + 1024);
   const auto server = TRY(NetServer::listen(net, commands, world.keyframe()));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "ground/ground_search.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -38,7 +39,7 @@ Result<void> set_ground(const std::string& ground_path, WorldConfig& config) {
     return fail(fmt::format("{}: its stored bricks have voxels of {} m, not of {} m (--voxel-size)",
                             ground_path, bricks->voxel_size_m, voxel_size_m));
   config.ground = file->name();
-  config.palette = file->palette();
+  config.palette = with_rubble(file->palette());
   config.terrain.rows = config.palette->ground;
   config.terrain.heights = std::move(file);
   return {};

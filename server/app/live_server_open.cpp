@@ -44,7 +44,8 @@ Result<void> LiveServer::State::open() {
   config.net.health = [this] { return health(); };
   config.net.checked = [this](double now_s) { check_heartbeat(now_s); };
   config.net.takes_cursors = !config.record_path.empty();
-  config.net.terrain = config.world.terrain;
+  const World* const simulated = feed->world();
+  config.net.terrain = simulated != nullptr ? simulated->config().terrain : config.world.terrain;
   config.net.tick_rate_hz = config.world.tick_rate_hz;
   config.net.palette = config.world.palette;
   config.net.images = config.images;

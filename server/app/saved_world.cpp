@@ -7,6 +7,7 @@
 #include <spdlog/spdlog.h>
 #include <thread>
 
+#include "content/builtin_palette.h"
 #include "crypto/signing_key.h"
 #include "server/app/temporary_world.h"
 #include "server/app/terrain_pager.h"
@@ -20,6 +21,7 @@
 #include "server/world/world_snapshot.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -114,6 +116,7 @@ Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t thre
     return fail(path + ": " + given.error().message);
   if (auto given = give_materials(header, wanted.materials); !given)
     return fail(path + ": " + given.error().message);
+  header.palette = with_rubble(header.palette ? header.palette : shared_builtin_palette());
   header.rules = rules::newest;  // the world goes on; what it was is in its recordings
   auto reader = TRY(chunk_reader(path));
   auto config = config_of(header);

@@ -5,6 +5,7 @@
 
 #include "content/builtin_palette.h"
 #include "content/files/palette_file.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -13,7 +14,9 @@ Result<void> set_materials(const std::string& path, LiveConfig& config) {
   WorldConfig& world = config.world;
   // Stored bricks name their materials by number, as a kept world does.
   if (world.terrain.heights != nullptr && world.terrain.heights->bricks())
-    if (const auto may = validate_change(*world.palette, content.palette); !may)
+    if (const auto may =
+            validate_change(*world.palette, content.palette = numbered_as(*world.palette, content.palette));
+        !may)
       return fail(path +
                   ": it must have all rows of the ground, whose bricks are of them: " + may.error().message);
   config.materials = std::make_shared<const Palette>(std::move(content.palette));
@@ -26,10 +29,11 @@ Result<void> set_materials(const std::string& path, LiveConfig& config) {
 Result<void> give_materials(RecordedHeader& header, const std::shared_ptr<const Palette>& materials) {
   if (materials == nullptr) return {};
   const Palette& kept = header.palette ? *header.palette : builtin_palette();
-  if (const auto may = validate_change(kept, *materials); !may)
+  auto next = std::make_shared<const Palette>(numbered_as(kept, *materials));
+  if (const auto may = validate_change(kept, *next); !may)
     return fail(may.error().message +
                 " (--materials); the world keeps its own materials without that option");
-  header.palette = materials;
+  header.palette = std::move(next);
   return {};
 }
 

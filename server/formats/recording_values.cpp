@@ -8,6 +8,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/text.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -86,6 +87,7 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
   if (!from.palette().empty())
     header.palette =
         std::make_shared<const Palette>(check.value_or_refuse(decode_palette(as_span(from.palette()))));
+  if (header.palette != nullptr) header.terrain.rubble = Rubble(rubble_rows(*header.palette));
   return header;
 }
 

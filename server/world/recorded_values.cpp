@@ -2,6 +2,7 @@
 
 #include "content/builtin_palette.h"
 #include "server/world/settings.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -28,6 +29,7 @@ Result<WorldConfig> config_of(const RecordedHeader& header) {
   config.merges_per_tick_max = header.merges_per_tick_max;
   config.rules = header.rules;
   config.palette = header.palette != nullptr ? header.palette : shared_builtin_palette();
+  if (config.rules >= rules::rubble) config.terrain.rubble = Rubble(rubble_rows(*config.palette));
   TRY(set_all(config, header.settings));
   config.spawn = header.spawn;
   TRY(validate(config));

@@ -13,8 +13,10 @@ inline constexpr uint32_t as_they_come = 0;
 inline constexpr uint32_t by_party = 1;
 /// Also, a fall or a cut that fits into no tick comes as soon as ticks with time to spare have paid for it.
 inline constexpr uint32_t spare_time = 2;
+/// Also, merges make rubble, of which the palette has rows.
+inline constexpr uint32_t rubble = 3;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = spare_time;
+inline constexpr uint32_t newest = rubble;
 }  // namespace rules
 
 }  // namespace scree

@@ -12,6 +12,7 @@
 #include "server/world/state_hash.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -68,8 +69,18 @@ float client_us_per_s(const WorkBudget& work, const WorldConfig& config) {
   return limits::requests_share * work.budget_us() * static_cast<float>(config.tick_rate_hz);
 }
 
+namespace {
+
+/// Rubble is what the palette says, and in worlds of older rules nothing is.
+WorldConfig with_rubble_of_palette(WorldConfig config) {
+  config.terrain.rubble = config.rules >= rules::rubble ? Rubble(rubble_rows(*config.palette)) : Rubble();
+  return config;
+}
+
+}  // namespace
+
 World::State::State(const WorldConfig& world_config, size_t threads)
-    : config(world_config),
+    : config(with_rubble_of_palette(world_config)),
       palette(palette_with(config.palette, config.material_numbers)),
       field(config.terrain),
       bodies(field, bodies_config(config, threads)),

@@ -44,9 +44,7 @@ class Field {
 
   const TerrainSource& source() const { return source_; }
 
-  /// Which materials are rubble; a layer's are those of the field below. Rows may come, and none changes.
-  const RubbleRows& rubble() const { return below_ == nullptr ? *rubble_ : below_->rubble(); }
-  void set_rubble(std::shared_ptr<const RubbleRows> rows) { rubble_ = std::move(rows); }
+  const RubbleRows& rubble() const { return *source_.rubble; }
 
   /// The codes of a brick. The reference stays valid until the next brick is read, or the field changes.
   const Brick& brick(BrickCoord coord) const;
@@ -182,7 +180,6 @@ class Field {
   void enter(ChunkCoord chunk, EditedChunk& edited, std::span<const BrickPatch> bricks);
 
   TerrainSource source_;
-  std::shared_ptr<const RubbleRows> rubble_ = no_rubble();
   const Field* below_ = nullptr;                  ///< of a layer
   mutable GeneratedCache generated_;              ///< of a layer empty: the field below keeps them
   mutable GroundMaterialCache ground_materials_;  ///< likewise

@@ -14,6 +14,7 @@
 #include "shared/field/generated_chunk.h"
 #include "shared/field/stored_chunks.h"
 #include "shared/material/material.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 
@@ -47,6 +48,7 @@ struct TerrainSource {
   /// If there is one, the ground is made from it, and kind and seed mean nothing.
   std::shared_ptr<const GroundModel> heights{};
   GroundRows rows{};  ///< what it is made of
+  Rubble rubble{};    ///< and what merges make of it
 
   bool operator==(const TerrainSource&) const = default;
 };

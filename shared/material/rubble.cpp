@@ -68,6 +68,11 @@ MaterialRow derived(const Palette& palette, Material stones) {
 
 }  // namespace
 
+Rubble::Rubble() {
+  static const auto none = std::make_shared<const RubbleRows>();
+  rows_ = none;
+}
+
 RubbleRows::RubbleRows() {
   fill.fill(static_cast<uint8_t>(fill_solid));
   for (size_t i = 0; i < rubble.size(); ++i) rubble[i] = stones[i] = static_cast<Material>(i);
@@ -110,6 +115,44 @@ void add_rubble(Palette& palette) {
     palette.rows.push_back(derived(palette, stones));
   }
   CHECK(palette.rows.size() <= materials_max);
+}
+
+std::shared_ptr<const Palette> with_rubble(const std::shared_ptr<const Palette>& palette) {
+  Palette more = *palette;
+  add_rubble(more);
+  return more.rows.size() == palette->rows.size() ? palette
+                                                  : std::make_shared<const Palette>(std::move(more));
+}
+
+Palette numbered_as(const Palette& kept, const Palette& next) {
+  std::vector<size_t> order;  // of next's rows
+  std::vector<bool> taken(next.rows.size());
+  const auto take = [&](size_t row) {
+    order.push_back(row);
+    taken[row] = true;
+  };
+  for (const MaterialRow& row : kept.rows) {
+    size_t at = 0;
+    if (is_rubble(row))
+      at = next.named(row.name) ? row_number(*next.named(row.name)) : next.rows.size();
+    else
+      while (at < next.rows.size() && (taken[at] || is_rubble(next.rows[at]))) ++at;
+    if (at == next.rows.size() || taken[at]) return next;
+    take(at);
+  }
+  for (size_t row = 0; row < next.rows.size(); ++row)
+    if (!taken[row]) take(row);
+  std::vector<Material> number(order.size());
+  for (size_t i = 0; i < order.size(); ++i) number[order[i]] = static_cast<Material>(i);
+  Palette numbered;
+  for (const size_t row : order) {
+    MaterialRow& added = numbered.rows.emplace_back(next.rows[row]);
+    if (added.rubble) added.rubble->of = number[row_number(added.rubble->of)];
+  }
+  numbered.ground = next.ground;
+  for (Material GroundRows::*layer : {&GroundRows::bulk, &GroundRows::soil, &GroundRows::cap})
+    numbered.ground.*layer = number[row_number(next.ground.*layer)];
+  return numbered;
 }
 
 }  // namespace scree

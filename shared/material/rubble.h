@@ -27,11 +27,28 @@ struct RubbleRows {
 
 /// Of a valid palette.
 RubbleRows rubble_rows(const Palette& palette);
-/// Nothing is rubble: every row is its own.
-const std::shared_ptr<const RubbleRows>& no_rubble();
+
+/// Cheap to copy; equal where the rows are.
+class Rubble {
+ public:
+  /// Nothing is rubble: every row is its own.
+  Rubble();
+  explicit Rubble(const RubbleRows& rows) : rows_(std::make_shared<const RubbleRows>(rows)) {}
+
+  const RubbleRows& operator*() const { return *rows_; }
+  const RubbleRows* operator->() const { return rows_.get(); }
+  bool operator==(const Rubble& other) const { return *rows_ == *other.rows_; }
+
+ private:
+  std::shared_ptr<const RubbleRows> rows_;
+};
 
 /// Appends a row of rubble for each row that has none and is not loose, as far as there is room; what finds
 /// none shares the rubble of the row that looks and weighs most like it. The palette stays valid.
 void add_rubble(Palette& palette);
+std::shared_ptr<const Palette> with_rubble(const std::shared_ptr<const Palette>& palette);
+
+/// `next` with its rows of rubble where `kept` has those, so that rows which came before them may be more.
+Palette numbered_as(const Palette& kept, const Palette& next);
 
 }  // namespace scree

@@ -14,16 +14,18 @@
 namespace scree {
 namespace {
 
-std::shared_ptr<const RubbleRows> builtin_rubble() {
-  return std::make_shared<const RubbleRows>(rubble_rows(builtin_palette()));
+TerrainSource rubble_terrain() {
+  TerrainSource source = rock_terrain;
+  source.rubble = Rubble(rubble_rows(builtin_palette()));
+  return source;
 }
 
 Material rubble_of(Material stones) {
-  return builtin_rubble()->rubble[row_number(stones)];
+  return rubble_terrain().rubble->rubble[row_number(stones)];
 }
 
 struct RubbleGround : Ground {
-  RubbleGround() : Ground(rock_terrain) { field.set_rubble(builtin_rubble()); }
+  RubbleGround() : Ground(rubble_terrain()) {}
 
   /// Merges a piece by a method; returns the terrain's gain.
   MassUnits merge(PieceId id, const QuantisedPose& pose, StampMethod method) {

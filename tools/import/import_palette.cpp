@@ -8,6 +8,7 @@
 #include "shared/base/regular_file.h"
 #include "shared/base/text.h"
 #include "shared/material/material_members.h"
+#include "shared/material/rubble.h"
 #include "tools/import/limits.h"
 
 namespace scree {
@@ -124,7 +125,7 @@ std::optional<std::string> ImportPalette::meant(const std::string& name) const {
 }
 
 std::shared_ptr<const Palette> ImportPalette::result() const {
-  return added() == 0 ? chosen_ : std::make_shared<const Palette>(palette_);
+  return with_rubble(added() == 0 ? chosen_ : std::make_shared<const Palette>(palette_));
 }
 
 MaterialRow row_of_colour(std::string name, const std::array<float, 3>& linear) {
