@@ -1,12 +1,15 @@
 #include "server/store/ground_mass.h"
 
+#include "shared/field/ground_materials.h"
+
 namespace scree {
 
 MassByBrick ground_masses(const TerrainSource& ground, ChunkCoord chunk) {
   const GeneratedChunk generated = generate_chunk(ground, chunk);
   MassByBrick masses{};
   for (size_t i = 0; i < masses.size(); ++i)
-    masses[i] = static_cast<int32_t>(brick_mass(*generated.bricks[i]));
+    masses[i] =
+        static_cast<int32_t>(ground_mass(ground, brick_in_chunk(chunk, static_cast<int>(i)), generated));
   return masses;
 }
 

@@ -68,7 +68,7 @@ Result<std::unique_ptr<Field>> stored_field(std::unique_ptr<WorldFile> file, con
   const auto shelf = std::make_shared<Shelf>(std::move(file), *field, bricks_max);
   field->page_by([shelf](ChunkCoord chunk) { return shelf->read(chunk); });
   const auto read = rows.each_chunk([&](const WorldChunk& chunk) -> Result<void> {
-    const auto left = paged_of(chunk.chunk, chunk.bricks);
+    const auto left = paged_of(source, chunk.chunk, chunk.bricks);
     if (!left) return fail(fmt::format("{}: damaged: {}", rows.path(), left.error().message));
     field->add_out(chunk.chunk, *left);
     return {};

@@ -86,7 +86,7 @@ class Restoring {
     return from.each([&](ChunkCoord chunk, std::span<const BrickPatch> bricks) -> Result<void> {
       if (bricks.empty() || s_.field.has_edits(chunk)) return fail("a chunk comes twice, or without bricks");
       if (s_.field.bricks_in() < from.bricks_max) return enter(bricks);
-      const auto left = TRY(paged_of(chunk, bricks));
+      const auto left = TRY(paged_of(s_.field.source(), chunk, bricks));
       for (const BrickPatch& patch : bricks)
         if (!in_world(patch.coord)) return fail("a brick lies outside the world");
       s_.field.add_out(chunk, left);

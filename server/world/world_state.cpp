@@ -175,10 +175,10 @@ MassUnits World::State::measure_terrain(const GroundMasses& ground) {
     if (paged) gain += paged->mass;
     if (paged && known != ground.end()) continue;
     for (const BrickCoord coord : field.edited_bricks(chunk)) {
-      if (!paged) gain += brick_mass(field.brick(coord));
+      if (!paged) gain += brick_mass(field.source(), coord, field.brick(coord), field.materials(coord));
       if (known != ground.end()) continue;
       const GeneratedChunk& generated = field.chunk_bricks(chunk).generated;
-      gain -= brick_mass(*generated.bricks[static_cast<size_t>(index_in_chunk(coord))]);
+      gain -= ground_mass(field.source(), coord, generated);
     }
   }
   return gain;

@@ -242,7 +242,8 @@ void Field::page_out(ChunkCoord chunk) {
   CHECK(!edited.out);
   const std::vector<BrickCoord> bricks = edited_bricks(chunk);
   edited.mass = 0;
-  for (const BrickCoord brick : bricks) edited.mass += brick_mass(*find_edited(brick));
+  for (const BrickCoord brick : bricks)
+    edited.mass += brick_mass(source_, brick, *find_edited(brick), materials(brick));
   for (const BrickCoord brick : bricks) erase_edited(brick);
   chunk_left(chunk);
   edited.materials.clear();
@@ -278,7 +279,7 @@ bool Field::is_out(ChunkCoord chunk) const {
 bool Field::page_in(ChunkCoord chunk, std::span<const BrickPatch> bricks) {
   const std::optional<PagedChunk> left = paged(chunk);
   CHECK(left.has_value());
-  const Result<PagedChunk> read = paged_of(chunk, bricks);
+  const Result<PagedChunk> read = paged_of(source_, chunk, bricks);
   if (!read || read->bricks != left->bricks || read->hash != left->hash) return false;
   enter(chunk, edited_.at(chunk), bricks);
   return true;

@@ -75,4 +75,31 @@ const BrickMaterials& GroundMaterialCache::of(const TerrainSource& source, Brick
   return bricks_.emplace(coord, last_).first->second;
 }
 
+MassUnits brick_mass(const TerrainSource& source, BrickCoord coord, const Brick& brick,
+                     const BrickMaterials& says, const GeneratedChunk* generated) {
+  const RubbleRows& rows = *source.rubble;
+  const bool stored = source.heights != nullptr && source.heights->bricks().has_value();
+  if (!rows.any || (says.is_ground() && !stored)) return brick_mass(brick);
+  VoxelMaterials voxels;
+  says.unpack(voxels);
+  if (stored && says.says_ground()) {
+    VoxelMaterials own;
+    const auto made = generated != nullptr ? GeneratedChunk() : generate_chunk(source, chunk_of(coord));
+    ground_materials_of(source, coord, generated != nullptr ? *generated : made).unpack(own);
+    for (size_t i = 0; i < voxels.size(); ++i)
+      if (voxels[i] == ground_own) voxels[i] = own[i];
+  }
+  MassUnits mass = 0;
+  for (size_t i = 0; i < voxels.size(); ++i) {
+    const int fill = voxels[i] == ground_own ? fill_solid : rows.fill[row_number(material_of(voxels[i]))];
+    mass += mass_in_voxel(occupancy(brick.codes[i]), fill);
+  }
+  return mass;
+}
+
+MassUnits ground_mass(const TerrainSource& source, BrickCoord coord, const GeneratedChunk& generated) {
+  const Brick& brick = *generated.bricks[static_cast<size_t>(index_in_chunk(coord))];
+  return brick_mass(source, coord, brick, BrickMaterials(), &generated);
+}
+
 }  // namespace scree

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "shared/field/brick_materials.h"
+#include "shared/field/mass.h"
 #include "shared/field/terrain.h"
 
 namespace scree {
@@ -14,6 +15,12 @@ namespace scree {
 /// The materials of a brick of that chunk of stored ground. Every voxel names a material.
 BrickMaterials ground_materials_of(const TerrainSource& source, BrickCoord coord,
                                    const GeneratedChunk& generated);
+
+/// Mass of a brick whose voxels say that, and of one that nobody edited. A ground's layers are without pores,
+/// but its stored bricks may be of rubble.
+MassUnits brick_mass(const TerrainSource& source, BrickCoord coord, const Brick& brick,
+                     const BrickMaterials& says, const GeneratedChunk* generated = nullptr);
+MassUnits ground_mass(const TerrainSource& source, BrickCoord coord, const GeneratedChunk& generated);
 
 /// Keeps what was computed, as far as there is room: beyond, it forgets all. Not thread-safe.
 class GroundMaterialCache {

@@ -1,10 +1,12 @@
 #include "shared/field/paging.h"
 
 #include "shared/field/field.h"
+#include "shared/field/ground_materials.h"
 
 namespace scree {
 
-Result<PagedChunk> paged_of(ChunkCoord chunk, std::span<const BrickPatch> bricks) {
+Result<PagedChunk> paged_of(const TerrainSource& source, ChunkCoord chunk,
+                            std::span<const BrickPatch> bricks) {
   if (bricks.empty()) return fail("a chunk comes without bricks");
   PagedChunk left;
   for (const BrickPatch& patch : bricks) {
@@ -13,7 +15,7 @@ Result<PagedChunk> paged_of(ChunkCoord chunk, std::span<const BrickPatch> bricks
     if ((left.bricks & bit) != 0) return fail("a brick comes twice");
     left.bricks |= bit;
     left.hash += brick_hash(patch.coord, patch.brick, patch.materials);
-    left.mass += brick_mass(patch.brick);
+    left.mass += brick_mass(source, patch.coord, patch.brick, patch.materials);
   }
   return left;
 }

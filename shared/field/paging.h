@@ -13,6 +13,7 @@
 #include "shared/base/result.h"
 #include "shared/field/brick_patch.h"
 #include "shared/field/mass.h"
+#include "shared/field/terrain.h"
 
 namespace scree {
 
@@ -27,7 +28,8 @@ struct PagedChunk {
 };
 
 /// What these bricks leave when they are the edited ones of a chunk; an error when they cannot be.
-Result<PagedChunk> paged_of(ChunkCoord chunk, std::span<const BrickPatch> bricks);
+Result<PagedChunk> paged_of(const TerrainSource& source, ChunkCoord chunk,
+                            std::span<const BrickPatch> bricks);
 
 /// A chunk that is out is needed at once, and cannot be read: no result without it would be right, so what
 /// needs it ends. The message names the file.

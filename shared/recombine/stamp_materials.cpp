@@ -206,15 +206,17 @@ class MergedRock {
 
 /// The fill that all that pieces bring has, if it is one.
 std::optional<uint8_t> one_fill(const RubbleRows& rows, std::span<const MergedPiece> pieces, Brings brings) {
-  std::optional<uint8_t> one;
-  for (const MergedPiece& piece : pieces)
-    for (const MaterialMass& part : masses_of(piece.volume)) {
-      const Material material =
-          brings == Brings::rubble ? rows.rubble[row_number(part.material)] : part.material;
-      const uint8_t fill = rows.fill[row_number(material)];
-      if (one && *one != fill) return std::nullopt;
-      one = fill;
-    }
+  const auto fill_of = [&](Material material) {
+    return rows.fill[row_number(brings == Brings::rubble ? rows.rubble[row_number(material)] : material)];
+  };
+  const MaterialWindow& first = pieces.front().volume.materials;
+  const uint8_t one = fill_of(first.is_uniform() ? first.all : first.each.front());
+  for (const MergedPiece& piece : pieces) {
+    const MaterialWindow& materials = piece.volume.materials;
+    const auto differs = [&](Material material) { return fill_of(material) != one; };
+    if (materials.is_uniform() ? differs(materials.all) : std::ranges::any_of(materials.each, differs))
+      return std::nullopt;
+  }
   return one;
 }
 

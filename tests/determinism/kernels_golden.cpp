@@ -300,7 +300,7 @@ void print_session(TerrainKind kind) {
                              static_cast<int32_t>(random.below(32)) - 8,
                              StampMethod::stamp,
                              {},
-                             false},
+                             Brings::nothing},
               field, pieces);
       digest.add(field.hash());
     }

@@ -15,9 +15,22 @@ void add(const Volume& volume, GoldenHash& digest) {
   }
 }
 
+/// Rubble of the first twelve rows, in the rows after them, with fills of several sizes.
+RubbleRows some_rubble() {
+  RubbleRows rows;
+  rows.any = true;
+  for (size_t i = 0; i < 12; ++i) {
+    rows.rubble[i] = static_cast<Material>(12 + i);
+    rows.stones[12 + i] = static_cast<Material>(i);
+    rows.fill[12 + i] = static_cast<uint8_t>(i % 3 == 0 ? 79 : 70 + i);
+  }
+  return rows;
+}
+
 /// A wall of two materials on soil: carved, broken, merged by each method, painted, with all that follows.
-void print_materials(TerrainKind kind) {
-  const TerrainSource source{kind, 3, 0.25F};
+void print_materials(TerrainKind kind, const Rubble& rubble, const std::string& name) {
+  TerrainSource source{kind, 3, 0.25F};
+  source.rubble = rubble;
   MapField field(source);
   PieceTable pieces;
   Random random(43);
@@ -53,14 +66,16 @@ void print_materials(TerrainKind kind) {
       digest.add(field.hash());
     }
   }
-  digest.print("materials_" + std::string(name_of(kind)));
+  digest.print(name + "_" + std::string(name_of(kind)));
 }
 
 }  // namespace
 
 void print_materials() {
   for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::noise, TerrainKind::canyon})
-    print_materials(kind);
+    print_materials(kind, Rubble(), "materials");
+  for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::canyon})
+    print_materials(kind, Rubble(some_rubble()), "rubble");
 }
 
 }  // namespace scree

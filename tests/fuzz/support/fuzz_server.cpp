@@ -64,7 +64,7 @@ void FuzzClient::apply(const ServerMessage& message) {
 }
 
 FuzzServer::FuzzServer(const TerrainSource& terrain)
-    : world_(world_config(terrain)), host_(net_config(terrain), commands_) {
+    : world_(world_config(terrain)), host_(net_config(world_.config().terrain), commands_) {
   CHECK(host_.listen().has_value());
 }
 
