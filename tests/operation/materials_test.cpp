@@ -18,7 +18,7 @@ namespace {
 constexpr Material concrete{6}, brick{7}, glass{9};
 
 /// A wall of brick, 1 m thick, with a lintel of concrete on it.
-void build_wall(Ground& ground) {
+void build_wall(LedgerGround& ground) {
   ground.act(FillOperation{box({0.0F, 1.5F, 0.0F}, {2.0F, 1.5F, 0.5F}), brick});
   ground.act(FillOperation{box({0.0F, 3.5F, 0.0F}, {2.0F, 0.5F, 0.5F}), concrete});
 }
@@ -55,7 +55,7 @@ TEST(materials, planes_of_any_number_of_values_are_what_they_were_made_of) {
 }
 
 TEST(materials, a_fill_is_of_its_material_and_untouched_ground_says_nothing) {
-  Ground ground;
+  LedgerGround ground;
   build_wall(ground);
   EXPECT_EQ(ground.at({0.0F, 1.0F, 0.0F}), brick);
   EXPECT_EQ(ground.at({0.0F, 2.9F, 0.0F}), brick);
@@ -65,7 +65,7 @@ TEST(materials, a_fill_is_of_its_material_and_untouched_ground_says_nothing) {
   EXPECT_TRUE(ground.field.materials({0, -1, 0}).is_ground());
   EXPECT_GT(ground.materials.rows()[row_number(brick)].poured, 11 * 64 * 254);
   // What is poured as the ground's own costs no plane.
-  Ground plain;
+  LedgerGround plain;
   plain.act(FillOperation{box({0.0F, 2.0F, 0.0F}, {2.0F, 2.0F, 2.0F}), material::rock});
   plain.act(FillOperation{box({9.0F, 2.0F, 0.0F}, {2.0F, 2.0F, 2.0F})});
   for (const ChunkCoord chunk : plain.field.edited_chunks())
@@ -74,7 +74,7 @@ TEST(materials, a_fill_is_of_its_material_and_untouched_ground_says_nothing) {
 }
 
 TEST(materials, paint_changes_the_rock_in_a_shape_voxel_by_voxel_and_no_mass) {
-  Ground ground;
+  LedgerGround ground;
   build_wall(ground);
   const MassUnits before = ground.ledger.terrain;
   ground.act(PaintOperation{sphere({0.0F, 1.5F, 0.0F}, 0.8F), glass});
@@ -90,7 +90,7 @@ TEST(materials, paint_changes_the_rock_in_a_shape_voxel_by_voxel_and_no_mass) {
 
 TEST(materials, a_carve_gives_pieces_what_lay_where_they_were_cut) {
   for (const Cutter cutter : all_kinds<Cutter>) {
-    Ground ground;
+    LedgerGround ground;
     build_wall(ground);
     ground.act(carve_ball({0.0F, 3.0F, 0.0F}, 1.2F, 6, 1, cutter));
     ASSERT_GE(ground.pieces.size(), 2U);
@@ -114,7 +114,7 @@ TEST(materials, a_carve_gives_pieces_what_lay_where_they_were_cut) {
 }
 
 TEST(materials, a_broken_piece_shares_its_materials_out_to_the_unit) {
-  Ground ground;
+  LedgerGround ground;
   build_wall(ground);
   ground.act(carve_ball({0.0F, 3.0F, 0.0F}, 1.4F, 1, 1));
   ASSERT_TRUE(ground.pieces.contains(1));
@@ -131,7 +131,7 @@ TEST(materials, a_broken_piece_shares_its_materials_out_to_the_unit) {
 
 TEST(materials, every_method_of_merging_brings_the_materials_of_the_piece) {
   for (const StampMethod method : all_kinds<StampMethod>) {
-    Ground ground;
+    LedgerGround ground;
     build_wall(ground);
     ground.act(carve_ball({0.0F, 3.0F, 0.0F}, 1.0F, 1, 1));
     const auto volume = ground.pieces.at(1);
@@ -147,7 +147,7 @@ TEST(materials, every_method_of_merging_brings_the_materials_of_the_piece) {
 }
 
 TEST(materials, an_island_takes_its_materials_along) {
-  Ground ground;
+  LedgerGround ground;
   ground.act(FillOperation{box({0.0F, 6.0F, 0.0F}, {1.0F, 0.5F, 0.5F}), brick});
   ground.act(FillOperation{box({0.0F, 6.9F, 0.0F}, {1.0F, 0.5F, 0.5F}), concrete});
   const MassUnits poured = ground.ledger.poured;
@@ -159,7 +159,7 @@ TEST(materials, an_island_takes_its_materials_along) {
 }
 
 TEST(materials, recordings_of_before_play_as_they_were) {
-  Ground ground;
+  LedgerGround ground;
   ground.act(PaintOperation{box({8.0F, 0.0F, 0.0F}, {4.0F, 4.0F, 4.0F}), material::ice, true});
   EXPECT_EQ(ground.field.materials({4, 0, 0}), all_of(material::ice)) << "air of painted bricks, too";
   ground.act(carve_ball({0.0F, -0.5F, 0.0F}, 1.5F, 1, 1));
@@ -172,7 +172,7 @@ TEST(materials, recordings_of_before_play_as_they_were) {
 }
 
 TEST(materials, little_is_converted_when_mixed_rubble_is_carved_and_merged_a_thousand_times) {
-  Ground ground;
+  LedgerGround ground;
   for (int i = 0; i < 6; ++i)
     ground.act(FillOperation{box({0.0F, 0.5F + static_cast<float>(i), 0.0F}, {3.0F, 0.5F, 3.0F}),
                              static_cast<Material>(6 + i)});

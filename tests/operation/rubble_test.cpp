@@ -15,17 +15,15 @@ namespace scree {
 namespace {
 
 TerrainSource rubble_terrain() {
-  TerrainSource source = rock_terrain;
-  source.rubble = Rubble(rubble_rows(builtin_palette()));
-  return source;
+  return terrain_of_worlds(rock_terrain);
 }
 
 Material rubble_of(Material stones) {
   return rubble_terrain().rubble->rubble[row_number(stones)];
 }
 
-struct RubbleGround : Ground {
-  RubbleGround() : Ground(rubble_terrain()) {}
+struct RubbleGround : LedgerGround {
+  RubbleGround() : LedgerGround(rubble_terrain()) {}
 
   /// Merges a piece by a method; returns the terrain's gain.
   MassUnits merge(PieceId id, const QuantisedPose& pose, StampMethod method) {

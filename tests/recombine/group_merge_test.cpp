@@ -140,7 +140,7 @@ Merges settle(bool group_merges) {
   config.methods.group_merges = group_merges;
   World world(config);
   WelcomeMessage welcome;
-  welcome.terrain = config.terrain;
+  welcome.terrain = world.config().terrain;
   Mirror mirror(welcome);
   std::vector<Command> commands{{1, 1, blow_at(config.terrain, 12.0F, 12.0F, 2.0F, 64, 3)}};
   Merges merges;

@@ -139,7 +139,8 @@ TEST(SceneTableTest, the_street_is_of_all_materials_of_the_built_in_palette) {
       for (size_t i = 0; i < rock.size(); ++i)
         if (codes.codes[i] < 0) found.insert(rock[i]);
     }
-  EXPECT_EQ(found.size(), builtin_palette().rows.size());
+  for (size_t row = 0; row < builtin_palette().rows.size(); ++row)
+    EXPECT_EQ(found.contains(static_cast<Material>(row)), !builtin_palette().rows[row].rubble) << row;
 }
 
 TEST(SceneTableTest, nine_scenes_have_names_of_their_own) {

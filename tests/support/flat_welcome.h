@@ -8,7 +8,7 @@ namespace scree {
 
 inline WelcomeMessage flat_welcome(float voxel_size_m = voxel_m) {
   WelcomeMessage message;
-  message.terrain = flat_terrain;
+  message.terrain = terrain_of_worlds(flat_terrain);
   message.terrain.voxel_size_m = voxel_size_m;
   message.interest_radius_m = 64.0F;
   return message;

@@ -10,8 +10,8 @@
 
 namespace scree {
 
-struct Ground {
-  explicit Ground(const TerrainSource& source = flat_terrain) : field(source) {}
+struct LedgerGround {
+  explicit LedgerGround(const TerrainSource& source = flat_terrain) : field(source) {}
 
   Applied act(const Operation& operation) {
     MassUnits ended = 0;

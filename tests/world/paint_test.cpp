@@ -183,7 +183,7 @@ class Client {
  public:
   Client(Publisher& publisher, uint64_t session, glm::vec3 eye_m, float radius_m) : session_(session) {
     WelcomeMessage welcome;
-    welcome.terrain = flat_terrain;
+    welcome.terrain = terrain_of_worlds(flat_terrain);
     welcome.tick = publisher.state().tick();
     mirror = std::make_unique<Mirror>(welcome);
     publisher.join(session, eye_m, radius_m, operation_kinds);
