@@ -114,16 +114,18 @@ TEST_F(RejoinTest, a_lost_connection_goes_on_as_the_same_session_with_what_the_m
 
 TEST_F(RejoinTest, another_world_at_the_same_address_is_not_mistaken_for_it) {
   // Another program of this machine may get the port in between; then all begins at a new one.
-  for (int attempt = 0, again = 0; again == 0; ++attempt) {
-    ASSERT_LT(attempt, 5);
+  bool at_same_port = false;
+  for (int attempt = 0; attempt < 5 && !at_same_port; ++attempt) {
     visit(config(8));
     LiveConfig same = live_config();
     same.net.port = server_->port();
     server_.reset();
     auto restarted = LiveServer::start(same);
-    again = restarted ? 1 : 0;
+    at_same_port = restarted.has_value();
     server_ = restarted ? std::move(*restarted) : start();
+    ASSERT_TRUE(server_);
   }
+  ASSERT_TRUE(at_same_port);
   BotConfig elsewhere = config(4);
   elsewhere.random_seed = 3;
   EXPECT_EQ(visit(elsewhere).seen.chunks_kept, 0U);

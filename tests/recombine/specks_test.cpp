@@ -49,7 +49,7 @@ std::vector<Island> specks_by_brute_force(const Field& field, const VoxelBox& bo
           b.lo = {std::min(b.lo.x, v.x), std::min(b.lo.y, v.y), std::min(b.lo.z, v.z)};
           b.hi = {std::max(b.hi.x, v.x + 1), std::max(b.hi.y, v.y + 1), std::max(b.hi.z, v.z + 1)};
         }
-        if (!inside || std::ranges::max({island.box.size().x, island.box.size().y, island.box.size().z}) > 16)
+        if (!inside || std::max({island.box.size().x, island.box.size().y, island.box.size().z}) > 16)
           continue;
         Window around = gather(field, lift_box(island.box));
         if (lift(around, island.box, island.start).mass < limits::piece_mass_min) specks.push_back(island);
