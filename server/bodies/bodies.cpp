@@ -257,15 +257,6 @@ float Bodies::reach_m(PieceId id) const {
   return found->second.reach_m;
 }
 
-float Bodies::moved_m_s(PieceId id) const {
-  const auto found = state_->bodies.find(id);
-  CHECK(found != state_->bodies.end());
-  const btRigidBody& rigid = *found->second.rigid;
-  if (!rigid.isActive()) return 0.0F;
-  const btVector3 moved = rigid.getWorldTransform().getOrigin() - found->second.last.getOrigin();
-  return moved.length() / state_->step_size.step_s;
-}
-
 int Bodies::steps_a_tick() const {
   return state_->steps_a_tick;
 }

@@ -126,8 +126,7 @@ class Bodies {
   /// Radius of the sphere about the centre of mass that holds the body's hull; metres. The body must be
   /// present.
   float reach_m(PieceId id) const;
-  /// Speed at which the last step moved the body, out of overlaps, too; m/s. The body must be present.
-  float moved_m_s(PieceId id) const;
+
   /// Steps of the simulation in one tick: one up to limits::step_max_s, more in longer ticks.
   int steps_a_tick() const;
   /// Number of bodies that are awake.

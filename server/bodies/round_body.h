@@ -1,4 +1,4 @@
-// Bodies that are round by all their points, which roll as balls do: a hull of a few corners would rock from
+// Bodies that are round by all their points, which roll as balls do. A hull of a few corners would rock from
 // face to face, and not begin to roll on a slope that is flatter than half of a face's angle. Private to this
 // folder.
 #pragma once

@@ -1,5 +1,5 @@
 // How far a body moves within a step. A body that would strike something in the course of a step is moved to
-// where it touches, with its speed, and the rest of the step is lost to it: so the next step's contact takes
+// where it touches, with its speed, and the rest of the step is lost to it. So the next step's contact takes
 // the whole blow at once, whatever the length of steps. What is fast is looked at all along its way, for it
 // could pass what its contacts know nothing of. Private to this folder.
 #pragma once

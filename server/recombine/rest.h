@@ -1,13 +1,13 @@
 // Detects the pieces that have come to rest and may become terrain again.
 //
 // Each piece is judged by itself, not per Bullet island, where one restless piece keeps a whole heap awake. A
-// piece is at rest when, for long enough, no point of it has moved farther than a leash from its anchor, its
-// energy is small for its mass, and it gathers no speed: on its way from the anchor it is not faster than it
-// was on average. So jitter about a place and what contacts push out of an overlap are rest. What sets out,
-// however slowly, is not: it is twice as fast as on average. The leash grows with the piece's age, and later
-// the speed, so that every pile comes to rest. A piece at rest may merge when it lies on terrain, or on a
-// piece that merges before it in the same tick: from the ground up. Deterministic. Not thread-safe. Metres
-// and ticks.
+// piece is at rest when, for long enough, no point of it has moved farther than a leash from its anchor.
+// Also, its energy is small for its mass, and it gathers no speed: it is not faster on its way from the
+// anchor than it was on average. So jitter about a place and what contacts push out of an overlap are rest.
+// What sets out, however slowly, is not: it is twice as fast as on average. The leash grows with the piece's
+// age, and later the speed, so that every pile comes to rest. A piece at rest may merge when it lies on
+// terrain, or on a piece that merges before it in the same tick: from the ground up. Deterministic. Not
+// thread-safe. Metres and ticks.
 #pragma once
 
 #include <cstddef>
@@ -26,8 +26,8 @@ struct RestConfig {
   float rest_s =
       1.0F / 3.0F;  ///< at the top of its flight a piece falls 0.14 m in half of it, and leaves the leash
   float leash_m = 0.06F;           ///< a quarter of a default voxel: less than a merge rounds
-  float calm_m_s = 0.2F;           ///< greatest speed of a piece at rest, as of RestPiece
-  float gathers_m_s = 0.03F;       ///< whoever is slower gathers no speed: contacts have so much noise
+  float calm_m_s = 0.2F;           ///< greatest RestPiece::speed_m_s of a piece at rest
+  float gathers_m_s = 0.03F;       ///< a slower piece gathers no speed: contacts have so much noise
   float gathers_share = 1.3F;      ///< speed over that on average from which on a piece gathers speed
   float stuck_s = 4.0F;            ///< age from which on a piece is stuck: it shakes without an end
   float stuck_growth_m_s2 = 0.1F;  ///< growth of the speed at which such a piece is at rest
@@ -38,7 +38,7 @@ struct RestConfig {
 };
 
 /// A piece after the bodies' step. `reach_m`: radius about its centre of mass. `speed_m_s`: of its energy,
-/// the root of twice that over the mass, or of the way that it was moved, whatever is more.
+/// the root of twice that over the mass.
 struct RestPiece {
   PieceId id = 0;
   Pose pose;

@@ -83,7 +83,7 @@ void settle(World::State& state, TickDelta& delta) {
   for (const BodyState& body : state.bodies.states())
     if (const float reach_m = state.bodies.reach_m(body.id); !body.frozen)
       alive.push_back({body.id, body.pose, reach_m,
-                       std::max(energy_speed_m_s(body, reach_m), state.bodies.moved_m_s(body.id)),
+                       energy_speed_m_s(body, reach_m),
                        body.velocity_m_s});
   const BodyContacts contacts = state.bodies.contacts();
   std::vector<RestSupport> supports;
