@@ -30,7 +30,7 @@ const CollisionHulls& hulls_of(const btCollisionObjectWrapper& body) {
   return *static_cast<const CollisionHulls*>(body.getCollisionObject()->getUserPointer());
 }
 
-/// Of a body that does not move: none.
+/// None for a body that does not move.
 glm::vec3 way_in_step_m(const btCollisionObjectWrapper& object, float step_s) {
   const btRigidBody* const body = btRigidBody::upcast(object.getCollisionObject());
   return body == nullptr ? glm::vec3(0.0F) : from_bullet(body->getLinearVelocity() * step_s);

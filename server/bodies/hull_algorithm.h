@@ -77,7 +77,7 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   void find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s);
   /// Pairs of parts that overlapped when find() looked: each takes as long as several that only touch.
   uint32_t overlaps() const { return overlaps_; }
-  /// Of what find() found.
+  /// The one that find() found.
   const std::optional<FastTouch>& fast_touch() const { return fast_touch_; }
   /// Whether update_manifold() has anything to do.
   bool manifold_outdated() const {

@@ -36,7 +36,7 @@ void aim_friction(const btRigidBody* a, const btRigidBody* b, const btVector3& f
       speed_at(a, point.getPositionWorldOnA()) - speed_at(b, point.getPositionWorldOnB()), normal);
   if (a == nullptr) sliding -= falling;
   if (b == nullptr) sliding += falling;
-  // Of two that fall alike, friction alone holds the upper one back.
+  // Where two fall alike, friction alone holds the upper one back.
   if (a != nullptr && b != nullptr && sliding.length2() < 0.25F * falling.length2()) sliding = falling;
   const float length2 = sliding.length2();
   if (length2 > 1e-12F)

@@ -17,7 +17,7 @@ struct RollingLengths {
   float turning_m = 0.0F;
 };
 
-/// Of a pair of bodies that touch.
+/// Resists between two bodies that touch.
 class RollingRow {
  public:
   /// `first` of the contacts of the two, and `count`, at least one; of a solver's pool. The bodies must
