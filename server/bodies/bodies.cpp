@@ -92,7 +92,7 @@ void Bodies::add(BodyShape given, const BodyState& state) {
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
   body.last = body.rigid->getWorldTransform();
   s.enter(body);
-  limit_speeds(body, s.step_size);
+  limit_speeds(body);
 }
 
 void Bodies::remove(PieceId id) {
@@ -123,8 +123,8 @@ void Bodies::step() {
     if (step > 0) s.blows.add(list_impacts(s.dispatcher, s.terrain.object(), limits::struck_speed_min_m_s));
     s.step();
   }
-  CHECK_DEBUG(std::ranges::all_of(
-      s.bodies, [&](const auto& one) { return is_sound_body(one.first, one.second, s.step_size); }));
+  CHECK_DEBUG(
+      std::ranges::all_of(s.bodies, [&](const auto& one) { return is_sound_body(one.first, one.second); }));
   CHECK_DEBUG(std::ranges::count_if(s.bodies, [](const auto& one) {
                 return one.second.frozen.has_value();
               }) == static_cast<std::ptrdiff_t>(s.frozen));
@@ -158,6 +158,11 @@ void Bodies::set_palette(std::shared_ptr<const Palette> palette) {
   state_->config.palette = std::move(palette);
 }
 
+void Bodies::set_air_drag(float share_a_second) {
+  CHECK(share_a_second >= 0.0F && share_a_second <= 1.0F);
+  state_->config.air_drag = share_a_second;
+}
+
 void Bodies::set_terrain_collider(TerrainColliderKind kind) {
   State& s = *state_;
   if (kind == s.config.terrain_collider) return;
@@ -175,11 +180,16 @@ std::vector<PieceId> Bodies::near(glm::vec3 lo_m, glm::vec3 hi_m) const {
       return true;
     }
   };
+  const auto grown = [&](float by_m) {
+    const btVector3 by(by_m, by_m, by_m);
+    return Bounds{to_bullet(lo_m) - by, to_bullet(hi_m) + by};
+  };
   // The tree holds the bounds from before the last step.
-  const float slack_m = limits::travel_max_voxels * state_->step_size.voxel_size_m;
-  const btVector3 slack(slack_m, slack_m, slack_m);
+  const Bounds may_be = grown(limits::speed_max_m_s * state_->step_size.step_s);
+  const Bounds is = grown(limits::travel_max_voxels * state_->step_size.voxel_size_m);
   Collector collector;
-  state_->broadphase.aabbTest(to_bullet(lo_m) - slack, to_bullet(hi_m) + slack, collector);
+  state_->broadphase.aabbTest(may_be.lo, may_be.hi, collector);
+  std::erase_if(collector.ids, [&](PieceId id) { return !meet(is, bounds_of(state_->bodies.at(id))); });
   std::ranges::sort(collector.ids);
   return std::move(collector.ids);
 }

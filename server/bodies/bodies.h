@@ -63,7 +63,8 @@ struct BodiesConfig {
   std::shared_ptr<const Palette> palette =
       shared_builtin_palette();  ///< what the terrain rubs and bounces by
   TerrainColliderKind terrain_collider = TerrainColliderKind::field;
-  size_t threads = 1;  ///< that step() takes, its own included; 0: as many as the machine has cores
+  float air_drag = 0.0F;  ///< share of its speed and spin that a body loses in a second, 0 to 1
+  size_t threads = 1;     ///< that step() takes, its own included; 0: as many as the machine has cores
 };
 
 class Bodies {
@@ -75,8 +76,8 @@ class Bodies {
   Bodies& operator=(const Bodies&) = delete;
 
   /// The shape as `BodyShape` (server/formats/world_value.h) says. `state.id` must be new, the position
-  /// finite, the rotation a unit quaternion. Speeds beyond limits::travel_max_voxels a step are reduced to
-  /// it; a body whose speed is not finite is stopped by the next step.
+  /// finite, the rotation a unit quaternion. Speeds beyond limits::speed_max_m_s are reduced to it; a body
+  /// whose speed is not finite is stopped by the next step.
   void add(BodyShape given, const BodyState& state);
   /// Removes a body, which must be present. In the next step the bodies that touch its bounds wake.
   void remove(PieceId id);
@@ -101,6 +102,8 @@ class Bodies {
 
   /// Changes what the terrain rubs and bounces by, from the next step on. Not null.
   void set_palette(std::shared_ptr<const Palette> palette);
+  /// Changes what the air takes, from the next step on.
+  void set_air_drag(float share_a_second);
   /// Changes the way in which bodies find the terrain, from the next step on. Poses and speeds stay; all
   /// bodies wake.
   void set_terrain_collider(TerrainColliderKind kind);
@@ -123,6 +126,7 @@ class Bodies {
   /// Radius of the sphere about the centre of mass that holds the body's hull; metres. The body must be
   /// present.
   float reach_m(PieceId id) const;
+
   /// Steps of the simulation in one tick: one up to limits::step_max_s, more in longer ticks.
   int steps_a_tick() const;
   /// Number of bodies that are awake.

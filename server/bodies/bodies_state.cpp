@@ -7,6 +7,7 @@
 
 #include "server/bodies/limits.h"
 #include "server/bodies/motion_checks.h"
+#include "server/bodies/sweep.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
@@ -75,7 +76,9 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
   info.m_numIterations = limits::solver_iterations;
   info.m_erp2 = limits::undone_a_step;
   info.m_linearSlop = limits::penetration_slop_m;
+  info.m_warmstartingFactor = 1.0F;
   info.m_splitImpulsePenetrationThreshold = 0.0F;
+  info.m_solverMode |= SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;  // PieceSolver sets the directions
 }
 
 Body& Bodies::State::make(PieceId id, std::shared_ptr<const BodyShape> given,
@@ -94,7 +97,7 @@ Result<void> Bodies::State::restore(const BodyMotion& motion, std::shared_ptr<co
   body.rigid->setCenterOfMassTransform(transform_of(motion));
   body.rigid->setLinearVelocity(to_bullet(motion.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(motion.spin_rad_s));
-  if (body.rigid->getLinearVelocity().length() > speed_rounding * speed_max_m_s(step_size) ||
+  if (body.rigid->getLinearVelocity().length() > speed_rounding * limits::speed_max_m_s ||
       body.rigid->getAngularVelocity().length() > speed_rounding * body.spin_max_rad_s ||
       !is_sound(pose_of(body))) {
     bodies.erase(motion.id);
@@ -140,10 +143,12 @@ void Bodies::State::step() {
   run(touching);
   terrain.roughen(loose, *config.palette);
   dynamics.solve();
+  for (Body* body : loose)
+    if (body->rigid->isActive() && is_fast(*body, step_size)) sweep(*body, step_size);
   for_all(moving, [this](std::span<Body*> some) {
     for (Body* body : some) {
-      dynamics.move(*body->rigid);
-      if (body->rigid->isActive()) settle(*body, step_size);
+      dynamics.move(*body->rigid, body->hulls->step_share());
+      if (body->rigid->isActive()) settle(*body, step_size, config.air_drag);
     }
   });
   run(moving);
@@ -234,7 +239,7 @@ void Bodies::State::thaw_struck() {
     Body& body = bodies.at(id);
     wake(body);
     body.rigid->applyImpulse(blow.impulse, blow.at - body.rigid->getWorldTransform().getOrigin());
-    limit_speeds(body, step_size);
+    limit_speeds(body);
   }
 }
 

@@ -13,6 +13,7 @@
 
 #include "server/bodies/bodies.h"
 #include "server/bodies/hull_algorithm.h"
+#include "server/bodies/round_body.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/terrain_collider.h"
 
@@ -33,6 +34,7 @@ struct Body {
   std::unique_ptr<CollisionHulls> hulls;                  ///< of the colliding shapes; `rigid`'s user pointer
   std::unique_ptr<btRigidBody> rigid;
   std::vector<glm::vec3> points_m;  ///< points that collide with the terrain
+  Roundness round;
   bool touches_by_surface = false;  ///< the points are those of its own surface, not of the hull
   std::unique_ptr<TerrainProbe> probe;
   /// Contacts with the terrain; owned by the dispatcher; body 0 is `rigid`. Null while frozen.

@@ -80,6 +80,10 @@ Body make_body(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<g
     body.points_m = shape.surface_m.empty()
                         ? surface_points(shape.hull_m, limits::sample_spacing_voxels * step.voxel_size_m)
                         : shape.surface_m;
+  body.round = roundness_of(body.points_m);
+  const bool is_round = body.round.radius_m > 0.0F;
+  body.hulls->rolling = {(is_round ? limits::rolling_share_round : limits::rolling_share) * body.reach_m,
+                         limits::turning_share * body.reach_m};
   return body;
 }
 

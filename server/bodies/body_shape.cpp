@@ -28,24 +28,6 @@ constexpr CubeLines cube_lines[] = {
     {{1, 1, 1, 1}, {-1, 0, 0, 0}, {-1, 0, 0, 0}, {of_corners, 1, 1, 1}},
 };
 
-/// Distance of the hull's nearest face from a point inside, estimated from above: the least support over 26
-/// directions, both ways along each line.
-float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m) {
-  float thickness = 1e30F;
-  for (const CubeLines& lines : cube_lines) {
-    Floats least = all(1e30F), most = all(-1e30F);
-    for (const glm::vec3& p : hull_m) {
-      const glm::vec3 off = p - middle_m;
-      const Floats r = all(off.x) * lines.x + all(off.y) * lines.y + all(off.z) * lines.z;
-      least = r < least ? r : least;
-      most = r > most ? r : most;
-    }
-    const Floats one_way = most / lines.length, other_way = -least / lines.length;
-    for (int i = 0; i < 4; ++i) thickness = std::min({thickness, one_way[i], other_way[i]});
-  }
-  return thickness;
-}
-
 /// Appends points of a triangle on a lattice of at most `spacing_m`, without its corners.
 void fill_triangle(glm::vec3 a, glm::vec3 b, glm::vec3 c, float spacing_m, std::vector<glm::vec3>& out) {
   const float longest =
@@ -109,6 +91,23 @@ bool near_any(const std::vector<glm::vec3>& points, glm::vec3 p, float distance)
 }
 
 }  // namespace
+
+// The least support over 26 directions, both ways along each line.
+float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m) {
+  float thickness = 1e30F;
+  for (const CubeLines& lines : cube_lines) {
+    Floats least = all(1e30F), most = all(-1e30F);
+    for (const glm::vec3& p : hull_m) {
+      const glm::vec3 off = p - middle_m;
+      const Floats r = all(off.x) * lines.x + all(off.y) * lines.y + all(off.z) * lines.z;
+      least = r < least ? r : least;
+      most = r > most ? r : most;
+    }
+    const Floats one_way = most / lines.length, other_way = -least / lines.length;
+    for (int i = 0; i < 4; ++i) thickness = std::min({thickness, one_way[i], other_way[i]});
+  }
+  return thickness;
+}
 
 std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
                                                      glm::vec3 middle_m) {

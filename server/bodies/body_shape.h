@@ -15,6 +15,9 @@ namespace scree {
 std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
                                                      glm::vec3 middle_m = glm::vec3(0.0F));
 
+/// Distance of the hull's nearest face from a point inside, estimated from above.
+float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m);
+
 /// The shrunken hull's corners.
 std::vector<glm::vec3> corners_of(const btConvexHullShape& shape);
 

@@ -18,7 +18,8 @@ bool is_finite(const btVector3& v) {
 void limit_undoing(Body& body, const StepSize& step) {
   btRigidBody& rigid = *body.rigid;
   btTransform now = rigid.getWorldTransform();
-  const btVector3 expected = body.last.getOrigin() + rigid.getLinearVelocity() * step.step_s;
+  const btVector3 expected =
+      body.last.getOrigin() + rigid.getLinearVelocity() * (step.step_s * body.hulls->step_share());
   const btVector3 undone = now.getOrigin() - expected;
   const float most_m = limits::undo_buried_m_s * step.step_s;
   if (!(undone.length2() > most_m * most_m)) return;
@@ -28,22 +29,18 @@ void limit_undoing(Body& body, const StepSize& step) {
 
 }  // namespace
 
-float speed_max_m_s(const StepSize& step) {
-  return 0.8F * limits::travel_max_voxels * step.voxel_size_m / step.step_s;
-}
-
-void limit_speeds(Body& body, const StepSize& step) {
+void limit_speeds(Body& body) {
   btRigidBody& rigid = *body.rigid;
-  const float speed_max = speed_max_m_s(step);
   const float speed = rigid.getLinearVelocity().length();
-  if (speed > speed_max) rigid.setLinearVelocity(rigid.getLinearVelocity() * (speed_max / speed));
+  if (speed > limits::speed_max_m_s)
+    rigid.setLinearVelocity(rigid.getLinearVelocity() * (limits::speed_max_m_s / speed));
   const float turning = rigid.getAngularVelocity().length();
   if (turning > body.spin_max_rad_s)
     rigid.setAngularVelocity(rigid.getAngularVelocity() * (body.spin_max_rad_s / turning));
 }
 
 // Bullet's own damping would call the math library.
-void settle(Body& body, const StepSize& step) {
+void settle(Body& body, const StepSize& step, float air_drag) {
   btRigidBody& rigid = *body.rigid;
   btVector3 velocity = rigid.getLinearVelocity();
   btVector3 spin = rigid.getAngularVelocity();
@@ -52,25 +49,23 @@ void settle(Body& body, const StepSize& step) {
     velocity = spin = btVector3(0.0F, 0.0F, 0.0F);
   }
   limit_undoing(body, step);
-  const bool creeping = body.ground->getNumContacts() > 0 && velocity.length() < limits::creep_m_s;
-  velocity *= 1.0F - step.step_s * (creeping ? limits::ground_damping : limits::air_damping);
-  spin *= 1.0F - step.step_s * (creeping ? limits::ground_spin_damping : limits::air_spin_damping);
+  velocity *= 1.0F - step.step_s * air_drag;
+  spin *= 1.0F - step.step_s * air_drag;
   rigid.setLinearVelocity(velocity);
   rigid.setAngularVelocity(spin);
-  limit_speeds(body, step);
+  limit_speeds(body);
 }
 
-bool is_sound_body(PieceId id, const Body& body, const StepSize& step) {
+bool is_sound_body(PieceId id, const Body& body) {
   const btRigidBody& rigid = *body.rigid;
   const Pose pose = pose_of(body);
   if (id_of(&rigid) != id || !is_sound(pose)) return false;
   if (body.frozen)  // it is not integrated
     return body.ground == nullptr && rigid.isStaticObject() &&
            pose.position_m == body.frozen->pose.position_m && pose.rotation == body.frozen->pose.rotation;
-  const float travel_m =
-      (rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m) * step.step_s;
   return body.ground != nullptr && !rigid.isStaticObject() &&
-         travel_m <= speed_rounding * limits::travel_max_voxels * step.voxel_size_m;
+         rigid.getLinearVelocity().length() <= speed_rounding * limits::speed_max_m_s &&
+         rigid.getAngularVelocity().length() <= speed_rounding * body.spin_max_rad_s;
 }
 
 }  // namespace scree

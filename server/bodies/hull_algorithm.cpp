@@ -7,6 +7,7 @@
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btVoronoiSimplexSolver.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
@@ -29,6 +30,12 @@ const CollisionHulls& hulls_of(const btCollisionObjectWrapper& body) {
   return *static_cast<const CollisionHulls*>(body.getCollisionObject()->getUserPointer());
 }
 
+/// None for a body that does not move.
+glm::vec3 way_in_step_m(const btCollisionObjectWrapper& object, float step_s) {
+  const btRigidBody* const body = btRigidBody::upcast(object.getCollisionObject());
+  return body == nullptr ? glm::vec3(0.0F) : from_bullet(body->getLinearVelocity() * step_s);
+}
+
 // Bullet's globals that this reads are constants and callbacks that nobody sets: threads may be here at once.
 void find_depth(const btConvexHullShape& a, const btTransform& at_a, const btConvexHullShape& b,
                 const btTransform& at_b, btDiscreteCollisionDetectorInterface::Result& result) {
@@ -49,11 +56,16 @@ struct HullAlgorithm::Meeting {
   const btCollisionObjectWrapper& object_b;
   const CollisionHulls::Part& a;
   const CollisionHulls::Part& b;
-  glm::vec3 a_from_b;  ///< centre of body a relative to that of body b
+  glm::vec3 a_from_b;   ///< centre of body a relative to that of body b
+  glm::vec3 of_a_m;     ///< way of body a in the step
+  glm::vec3 of_b_m;     ///< and of body b
+  float closing_m = 0;  ///< how far a moves to b, at most
 
+  /// Whether the middle of one could come to the other's far side in the step.
+  bool is_fast() const { return closing_m > limits::unswept_share * std::min(a.thickness_m, b.thickness_m); }
   bool is_far() const {
     const glm::vec3 off = a_from_b + a.turned_m - b.turned_m;
-    const float reach = a.reach_m + b.reach_m + limits::contact_slack_m;
+    const float reach = a.reach_m + b.reach_m + (is_fast() ? closing_m : 0.0F) + limits::contact_slack_m;
     return off.x * off.x + off.y * off.y + off.z * off.z > reach * reach;
   }
 };
@@ -65,6 +77,8 @@ struct HullAlgorithm::ContactSink final : btDiscreteCollisionDetectorInterface::
   void setShapeIdentifiersB(int /*part*/, int /*index*/) override {}
   void addContactPoint(const btVector3& normal_on_b, const btVector3& on_b, btScalar distance) override {
     const float shallower_m = std::max(distance, -told_m);
+    touched = true;
+    normal = normal_on_b;
     if (result != nullptr)
       result->addContactPoint(normal_on_b, on_b, shallower_m);
     else
@@ -74,6 +88,8 @@ struct HullAlgorithm::ContactSink final : btDiscreteCollisionDetectorInterface::
   btManifoldResult* result;  ///< null: there is no manifold yet
   std::vector<Contact>& first;
   float told_m;
+  bool touched = false;  ///< since it was last set to false
+  btVector3 normal{0.0F, 0.0F, 0.0F};
 };
 
 void CollisionHulls::add(const btConvexHullShape& shape) {
@@ -83,7 +99,8 @@ void CollisionHulls::add(const btConvexHullShape& shape) {
   const glm::vec3 middle = 0.5F * (lo + hi);
   float reach2 = 0.0F;
   for (const glm::vec3& p : corners) reach2 = std::max(reach2, glm::dot(p - middle, p - middle));
-  parts_.push_back({&shape, HullCorners(corners), middle, middle, std::sqrt(reach2) + shape.getMargin()});
+  parts_.push_back({&shape, HullCorners(corners), middle, middle, std::sqrt(reach2) + shape.getMargin(),
+                    thickness_of(corners, middle) + shape.getMargin()});
 }
 
 void CollisionHulls::turn(const glm::mat3& rotation) {
@@ -91,6 +108,17 @@ void CollisionHulls::turn(const glm::mat3& rotation) {
     part.corners.turn(rotation);
     part.turned_m = rotation * part.middle_m;
   }
+}
+
+void FastTouch::hold(float step_s) const {
+  const auto speed = [](const btCollisionObject* object) {
+    const btRigidBody* const body = btRigidBody::upcast(object);
+    return body == nullptr ? btVector3(0.0F, 0.0F, 0.0F) : body->getLinearVelocity();
+  };
+  const float closing_m = (speed(b) - speed(a)).dot(normal_on_b) * step_s;
+  if (closing_m <= unseen_m) return;
+  for (const btCollisionObject* object : {a, b})
+    static_cast<const CollisionHulls*>(object->getUserPointer())->stop_at(unseen_m / closing_m);
 }
 
 HullAlgorithm::~HullAlgorithm() {
@@ -112,21 +140,26 @@ void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObj
   if (of_others_.size() + 1 != pairs) of_others_.resize(pairs - 1);
   first_.clear();
   overlaps_ = 0;
+  fast_touch_.reset();
   btManifoldResult result(&a, &b);
   result.setPersistentManifold(manifold_);
   ContactSink taker(manifold_ == nullptr ? nullptr : &result, first_,
                     told_overlap_m(limits::undo_pieces_m_s, step_s));
+  const glm::vec3 of_a_m = way_in_step_m(a, step_s), of_b_m = way_in_step_m(b, step_s);
+  const float closing_m = glm::distance(of_a_m, of_b_m);
   size_t pair = 0;
   for (const CollisionHulls::Part& part_a : parts_a)
     for (const CollisionHulls::Part& part_b : parts_b) {
       NearestCorners& nearest = pair == 0 ? nearest_ : of_others_[pair - 1];
       ++pair;
-      const Meeting meeting{a, b, part_a, part_b, a_from_b};
+      const Meeting meeting{a, b, part_a, part_b, a_from_b, of_a_m, of_b_m, closing_m};
       // A pair that meets again starts without memory: whether the broadphase kept the pair must not matter.
       if (meeting.is_far())
         nearest.count = 0;
       else if (meet(meeting, nearest, taker))
         ++overlaps_;
+      if (meeting.is_fast() && taker.touched) note_touch(meeting, taker.normal);
+      taker.touched = false;
     }
   if (manifold_ != nullptr) result.refreshContactPoints();
 }
@@ -146,6 +179,7 @@ void HullAlgorithm::update_manifold(const btCollisionObjectWrapper& a, const btC
 }
 
 bool HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, ContactSink& to) {
+  if (meeting.is_fast() && stop_at_blow(meeting, nearest)) return false;
   const CollisionHulls::Part &a = meeting.a, &b = meeting.b;
   const float margin_b = b.shape->getMargin();
   const float margins = a.shape->getMargin() + margin_b;
@@ -163,7 +197,45 @@ bool HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, Contac
   return false;
 }
 
-/// Never earlier than the tick's end: speeds are limited, so that continuous collision is not needed.
+void HullAlgorithm::note_touch(const Meeting& meeting, const btVector3& normal) {
+  const float unseen_m = limits::touching_share * std::min(meeting.a.thickness_m, meeting.b.thickness_m);
+  if (fast_touch_ && fast_touch_->unseen_m < unseen_m) return;
+  fast_touch_ = {meeting.object_a.getCollisionObject(), meeting.object_b.getCollisionObject(), normal,
+                 unseen_m};
+}
+
+// Conservative advancement: two that do not turn cannot meet before the planes across their distance do. They
+// turn little in a step (limits::spin_max_rad_s).
+bool HullAlgorithm::stop_at_blow(const Meeting& meeting, NearestCorners nearest) {
+  constexpr int steps_max = 8;
+  const float margins = meeting.a.shape->getMargin() + meeting.b.shape->getMargin();
+  const glm::vec3 way_m = meeting.of_a_m - meeting.of_b_m;
+  float share = 0.0F;
+  glm::vec3 normal(0.0F);
+  for (int i = 0; i < steps_max; ++i) {
+    const HullDistance found =
+        distance_between(meeting.a.corners, meeting.b.corners, meeting.a_from_b + way_m * share,
+                         margins + meeting.closing_m + limits::contact_slack_m, nearest);
+    if (found.kind == HullDistance::Kind::apart) return false;
+    if (found.kind == HullDistance::Kind::overlapping) {
+      if (share == 0.0F) return false;
+      break;
+    }
+    normal = found.normal;
+    const float gap_m = found.distance_m - margins, closing_m = -glm::dot(way_m, normal);
+    if (share == 0.0F && gap_m <= limits::contact_slack_m) return false;  // they touch
+    if (gap_m > closing_m * (1.0F - share)) return false;
+    if (gap_m < 0.25F * limits::contact_slack_m) break;
+    share += gap_m / closing_m;
+  }
+  const float of_a_m = -glm::dot(meeting.of_a_m, normal), of_b_m = glm::dot(meeting.of_b_m, normal);
+  const float least_m = 0.25F * (of_a_m + of_b_m);
+  if (of_a_m > least_m) hulls_of(meeting.object_a).stop_at(share);
+  if (of_b_m > least_m) hulls_of(meeting.object_b).stop_at(share);
+  return true;
+}
+
+/// Never earlier than the tick's end: Bullet's own sweeps are not used.
 btScalar HullAlgorithm::calculateTimeOfImpact(btCollisionObject* /*a*/, btCollisionObject* /*b*/,
                                               const btDispatcherInfo& /*info*/,
                                               btManifoldResult* /*result*/) {

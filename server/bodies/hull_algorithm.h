@@ -8,10 +8,13 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+#include <atomic>
 #include <glm/mat3x3.hpp>
+#include <optional>
 #include <vector>
 
 #include "server/bodies/hull_distance.h"
+#include "server/bodies/rolling_rows.h"
 
 namespace scree {
 
@@ -24,6 +27,7 @@ class CollisionHulls {
     glm::vec3 middle_m;              ///< middle of the bounding sphere, in the body's axes
     glm::vec3 turned_m;              ///< the same middle, in the world's axes
     float reach_m;                   ///< the bounding sphere's radius, with the margin
+    float thickness_m;               ///< from its middle to its nearest face, about
   };
 
   /// The shape must outlive this object.
@@ -31,8 +35,32 @@ class CollisionHulls {
   void turn(const glm::mat3& rotation);
   const std::vector<Part>& parts() const { return parts_; }
 
+  /// Part of a step by which the body moves (sweep.h): the least that anything found. Threads may stop a body
+  /// at once.
+  void begin_step() { step_share_ = 1.0F; }
+  void stop_at(float share) const {
+    float before = step_share_;
+    while (share < before && !step_share_.compare_exchange_weak(before, share)) continue;
+  }
+  float step_share() const { return step_share_; }
+
+  RollingLengths rolling;  ///< how contacts of the body resist rolling (rolling_rows.h)
+
  private:
   std::vector<Part> parts_;
+  mutable std::atomic<float> step_share_ = 1.0F;
+};
+
+/// Two bodies that touch and were fast before the solver. It may leave them much of their speed, because they
+/// turn.
+struct FastTouch {
+  const btCollisionObject* a = nullptr;
+  const btCollisionObject* b = nullptr;
+  btVector3 normal_on_b;
+  float unseen_m = 0.0F;  ///< how far they may near each other in a step
+
+  /// Stops both where they have neared each other so far, at the speeds that they have.
+  void hold(float step_s) const;
 };
 
 /// The user pointers of both objects must be their CollisionHulls, turned to their present poses. A step is
@@ -49,6 +77,8 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   void find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s);
   /// Pairs of parts that overlapped when find() looked: each takes as long as several that only touch.
   uint32_t overlaps() const { return overlaps_; }
+  /// The one that find() found.
+  const std::optional<FastTouch>& fast_touch() const { return fast_touch_; }
   /// Whether update_manifold() has anything to do.
   bool manifold_outdated() const {
     return manifold_ == nullptr ? !first_.empty() : manifold_->getNumContacts() == 0;
@@ -70,10 +100,14 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   struct ContactSink;
   /// True when the two overlap by more than their margins, so that their depth had to be sought.
   static bool meet(const Meeting& meeting, NearestCorners& nearest, ContactSink& to);
+  /// Stops two that strike each other on their way, where they touch. False: they do not.
+  static bool stop_at_blow(const Meeting& meeting, NearestCorners nearest);
+  void note_touch(const Meeting& meeting, const btVector3& normal);
 
   btPersistentManifold* manifold_ = nullptr;  ///< null while there are no contacts
   std::vector<Contact> first_;                ///< contacts found while there is no manifold
   uint32_t overlaps_ = 0;
+  std::optional<FastTouch> fast_touch_;
   NearestCorners nearest_;                 ///< of the first pair of parts
   std::vector<NearestCorners> of_others_;  ///< of all other pairs of parts, in order
 };

@@ -7,11 +7,32 @@
 
 namespace scree::limits {
 
-/// Farthest that any point of a piece may travel in one step, voxels. The narrow band is 3 voxels wide, so a
-/// piece cannot cross it without a contact. Above: linear speed is cut to ⅘ of it, spin to the other ⅕.
+/// Speed of any piece, m/s: of a fall of two kilometres. Faster than stones of any blast; a step of 1/60 s
+/// looks at 3.3 m of terrain then. Above: cut.
+inline constexpr float speed_max_m_s = 200.0F;
+
+/// Farthest that any point of a piece may travel unseen, voxels. The narrow band is 3 voxels wide, so a piece
+/// cannot cross it without a contact. Beyond ⅘ of it in a step, the way is looked at in parts of ⅘ (sweep.h).
 inline constexpr float travel_max_voxels = 2.5F;
 
-/// Spin of any piece, rad/s. Faster, the contacts of one tick say nothing about the next. Above: cut.
+/// Speed at which a body nears what it strikes from which on it is brought to touch it first, m/s: slower,
+/// the solver takes the blow in two parts. Twice what a body has that drops by a voxel of 0.2 m.
+inline constexpr float blow_min_m_s = 2.0F;
+
+/// Part of a step within which a point that strikes the ground counts as touching it: so much of the blow may
+/// be left to the next step.
+inline constexpr float touching_step = 0.05F;
+
+/// Two pieces that near each other in a step by more than this share of the thinner one's half thickness are
+/// looked at all along their way.
+inline constexpr float unswept_share = 0.5F;
+
+/// Two fast pieces that touch may near each other by so much of that thickness in a step: a corner that
+/// strikes leaves the middle most of its speed.
+inline constexpr float touching_share = 0.03F;
+
+/// Spin of any piece, rad/s, of which no point may travel farther in a step than ⅕ of travel_max_voxels.
+/// Faster, the contacts of one tick say nothing about the next. Above: cut.
 inline constexpr float spin_max_rad_s = 20.0F;
 
 /// Distance from the ground within which hull points make contacts, metres, even if they do not approach it:
@@ -25,7 +46,7 @@ inline constexpr float overlap_shallow_m = 0.125F;
 /// The highest speeds at which overlaps are undone, metres a second, whatever the length of a step. A shallow
 /// point in terrain is so slow that it does not disturb pieces at rest: undone at once, a heap took twice as
 /// long to merge. The others are of a buried point, and of two pieces.
-inline constexpr float undo_shallow_m_s = 0.24F;
+inline constexpr float undo_shallow_m_s = 0.18F;
 inline constexpr float undo_buried_m_s = 2.4F;
 inline constexpr float undo_pieces_m_s = 1.0F;
 
@@ -46,15 +67,20 @@ inline constexpr float margin_max_m = 0.03F;
 /// Gap between the collision shapes of neighbours at birth, per side, metres.
 inline constexpr float birth_gap_m = 0.004F;
 
-/// Speed that a body loses to the air, per second, as a share; linear and angular. Keeps spin from lasting.
-inline constexpr float air_damping = 0.05F;
-inline constexpr float air_spin_damping = 0.2F;
+/// Length by which a contact's normal force resists rolling, as a share of the body's reach: a ball rolls on
+/// a slope of more than so much, and to a stop on level ground. Real stones on rock have ten times as much;
+/// their corners, which bodies have, too, are most of it.
+inline constexpr float rolling_share = 0.02F;
+inline constexpr float rolling_share_round = 0.01F;
 
-/// The same while the body touches terrain and is slower than `creep_m_s`: real rubble has no perfect corners
-/// to rock on.
-inline constexpr float ground_damping = 1.5F;
-inline constexpr float ground_spin_damping = 3.0F;
-inline constexpr float creep_m_s = 1.0F;
+/// The same against turning about the normal: friction, by the width of the patch that touches.
+inline constexpr float turning_share = 0.1F;
+
+/// A body is round whose points differ in their distance from its centre of mass by no more than this share,
+/// and which has one within 41 degrees of every direction (the cosine): a cube's corners leave 55 degrees
+/// free. It rolls as a ball does.
+inline constexpr float round_off = 0.06F;
+inline constexpr float round_cover_min = 0.75F;
 
 /// Longest step of the simulation of bodies, seconds: in a longer one gravity gives a piece more speed than
 /// contacts take, so that pieces jump instead of coming to rest. A longer tick takes several steps.

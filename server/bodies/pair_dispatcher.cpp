@@ -54,12 +54,17 @@ void PairDispatcher::list(btOverlappingPairCache& pairs) {
 
 void PairDispatcher::search(WorkBatch& batch, float step_s) {
   overlaps_ = 0;
+  fast_.clear();
   batch.share(std::span(awake_), limits::pairs_per_part, [this, step_s](std::span<btBroadphasePair*> some) {
     size_t overlaps = 0;
     for (btBroadphasePair*& pair : some)
       with_bodies(*pair, [&](const auto& a, const auto& b, HullAlgorithm* algorithm) {
         algorithm->find(a, b, step_s);
         overlaps += algorithm->overlaps();
+        if (algorithm->fast_touch()) {
+          const std::scoped_lock lock(mutex_);
+          fast_.push_back(*algorithm->fast_touch());
+        }
         if (!algorithm->manifold_outdated()) pair = nullptr;
       });
     overlaps_ += overlaps;

@@ -6,8 +6,10 @@
 
 #include <BulletCollision/CollisionDispatch/btCollisionDispatcher.h>
 #include <atomic>
+#include <mutex>
 #include <vector>
 
+#include "server/bodies/hull_algorithm.h"
 #include "shared/base/workers.h"
 
 namespace scree {
@@ -23,6 +25,10 @@ class PairDispatcher final : public btCollisionDispatcher {
   void list(btOverlappingPairCache& pairs);
   /// Adds the search for the contacts of the listed pairs. It reads poses and hulls.
   void search(WorkBatch& batch, float step_s);
+  /// After the solver: holds the pairs that touch and were fast (hull_algorithm.h).
+  void hold_fast(float step_s) const {
+    for (const FastTouch& touch : fast_) touch.hold(step_s);
+  }
   /// Makes and releases manifolds.
   void update_manifolds();
   /// Sum of HullAlgorithm::overlaps() of the last step.
@@ -30,6 +36,8 @@ class PairDispatcher final : public btCollisionDispatcher {
 
  private:
   std::atomic<size_t> overlaps_{0};
+  std::mutex mutex_;
+  std::vector<FastTouch> fast_;  ///< of this step, in any order; guarded by mutex_ while it is searched
   std::vector<btBroadphasePair*>
       awake_;  ///< listed; after the search, those that update_manifolds() has to do with
 };

@@ -1,8 +1,63 @@
 #include "server/bodies/piece_solver.h"
 
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <algorithm>
+
+#include "server/bodies/hull_algorithm.h"
 #include "server/bodies/solver_rows.h"
+#include "shared/base/check.h"
 
 namespace scree {
+
+namespace {
+
+/// Null for what cannot move.
+const btRigidBody* moving(const btCollisionObject* object) {
+  const btRigidBody* const body = btRigidBody::upcast(object);
+  return body != nullptr && body->getInvMass() > 0.0F ? body : nullptr;
+}
+
+btVector3 speed_at(const btRigidBody* body, const btVector3& at) {
+  if (body == nullptr) return btVector3(0.0F, 0.0F, 0.0F);
+  return body->getVelocityInLocalPoint(at - body->getWorldTransform().getOrigin());
+}
+
+btVector3 along_surface(const btVector3& v, const btVector3& normal) {
+  return v - normal * normal.dot(v);
+}
+
+/// Sets the direction in which a contact rubs. Bullet goes by the speed alone: what rests would be free in
+/// one of two directions, and creep down a slope.
+void aim_friction(const btRigidBody* a, const btRigidBody* b, const btVector3& fall_m_s,
+                  btManifoldPoint& point) {
+  const btVector3& normal = point.m_normalWorldOnB;
+  const btVector3 falling = along_surface(fall_m_s, normal);
+  btVector3 sliding = along_surface(
+      speed_at(a, point.getPositionWorldOnA()) - speed_at(b, point.getPositionWorldOnB()), normal);
+  if (a == nullptr) sliding -= falling;
+  if (b == nullptr) sliding += falling;
+  // Where two fall alike, friction alone holds the upper one back.
+  if (a != nullptr && b != nullptr && sliding.length2() < 0.25F * falling.length2()) sliding = falling;
+  const float length2 = sliding.length2();
+  if (length2 > 1e-12F)
+    point.m_lateralFrictionDir1 = sliding / btSqrt(length2);
+  else
+    btPlaneSpace1(normal, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);
+  point.m_contactPointFlags |= BT_CONTACT_FLAG_LATERAL_FRICTION_INITIALIZED;
+}
+
+/// By the one that resists least: a stone rolls on what it is small beside.
+RollingLengths rolling_lengths(const btPersistentManifold& manifold) {
+  RollingLengths least{1e30F, 1e30F};
+  for (const btCollisionObject* object : {manifold.getBody0(), manifold.getBody1()}) {
+    if (object->getUserPointer() == nullptr) continue;
+    const RollingLengths& own = static_cast<const CollisionHulls*>(object->getUserPointer())->rolling;
+    least = {std::min(least.rolling_m, own.rolling_m), std::min(least.turning_m, own.turning_m)};
+  }
+  return least;
+}
+
+}  // namespace
 
 btScalar PieceSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies, int body_count,
                                                    btPersistentManifold** manifolds, int manifold_count,
@@ -13,7 +68,52 @@ btScalar PieceSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies, i
   m_resolveSingleConstraintRowGeneric = solve_between_limits;
   m_resolveSingleConstraintRowLowerLimit = solve_from_limit;
   m_resolveSplitPenetrationImpulse = undo_overlap;
+  add_rolling_rows(manifolds, manifold_count);
   return result;
+}
+
+void PieceSolver::convertContacts(btPersistentManifold** manifolds, int count,
+                                  const btContactSolverInfo& info) {
+  for (int i = 0; i < count; ++i) {
+    btPersistentManifold& manifold = *manifolds[i];
+    const btRigidBody *a = moving(manifold.getBody0()), *b = moving(manifold.getBody1());
+    for (int k = 0; k < manifold.getNumContacts(); ++k)
+      aim_friction(a, b, fall_m_s_, manifold.getContactPoint(k));
+  }
+  btSequentialImpulseConstraintSolver::convertContacts(manifolds, count, info);
+}
+
+// The pool has the contacts of each manifold behind each other, in the order of the manifolds.
+void PieceSolver::add_rolling_rows(btPersistentManifold** manifolds, int count) {
+  rolling_.clear();
+  const int contacts = m_tmpSolverContactConstraintPool.size();
+  int next = 0;
+  for (int i = 0; i < count && next < contacts; ++i) {
+    btPersistentManifold& manifold = *manifolds[i];
+    if (manifold.getNumContacts() == 0) continue;
+    const btManifoldPoint* const begin = &manifold.getContactPoint(0);
+    const int first = next;
+    for (; next < contacts; ++next) {
+      const auto* point =
+          static_cast<const btManifoldPoint*>(m_tmpSolverContactConstraintPool[next].m_originalContactPoint);
+      if (point < begin || point >= begin + manifold.getNumContacts()) break;
+    }
+    if (next == first) continue;
+    const btSolverConstraint& row = m_tmpSolverContactConstraintPool[first];
+    rolling_.emplace_back(m_tmpSolverBodyPool[row.m_solverBodyIdA], m_tmpSolverBodyPool[row.m_solverBodyIdB],
+                          first, next - first, rolling_lengths(manifold));
+  }
+  CHECK_DEBUG(next == contacts);
+}
+
+btScalar PieceSolver::solveSingleIteration(int iteration, btCollisionObject** bodies, int body_count,
+                                           btPersistentManifold** manifolds, int manifold_count,
+                                           btTypedConstraint** joints, int joint_count,
+                                           const btContactSolverInfo& info, btIDebugDraw* drawer) {
+  const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
+      iteration, bodies, body_count, manifolds, manifold_count, joints, joint_count, info, drawer);
+  for (RollingRow& row : rolling_) row.solve(m_tmpSolverContactConstraintPool);
+  return residual;
 }
 
 }  // namespace scree

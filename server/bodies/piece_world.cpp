@@ -94,6 +94,7 @@ void PieceWorld::solve() {
   gather();
   const std::span<SolverGroups::Group> groups = groups_.divide();
   workers_.run(groups.size(), [&](size_t part) { solve(groups[part]); });
+  pairs_.hold_fast(step_s_);
 }
 
 void PieceWorld::solve(const SolverGroups::Group& group) {
@@ -106,6 +107,7 @@ void PieceWorld::solve(const SolverGroups::Group& group) {
     }
   }
   if (solver == nullptr) solver = std::make_unique<Solver>();
+  solver->rows.set_fall(getGravity() * step_s_);
   std::ranges::sort(group.contacts, {}, &SolverGroups::Contacts::order);
   solver->manifolds.clear();
   for (const SolverGroups::Contacts& contacts : group.contacts)
@@ -117,9 +119,9 @@ void PieceWorld::solve(const SolverGroups::Group& group) {
   idle_solvers_.push_back(std::move(solver));
 }
 
-void PieceWorld::move(btRigidBody& body) {
+void PieceWorld::move(btRigidBody& body, float share) {
   btRigidBody* one = &body;
-  integrateTransformsInternal(&one, 1, step_s_);
+  integrateTransformsInternal(&one, 1, step_s_ * share);
   body.clearForces();
   body.updateDeactivation(step_s_);
   if (!body.wantsSleeping()) {

@@ -37,8 +37,8 @@ class PieceWorld final : public btDiscreteDynamicsWorld {
   void find_contacts(WorkBatch& batch);
   /// Also makes and releases manifolds of pairs.
   void solve();
-  /// Moves a body to the step's end: one that can move. Threads may move different bodies at once.
-  void move(btRigidBody& body);
+  /// Moves a body by that share of the step: one that can move. Threads may move different bodies at once.
+  void move(btRigidBody& body, float share);
 
  private:
   struct Moving {

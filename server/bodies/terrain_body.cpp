@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "server/bodies/limits.h"
+#include "server/bodies/sweep.h"
 #include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
 
@@ -13,11 +14,12 @@ namespace scree {
 
 namespace {
 
-/// How near the ground must be for the body to touch it within the step.
-float ground_reach_m(const Body& body, float step_s) {
+/// How near the ground must be for the body to touch it within the step, as far as a probe sees.
+float ground_reach_m(const Body& body, const TerrainSurface& surface) {
   const btRigidBody& rigid = *body.rigid;
   const float speed = rigid.getLinearVelocity().length() + rigid.getAngularVelocity().length() * body.reach_m;
-  return limits::contact_slack_m + speed * step_s;
+  const float travel_m = std::min(speed * surface.step_s, limits::travel_max_voxels * surface.voxel_size_m);
+  return limits::contact_slack_m + body.round.sag_m + travel_m;
 }
 
 /// For CHECK_DEBUG: a contact as a TerrainProbe must report it.
@@ -60,13 +62,13 @@ void TerrainBody::set_collider(TerrainColliderKind kind, std::map<PieceId, Body>
 
 void TerrainBody::turn(Body& body) const {
   const btRigidBody& rigid = *body.rigid;
+  body.hulls->begin_step();
   body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
   body.awake = rigid.isActive();
   body.needs_copy = false;
   if (!body.awake) return;
   body.last = rigid.getWorldTransform();
-  body.needs_copy =
-      !body.probe->turn(from_bullet(rigid.getWorldTransform()), ground_reach_m(body, surface_.step_s));
+  body.needs_copy = !body.probe->turn(from_bullet(rigid.getWorldTransform()), ground_reach_m(body, surface_));
 }
 
 void TerrainBody::refill(std::span<Body*> some, bool copying) const {
@@ -76,8 +78,11 @@ void TerrainBody::refill(std::span<Body*> some, bool copying) const {
     found.clear();
     body->probe->list(found);
     CHECK_DEBUG(std::ranges::all_of(found, [&](const TerrainContact& contact) {
-      return is_sound_contact(contact, body->points_m.size(), ground_reach_m(*body, surface_.step_s));
+      return is_sound_contact(contact, body->points_m.size(), ground_reach_m(*body, surface_));
     }));
+    if (body->round.radius_m > 0.0F)
+      touch_as_ball(body->round, static_cast<int>(body->points_m.size()), found);
+    stop_at_blows(*body, {surface_.voxel_size_m, surface_.step_s}, found);
     body->rubs_at_m = scree::refill(*body->ground, *body->rigid, found, surface_);
   }
 }

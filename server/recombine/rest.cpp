@@ -74,28 +74,43 @@ RestDetector::RestDetector(const RestConfig& config, uint32_t tick_rate_hz)
       rest_ticks_(ticks_of(config.rest_s, tick_rate_hz)),
       patience_ticks_(ticks_of(config.patience_s, tick_rate_hz)),
       contact_ticks_(ticks_of(config.contact_s, tick_rate_hz)),
-      leash_growth_m_tick_(config.leash_growth_m_s / static_cast<float>(tick_rate_hz)) {
+      stuck_ticks_(ticks_of(config.stuck_s, tick_rate_hz)),
+      leash_growth_m_tick_(config.leash_growth_m_s / static_cast<float>(tick_rate_hz)),
+      tick_s_(1.0F / static_cast<float>(tick_rate_hz)) {
   CHECK(tick_rate_hz > 0);
   CHECK(config.leash_m > 0.0F && config.leash_m <= config.leash_max_m && config.leash_growth_m_s >= 0.0F);
+}
+
+bool RestDetector::gathers_speed(const Timer& timer, const RestPiece& piece) const {
+  const glm::vec3 moved_m = piece.pose.position_m - timer.anchor.position_m;
+  const float speed2 = glm::dot(piece.velocity_m_s, piece.velocity_m_s);
+  if (speed2 <= config_.gathers_m_s * config_.gathers_m_s) return false;
+  const float still_s = static_cast<float>(timer.still_ticks) * tick_s_;
+  return glm::dot(piece.velocity_m_s, moved_m) * still_s > config_.gathers_share * glm::dot(moved_m, moved_m);
 }
 
 bool RestDetector::advance_timer(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks) {
   const auto [found, is_new] = timers_.try_emplace(piece.id);
   Timer& timer = found->second;
   ++timer.age_ticks;
-  ++timer.still_ticks;
   if (on_terrain)
     timer.terrain_ticks = 1;
   else if (timer.terrain_ticks > 0 && timer.terrain_ticks <= contact_ticks_)
     ++timer.terrain_ticks;
-  const uint32_t impatient = timer.age_ticks - std::min(timer.age_ticks, patience_ticks_);
-  const float leash_m =
-      std::min(config_.leash_m + leash_growth_m_tick_ * static_cast<float>(impatient), config_.leash_max_m);
+  const auto impatient = static_cast<float>(timer.age_ticks - std::min(timer.age_ticks, patience_ticks_));
+  const float leash_m = std::min(config_.leash_m + leash_growth_m_tick_ * impatient, config_.leash_max_m);
+  const bool is_stuck = timer.age_ticks > stuck_ticks_;
+  const float stuck_s = is_stuck ? static_cast<float>(timer.age_ticks - stuck_ticks_) * tick_s_ : 0.0F;
+  const bool is_calm = piece.speed_m_s <= config_.calm_m_s + config_.stuck_growth_m_s2 * stuck_s;
   if (is_new || !(strayed_m(timer.anchor, piece.pose, piece.reach_m) <= leash_m)) {
     timer.anchor = piece.pose;
     timer.still_ticks = 0;
+  } else if (is_calm) {
+    ++timer.still_ticks;
+  } else {
+    timer.still_ticks -= std::min(timer.still_ticks, 2U);
   }
-  return timer.still_ticks >= rest_ticks;
+  return is_calm && timer.still_ticks >= rest_ticks && (is_stuck || !gathers_speed(timer, piece));
 }
 
 std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,

@@ -1,10 +1,13 @@
 // Detects the pieces that have come to rest and may become terrain again.
 //
 // Each piece is judged by itself, not per Bullet island, where one restless piece keeps a whole heap awake. A
-// piece is at rest when, for long enough, no point of it has moved farther than a leash from its anchor:
-// jitter about a place is rest, creeping is not. The leash grows with the piece's age, so that every pile
-// comes to rest. A piece at rest may merge when it lies on terrain, or on a piece that merges before it in
-// the same tick: from the ground up. Deterministic. Not thread-safe. Metres and ticks.
+// piece is at rest when, for long enough, no point of it has moved farther than a leash from its anchor.
+// Also, its energy is small for its mass, and it gathers no speed: it is not faster on its way from the
+// anchor than it was on average. So jitter about a place and what contacts push out of an overlap are rest.
+// What sets out, however slowly, is not: it is twice as fast as on average. The leash grows with the piece's
+// age, and later the speed, so that every pile comes to rest. A piece at rest may merge when it lies on
+// terrain, or on a piece that merges before it in the same tick: from the ground up. Deterministic. Not
+// thread-safe. Metres and ticks.
 #pragma once
 
 #include <cstddef>
@@ -23,17 +26,25 @@ struct RestConfig {
   float rest_s =
       1.0F / 3.0F;  ///< at the top of its flight a piece falls 0.14 m in half of it, and leaves the leash
   float leash_m = 0.06F;           ///< a quarter of a default voxel: less than a merge rounds
+  float calm_m_s = 0.2F;           ///< greatest RestPiece::speed_m_s of a piece at rest
+  float gathers_m_s = 0.03F;       ///< a slower piece gathers no speed: contacts have so much noise
+  float gathers_share = 1.3F;      ///< speed over that on average from which on a piece gathers speed
+  float stuck_s = 4.0F;            ///< age from which on a piece is stuck: it shakes without an end
+  float stuck_growth_m_s2 = 0.1F;  ///< growth of the speed at which such a piece is at rest
   float patience_s = 2.0F;         ///< age at which the leash begins to grow
   float leash_growth_m_s = 0.05F;  ///< growth of the leash from that age on
   float leash_max_m = 0.25F;       ///< a default voxel; a piece that strays farther is moving
   float contact_s = 0.2F;          ///< a contact still counts so long after its last tick: contacts flicker
 };
 
-/// A piece after the bodies' step. `reach_m`: radius about its centre of mass.
+/// A piece after the bodies' step. `reach_m`: radius about its centre of mass. `speed_m_s`: of its energy,
+/// the root of twice that over the mass.
 struct RestPiece {
   PieceId id = 0;
   Pose pose;
   float reach_m = 0.0F;
+  float speed_m_s = 0.0F;
+  glm::vec3 velocity_m_s{0.0F};
 };
 
 /// `upper` lies on `lower`.
@@ -74,16 +85,19 @@ class RestDetector {
   struct Timer {
     Pose anchor;  ///< pose from which the leash is measured
     uint32_t age_ticks = 0;
-    uint32_t still_ticks = 0;    ///< since the anchor was set
+    uint32_t still_ticks = 0;    ///< since the anchor was set, less thrice those that are not calm
     uint32_t terrain_ticks = 0;  ///< since terrain was last touched, + 1; 0: never
   };
 
+  /// Whether the piece is faster on its way from the anchor than it was on average.
+  bool gathers_speed(const Timer& timer, const RestPiece& piece) const;
   /// Whether the piece is at rest.
   bool advance_timer(const RestPiece& piece, bool on_terrain, uint32_t rest_ticks);
 
   RestConfig config_;
-  uint32_t rest_ticks_, patience_ticks_, contact_ticks_;
+  uint32_t rest_ticks_, patience_ticks_, contact_ticks_, stuck_ticks_;
   float leash_growth_m_tick_;
+  float tick_s_;
   std::map<PieceId, Timer> timers_;
   std::vector<uint32_t> layers_;
   size_t at_rest_ = 0;

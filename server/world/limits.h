@@ -111,6 +111,10 @@ inline constexpr float dent_energy_share = 0.1F;
 /// fewer bodies save in a few ticks. One piece merges in any case.
 inline constexpr float merge_least_us = 1000.0F;
 
+/// Share of its speed that a piece may lose to the air in a second, percent: all of it. Refused where a world
+/// is created.
+inline constexpr uint32_t air_drag_max_percent = 100;
+
 /// Clients at once that a server may be asked for.
 inline constexpr uint32_t sessions_max_max = 4096;
 

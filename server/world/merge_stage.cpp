@@ -1,6 +1,8 @@
 #include "server/world/merge_stage.h"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <set>
 #include <span>
@@ -65,11 +67,24 @@ float least_merge_cost_us(const World::State& state) {
   return merge_price_us(merge_method(state), 0.0F);
 }
 
+namespace {
+
+/// The root of twice its energy over its mass, with a ball's moment of inertia.
+float energy_speed_m_s(const BodyState& body, float reach_m) {
+  const float spin2 = glm::dot(body.spin_rad_s, body.spin_rad_s);
+  return std::sqrt(glm::dot(body.velocity_m_s, body.velocity_m_s) + 0.4F * reach_m * reach_m * spin2);
+}
+
+}  // namespace
+
 void settle(World::State& state, TickDelta& delta) {
   const bool merging = merges(state.config.methods.recombine);
   std::vector<RestPiece> alive;
   for (const BodyState& body : state.bodies.states())
-    if (!body.frozen) alive.push_back({body.id, body.pose, state.bodies.reach_m(body.id)});
+    if (const float reach_m = state.bodies.reach_m(body.id); !body.frozen)
+      alive.push_back({body.id, body.pose, reach_m,
+                       energy_speed_m_s(body, reach_m),
+                       body.velocity_m_s});
   const BodyContacts contacts = state.bodies.contacts();
   std::vector<RestSupport> supports;
   for (const Carried& carried : contacts.carried) supports.push_back({carried.upper, carried.lower});

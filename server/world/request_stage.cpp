@@ -218,6 +218,7 @@ Outcome change(World::State& state, const SettingsRequest& request, TickDelta& d
   CHECK(delta.settings.size() <= limits::settings_max);
   if (!merges(before.methods.recombine) && merges(state.config.methods.recombine)) state.bodies.thaw_all();
   state.bodies.set_terrain_collider(state.config.methods.collider);
+  state.bodies.set_air_drag(drag_of(state.config));
   if (before.material_numbers != state.config.material_numbers) {
     state.palette = palette_with(state.config.palette, state.config.material_numbers);
     state.bodies.set_palette(state.palette);

@@ -97,6 +97,7 @@ std::string print_spawn_choice(const WorldConfig& config) {
 
 constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
 constexpr std::array<std::string_view, 1> little_work{"20"};
+constexpr std::array<std::string_view, 1> some_drag{"5"};
 
 constexpr std::array table{
     choice<&Methods::collider>("collider", "how pieces find the terrain that they touch"),
@@ -109,6 +110,9 @@ constexpr std::array table{
                                    "whether pieces that rest together become terrain in one pass"),
     choice<&Methods::cutter>("cutter", "how broken rock is divided into pieces"),
     choice<&Methods::simplifier>("simplifier", "which points of a piece's surface collide; none: all"),
+    number<&WorldConfig::air_drag_percent>("air-drag",
+                                           "the part of their speed that pieces lose to the air in a second",
+                                           {0, limits::air_drag_max_percent, "percent"}, some_drag),
     machine_limit<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; further carves are refused",
                                             {limits::pieces_max_min, limits::pieces_max_max, "pieces"},
                                             few_pieces),
@@ -136,8 +140,8 @@ constexpr std::array table{
 /// Each member is bound by name: a new member that is not in the table does not compile. The terrain, the
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
-  const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent, methods,
-               service, spawn, ground, rules, palette, material_numbers] = world;
+  const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent,
+               air_drag_percent, methods, service, spawn, ground, rules, palette, material_numbers] = world;
   static_cast<void>(ground);  // names the terrain's
   static_cast<void>(rules);   // fixed from the start, as these three
   static_cast<void>(palette);
@@ -148,7 +152,8 @@ constexpr std::array table{
   constexpr size_t fixed = 3;
   const std::array config{static_cast<double>(terrain.voxel_size_m), static_cast<double>(tick_rate_hz),
                           static_cast<double>(pieces_max),           static_cast<double>(memory_max_mb),
-                          static_cast<double>(merges_per_tick_max),  static_cast<double>(work_percent)};
+                          static_cast<double>(merges_per_tick_max),  static_cast<double>(work_percent),
+                          static_cast<double>(air_drag_percent)};
   const std::array choices{
       static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
       static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),

@@ -40,8 +40,8 @@ Result<void> check(const Bounded& bounded) {
 bool WorldConfig::operator==(const WorldConfig& other) const {
   const auto tied = [](const WorldConfig& c) {
     return std::tie(c.terrain, c.tick_rate_hz, c.pieces_max, c.memory_max_mb, c.merges_per_tick_max,
-                    c.work_percent, c.methods, c.service, c.spawn, c.ground, c.rules, *c.palette,
-                    c.material_numbers);
+                    c.work_percent, c.air_drag_percent, c.methods, c.service, c.spawn, c.ground, c.rules,
+                    *c.palette, c.material_numbers);
   };
   return tied(*this) == tied(other);
 }
@@ -81,6 +81,12 @@ Result<void> validate(const WorldConfig& config) {
        .name = "work_percent",
        .limits = "limits.work_percent_min, work_percent_max",
        .option = "--work-percent"},
+      {.value = static_cast<double>(config.air_drag_percent),
+       .min = 0.0,
+       .max = limits::air_drag_max_percent,
+       .name = "air_drag_percent",
+       .limits = "limits.air_drag_max_percent",
+       .option = "--air-drag"},
       {.value = static_cast<double>(config.merges_per_tick_max),
        .min = 0.0,
        .max = limits::merges_per_tick_max_max,

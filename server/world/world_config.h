@@ -30,6 +30,7 @@ struct WorldConfig {
   /// Percent of a tick's length that its work may take by the model (server/work/work.h). A live server
   /// lowers it while its ticks are late, and raises it again (server/app/load_governor.h).
   uint32_t work_percent = 65;
+  uint32_t air_drag_percent = 0;  ///< of their speed and spin, which pieces lose to the air in a second
   Methods methods;
   ServiceLimits service;           ///< for the network; the simulation does not read it
   std::optional<Spawn> spawn{};    ///< where visitors begin; nothing: where the ground suggests (SpawnPlace)
@@ -41,6 +42,11 @@ struct WorldConfig {
 
   bool operator==(const WorldConfig& other) const;
 };
+
+/// Share of their speed that pieces lose to the air in a second.
+inline float drag_of(const WorldConfig& config) {
+  return 0.01F * static_cast<float>(config.air_drag_percent);
+}
 
 /// Refuses what the simulation cannot run with; the error names the limit (server/world/limits.h and
 /// shared/base/limits.h) and the way out.

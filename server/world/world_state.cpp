@@ -22,6 +22,7 @@ BodiesConfig bodies_config(const WorldConfig& config, size_t threads) {
   BodiesConfig out;
   out.tick_rate_hz = config.tick_rate_hz;
   out.terrain_collider = config.methods.collider;
+  out.air_drag = drag_of(config);
   out.threads = threads;
   out.palette = palette_with(config.palette, config.material_numbers);
   return out;

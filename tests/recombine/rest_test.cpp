@@ -18,6 +18,34 @@ using Ids = std::vector<PieceId>;
 constexpr uint32_t rest_ticks = 20;  // a third of a second
 constexpr int patience_ticks = 120;  // two seconds
 
+TEST(RestDetector, what_sets_out_slowly_is_not_at_rest_and_what_creeps_evenly_is) {
+  for (const bool gathers_speed : {true, false}) {
+    RestDetector rest({}, rate_hz);
+    bool rested = false;
+    for (int tick = 1; tick <= 60; ++tick) {
+      const float time_s = static_cast<float>(tick) / rate_hz;
+      constexpr float pull_m_s2 = 0.26F, creep_m_s = 0.1F;
+      const float speed_m_s = gathers_speed ? pull_m_s2 * time_s : creep_m_s;
+      RestPiece sliding = piece(1, {(gathers_speed ? 0.5F : 1.0F) * speed_m_s * time_s, 1.0F, 0.0F});
+      sliding.speed_m_s = speed_m_s;
+      sliding.velocity_m_s = {speed_m_s, 0.0F, 0.0F};
+      rested = rested || !rest.update({{sliding}}, {{1}}, {}, 1).empty();
+    }
+    EXPECT_EQ(rested, !gathers_speed);
+  }
+}
+
+TEST(RestDetector, what_is_fast_is_not_at_rest_until_it_counts_as_stuck) {
+  RestDetector rest({}, rate_hz);
+  RestPiece shaking = piece(1, {0.0F, 1.0F, 0.0F});
+  shaking.speed_m_s = 0.21F;
+  constexpr int stuck_ticks = 240;
+  for (int tick = 0; tick < stuck_ticks; ++tick) EXPECT_TRUE(rest.update({{shaking}}, {{1}}, {}, 1).empty());
+  bool rested = false;
+  for (int tick = 0; tick < 60; ++tick) rested = rested || !rest.update({{shaking}}, {{1}}, {}, 1).empty();
+  EXPECT_TRUE(rested) << "it shakes without an end";
+}
+
 TEST(Rest, a_still_piece_on_terrain_merges_after_the_rest_time) {
   RestDetector rest({}, rate_hz);
   const std::vector<RestPiece> pieces = {piece(3, {0.0F, 1.0F, 0.0F})};

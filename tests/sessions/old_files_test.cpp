@@ -64,7 +64,7 @@ const std::vector<OldFiles>& old_files() {
        0x1378DFA96508E289,
        0xA0E74AC3003E4F87,
        true,
-       true}};
+       false}};
   return all;
 }
 

@@ -236,7 +236,7 @@ TEST(paint, clients_see_it_live_late_and_from_the_edge_of_their_interest) {
   Client late(publisher, 3, {0.0F, 0.0F, 0.0F}, 64.0F);
   tick({paint_it(material::soil, sphere({-6.0F, 0.0F, 0.0F}, 3.0F)), carve_at({-6.0F, -0.3F, 0.0F})},
        {&live, &beside, &late});
-  for (int i = 0; i < 120; ++i) tick({}, {&live, &beside, &late});
+  for (int i = 0; i < 30; ++i) tick({}, {&live, &beside, &late});
   for (const Client* client : {&live, &beside, &late}) expect_same(*client, world);
   EXPECT_EQ(late.mirror->field().hash(), world.field().hash());
   size_t mixed = 0;
