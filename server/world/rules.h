@@ -1,4 +1,5 @@
-// In which order a world serves the work that its parties caused. A recording says by which rules it was
+// By which rules a world goes: in which order it serves the work that its parties caused, and what its search
+// for support finds. A recording says by which rules it was
 // made, and is verified by these. A world of an older file is played on by the newest.
 #pragma once
 
@@ -13,8 +14,10 @@ inline constexpr uint32_t as_they_come = 0;
 inline constexpr uint32_t by_party = 1;
 /// Also, a fall or a cut that fits into no tick comes as soon as ticks with time to spare have paid for it.
 inline constexpr uint32_t spare_time = 2;
+/// Also, the search for support finds spans that break between several supports (shared/falling/spans.h).
+inline constexpr uint32_t spans = 3;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = spare_time;
+inline constexpr uint32_t newest = spans;
 }  // namespace rules
 
 }  // namespace scree
