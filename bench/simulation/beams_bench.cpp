@@ -41,6 +41,30 @@ void compare(const SpanCase& one, BenchReport& report) {
                            found_m, ratio));
 }
 
+/// Searches all over generated ground, where nothing spans anything.
+void search_ground(BenchReport& report, float step_m) {
+  std::vector<double> ms;
+  size_t overloads = 0;
+  for (const TerrainKind kind : {TerrainKind::flat, TerrainKind::canyon, TerrainKind::noise}) {
+    const TerrainSource source{kind, 1, 0.25F};
+    MapField field(source);
+    for (float x = -48.0F; x < 48.0F; x += step_m)
+      for (float z = -48.0F; z < 48.0F; z += step_m) {
+        const glm::vec3 at = glm::vec3(x, ground_height_m(source, x, z), z) / source.voxel_size_m;
+        const std::vector<BrickCoord> changed{
+            brick_of(VoxelCoord{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)})};
+        find_spans(field, builtin_palette(), changed);
+        const auto start = std::chrono::steady_clock::now();
+        overloads += find_spans(field, builtin_palette(), changed).overloads.size();
+        const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+        ms.push_back(took.count());
+      }
+  }
+  report.metric("ground_p50_ms", quantile(ms, 0.5));
+  report.metric("ground_p99_ms", quantile(ms, 0.99));
+  report.metric("ground_breaks", static_cast<double>(overloads));
+}
+
 }  // namespace
 
 BenchReport run_beams_bench(const BenchOptions& options) {
@@ -56,6 +80,7 @@ BenchReport run_beams_bench(const BenchOptions& options) {
     report.check(fmt::format("arch_of_{:.0f}_m", span_m), arch && !flat,
                  fmt::format("arch {}, flat beam {}", arch ? "stands" : "falls", flat ? "stands" : "falls"));
   }
+  search_ground(report, options.quick ? 24.0F : 8.0F);
   return report;
 }
 

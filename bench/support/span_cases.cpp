@@ -159,7 +159,7 @@ double found_span_m(const SpanCase& one) {
   const auto breaks = [&](double span_m) {
     return !search_span(one.build, static_cast<float>(span_m)).overloads.empty();
   };
-  double stands_m = one.theory_m / 3.0, breaks_m = 2.0 * one.theory_m;
+  double stands_m = 0.5 * one.theory_m, breaks_m = 1.4 * one.theory_m;
   if (breaks(stands_m) || !breaks(breaks_m)) return 0.0;
   while (breaks_m - stands_m > 0.01 * one.theory_m) {
     const double between_m = 0.5 * (stands_m + breaks_m);

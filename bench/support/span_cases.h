@@ -25,8 +25,8 @@ struct SpanCase {
 /// What a search finds around one brick of the structure.
 SpansFound search_span(const BuildSpan& build, float span_m);
 
-/// The least span at which it breaks, within a hundredth of the theory's; 0 where it breaks at a third of
-/// that or stands at twice as much.
+/// The least span at which it breaks, within a hundredth of the theory's; 0 where it breaks at half of
+/// that or stands at 1.4 times as much.
 double found_span_m(const SpanCase& one);
 
 /// Beams that stick out, that are clamped, that rest on posts, and plates: by height, and by where they lie

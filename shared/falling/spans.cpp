@@ -14,8 +14,14 @@ namespace {
 
 /// States that are tried. Each one after the first is a better guess of where the rock yields.
 constexpr int states_max = 16;
-/// Products of blocks that one state may take: a plate of 12 × 12 bodies takes 12,000.
-constexpr size_t products_max = 20000;
+/// Products of blocks that all states of a search may take, about 10 ms. Above: what was looked at stands.
+constexpr size_t products_max = 32000;
+/// After so many states nothing falls if no body moves a little farther than when all was elastic: then
+/// joints between bodies that others hold are at their limit.
+constexpr int local_states = 4;
+constexpr double local_share = 1.2;
+/// A section through more joints is no beam's: its cracks are yield lines, which keep their bending.
+constexpr size_t beam_joints_max = 4;
 /// How far beyond its strength a section of a state may be strained that counts as bearable.
 constexpr double tolerance = 1.02;
 /// Joints at this part of their strength are at their limit.
@@ -25,6 +31,10 @@ constexpr double stiffness_min = 1e-5;
 /// Joints that open at least so much, relative to the one that opens most, are where it breaks.
 constexpr double opening_share = 0.4;
 
+/// Joints whose turning has so little of its stiffness left give way in all directions.
+constexpr double turned_min = 1e-3;
+/// Bodies that move so many times as far as when all was elastic would fall.
+constexpr double moved_share = 2.0;
 /// A cracked joint counts on no more than this part of the pressure that it had when it was whole.
 constexpr double pressed_share = 1.25;
 
@@ -45,10 +55,11 @@ class Spans {
     int idle = 0;
     for (int i = 0; i < states_max; ++i) {
       if (!solve()) return found_;
-      if (i == 0) remember_pressure();
+      if (i == 0) remember_elastic();
       const double most = judge();
       if (i == 0) found_.strain = most;
       if (most <= tolerance) return found_;
+      if (i >= local_states && !any_moves(local_share)) return found_;
       const bool cracked = crack();
       idle = most < 0.99 * best || cracked ? 0 : idle + 1;
       best = std::min(best, most);
@@ -62,6 +73,7 @@ class Spans {
  private:
   struct State {
     double stiffness = 1.0;  ///< of its turning, relative to the elastic joint's
+    double tightness = 1.0;  ///< of its shifts, likewise
     double ratio = 0.0;      ///< worst strain over strength
     size_t worst = 0;        ///< check
     bool cracked = false;
@@ -106,6 +118,7 @@ class Spans {
   SpringFrame::Spring spring(size_t i) const {
     const SpanJoint& joint = frame_.joints[i];
     SpringFrame::Spring spring = joint.spring;
+    for (size_t k = 0; k < 3; ++k) spring.stiffness[k] *= states_[i].tightness;
     for (size_t k = 3; k < 6; ++k) spring.stiffness[k] *= states_[i].stiffness;
     const glm::dvec3 at = place(i);
     spring.lower_arm = at - bodies_.bodies()[joint.lower].centre;
@@ -122,14 +135,14 @@ class Spans {
       frame.add(springs_.back());
     }
     for (const SpringFrame::Spring& pin : loose_) frame.add(pin);
-    const bool solved = frame.factorise(products_max);
+    const bool solved = frame.factorise(products_max - found_.products);
     found_.products += frame.products();
     if (!solved) return false;
-    std::vector<Six> moves = frame_.loads;
-    frame.solve(moves);
+    moves_ = frame_.loads;
+    frame.solve(moves_);
     forces_.clear();
     for (size_t i = 0; i < springs_.size(); ++i) {
-      Six six = SpringFrame::opening(springs_[i], moves);
+      Six six = SpringFrame::opening(springs_[i], moves_);
       states_[i].opening = std::sqrt(six[3] * six[3] + six[4] * six[4] + six[5] * six[5]);
       for (size_t k = 0; k < six.size(); ++k) six[k] *= springs_[i].stiffness[k];
       forces_.push_back(six);
@@ -137,7 +150,8 @@ class Spans {
     return true;
   }
 
-  void remember_pressure() {
+  void remember_elastic() {
+    elastic_moves_ = moves_;
     for (size_t i = 0; i < states_.size(); ++i)
       states_[i].pressed = -forces_[i][static_cast<size_t>(frame_.joints[i].axis)];
   }
@@ -179,41 +193,74 @@ class Spans {
 
   /// Plane sections all of whose joints are at their limit. Whether there are new ones.
   bool crack() {
-    std::map<uint32_t, bool> through;
-    for (size_t i = 0; i < states_.size(); ++i) {
-      const auto [found, is_new] = through.try_emplace(frame_.joints[i].group, true);
-      found->second = found->second && states_[i].ratio >= limit_share;
-    }
+    std::map<uint32_t, size_t> joints;  // of each group; 0: not all of them are at their limit
+    for (const SpanJoint& joint : frame_.joints) ++joints[joint.group];
+    for (size_t i = 0; i < states_.size(); ++i)
+      if (states_[i].ratio < limit_share) joints[frame_.joints[i].group] = 0;
     bool any = false;
     for (size_t i = 0; i < states_.size(); ++i) {
       State& state = states_[i];
-      if (state.cracked || !through.at(frame_.joints[i].group)) continue;
+      const size_t in_group = joints.at(frame_.joints[i].group);
+      if (state.cracked || in_group == 0 || in_group > beam_joints_max) continue;
       state.cracked = any = true;
       state.crack = state.worst;
     }
     return any;
   }
 
+  /// What is strained too much gives way: turning first, then all ways, so that a thin joint between bodies
+  /// that others hold ends up with nothing to bear.
   void soften() {
-    for (State& state : states_)
-      if (state.ratio > 1.0) state.stiffness = std::max(state.stiffness / state.ratio, stiffness_min);
+    for (size_t i = 0; i < states_.size(); ++i) {
+      State& state = states_[i];
+      if (state.ratio <= 1.0) continue;
+      const SpanCheck& check = frame_.joints[i].checks[state.worst];
+      const bool pulled =
+          strain_of(frame_.joints[i], check, place(i), forces_[i]).pressed < -0.5 * check.strength;
+      if (pulled || state.stiffness < turned_min)
+        state.tightness = std::max(state.tightness / std::min(state.ratio, 100.0), stiffness_min);
+      state.stiffness = std::max(state.stiffness / state.ratio, stiffness_min);
+    }
+  }
+
+  /// Which bodies move so many times as far as while all was elastic.
+  std::vector<bool> moving(double share) const {
+    std::vector<bool> moving(moves_.size(), false);
+    const auto way = [](const Six& move) {
+      return std::sqrt(move[0] * move[0] + move[1] * move[1] + move[2] * move[2]);
+    };
+    for (size_t i = 0; i < moves_.size(); ++i) moving[i] = way(moves_[i]) > share * way(elastic_moves_[i]);
+    return moving;
+  }
+  bool any_moves(double share) const {
+    const std::vector<bool> all = moving(share);
+    return std::find(all.begin(), all.end(), true) != all.end();
   }
 
   /// The sections that open most become necks.
   void report() {
+    const std::vector<bool> falls = moving(moved_share);
+    const auto yields = [&](size_t i) {
+      const SpringFrame::Spring& spring = frame_.joints[i].spring;
+      return states_[i].stiffness < 1.0 && ((spring.lower != SpringFrame::fixed && falls[spring.lower]) ||
+                                            (spring.upper != SpringFrame::fixed && falls[spring.upper]));
+    };
     double most = 0.0;
-    for (const State& state : states_)
-      if (state.stiffness < 1.0) most = std::max(most, state.opening);
+    for (size_t i = 0; i < states_.size(); ++i)
+      if (yields(i)) most = std::max(most, states_[i].opening);
     std::map<uint32_t, std::vector<size_t>> groups;
     for (size_t i = 0; i < states_.size(); ++i)
-      if (states_[i].stiffness < 1.0 && states_[i].opening >= opening_share * most)
+      if (yields(i) && states_[i].opening >= opening_share * most)
         groups[frame_.joints[i].group].push_back(i);
     Overload overload;
     overload.by_leverage = true;
-    for (const SpanBody& body : bodies_.bodies())
-      if (!body.holds) overload.voxels += body.voxels;
-    const SpanPart& first = bodies_.parts()[bodies_.bodies().front().parts.front()];
-    overload.start = first_voxel(first.brick) + bounds_of(first_of(first.bits)).lo;
+    for (size_t i = 0; i < falls.size(); ++i) {
+      if (!falls[i]) continue;
+      const SpanPart& first = bodies_.parts()[bodies_.bodies()[i].parts.front()];
+      if (overload.voxels == 0)
+        overload.start = first_voxel(first.brick) + bounds_of(first_of(first.bits)).lo;
+      overload.voxels += bodies_.bodies()[i].voxels;
+    }
     for (const auto& [group, joints] : groups) overload.necks.push_back(neck(joints));
     if (!overload.necks.empty() && overload.voxels >= overload_voxels_min)
       found_.overloads.push_back(std::move(overload));
@@ -251,6 +298,7 @@ class Spans {
   std::vector<State> states_;               ///< by joint, as the following
   std::vector<SpringFrame::Spring> springs_;
   std::vector<Six> forces_;
+  std::vector<Six> moves_, elastic_moves_;  ///< by body that does not hold
 };
 
 }  // namespace

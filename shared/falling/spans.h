@@ -6,7 +6,8 @@
 // softening the joints that are strained most (Mackenzie and Boyle 1993). Rock is brittle: where all joints
 // of one plane section are at their limit, it is cracked through, and from then on bears only the bending
 // that its pressure can balance. So a clamped beam breaks when w L²/12 cracks its ends, because the middle
-// does not bear w L²/8 then. A plate that is cracked in part hands on its load, as yield lines do. An arch
+// does not bear w L²/8 then. A plate that is cracked in part, or along a wide section, hands on its load, as
+// yield lines do. An arch
 // stands while a thrust line fits in. A flat beam gets no thrust: what would push it apart is not known.
 //
 // Deterministic, the same bits everywhere. Lengths in voxels.
@@ -33,7 +34,7 @@ struct SpansFound {
 /// What connects to these bricks, or to bricks beside them.
 SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed);
 
-/// Parts of one frame: farther ones hold. A plate of 12 × 12 bricks, or a beam of 140.
-inline constexpr size_t span_parts_max = 144;
+/// Parts of one frame: farther ones hold. A plate of 16 × 16 bricks, or a beam of 300.
+inline constexpr size_t span_parts_max = 300;
 
 }  // namespace scree

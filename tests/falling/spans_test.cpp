@@ -76,12 +76,19 @@ size_t islands_of_deck(float span_m, uint32_t rules) {
   WorldConfig config = rock_world();
   config.terrain = rock_terrain;
   config.terrain.rows = config.palette->ground;
-  config.methods.support = true;
   config.rules = rules;
   World world(config);
   size_t islands = 0;
-  for (int tick = 0; tick < 60; ++tick) {
-    const auto delta = step(world, tick == 0 ? deck(span_m) : std::vector<Command>{});
+  CarveRequest scratch;
+  scratch.shape = box({0.5F * span_m, 6.85F, 0.0F}, {0.3F, 0.2F, 0.3F});
+  scratch.seeds = 1;
+  for (int tick = 0; tick < 120; ++tick) {
+    // The deck is whole before anybody looks at it.
+    std::vector<Command> commands;
+    if (tick == 0) commands = deck(span_m);
+    if (tick == 60) commands = {{1, 2, SettingsRequest{{{"support", "true"}}}}};
+    if (tick == 61) commands = {{1, 3, scratch}};
+    const auto delta = step(world, commands);
     EXPECT_EQ(delta->ledger.error(), 0);
     for (const AppliedOperation& applied : delta->operations)
       islands += std::holds_alternative<IslandOperation>(applied.operation) ? 1 : 0;
