@@ -15,8 +15,9 @@ namespace {
 constexpr size_t massive_bricks_min = 64;
 /// Voxels of a face of 64: what a part must lie on, and what it may carry at most, to hold as well.
 constexpr int lying_voxels_min = 38;
-/// Height up to which parts that lie on each other are one body: more than 3 m at 0.25 m, wherever it begins.
-constexpr int stack_height_max = 16;
+/// Height up to which parts that lie on each other are one body: a beam of 3 m at 0.25 m, and the rest of a
+/// brick in which a post meets it.
+constexpr int stack_height_max = 20;
 
 constexpr uint32_t reached = UINT32_MAX - 1;  ///< stands for a body until there are some
 

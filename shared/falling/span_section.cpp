@@ -1,6 +1,7 @@
 #include "shared/falling/span_section.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "shared/base/check.h"
 #include "shared/field/mass.h"
@@ -13,9 +14,28 @@ double share_of(Code code) {
   return static_cast<double>(occupancy(code)) / units_per_voxel;
 }
 
-bool is_set(const BrickBits& bits, VoxelCoord at) {
-  return ((bits.words[static_cast<size_t>(at.x)] >> static_cast<unsigned>(at.y * brick_size + at.z)) & 1U) !=
-         0;
+/// One layer of a brick across an axis: bit i·8 + j for the voxel at i along the next axis, j along the one
+/// after that.
+uint64_t plane_of(const BrickBits& bits, int axis, int k) {
+  if (axis == 0) return bits.words[static_cast<size_t>(k)];
+  uint64_t plane = 0;
+  for (unsigned x = 0; x < brick_size; ++x) {
+    const uint64_t word = bits.words[x];
+    if (axis == 2) {  // x, then y: the bits of one z
+      uint64_t row = (word >> static_cast<unsigned>(k)) & 0x0101010101010101U;
+      row = (row * 0x0102040810204080U) >> 56U;
+      plane |= row << (8 * x);
+    } else {  // z, then x
+      const uint64_t row = (word >> static_cast<unsigned>(8 * k)) & 0xFFU;
+      for (unsigned z = 0; z < brick_size; ++z) plane |= ((row >> z) & 1U) << (8 * z + x);
+    }
+  }
+  return plane;
+}
+
+/// The voxel of a brick at those places along the axis, the next one, and the one after that.
+VoxelCoord voxel_at(int axis, int k, int i, int j) {
+  return axis == 0 ? VoxelCoord{k, i, j} : axis == 1 ? VoxelCoord{j, k, i} : VoxelCoord{i, j, k};
 }
 
 /// A bar of some length in each line of cells: exact where the surface crosses the line.
@@ -66,13 +86,13 @@ void SpanSections::begin(const VoxelBox& box, int axis) {
   wide_ = along_axis(box.size(), (axis + 1) % 3);
   high_ = along_axis(box.size(), (axis + 2) % 3);
   shares_.assign(static_cast<size_t>(wide_ * high_), 0.0);
-  own_.assign(shares_.size(), false);
+  own_.assign(shares_.size(), 0);
 }
 
 void SpanSections::enter(VoxelCoord voxel, double share) {
   const size_t at = cell(voxel);
   shares_[at] = share;
-  own_[at] = true;
+  own_[at] = 1;
 }
 
 SpanSection SpanSections::measure() const {
@@ -95,54 +115,65 @@ SpanSection SpanSections::measure() const {
   return out;
 }
 
+void SpanSections::enter_own(const SpanPart& part, int k) {
+  const VoxelCoord first = first_voxel(part.brick);
+  for (uint64_t left = plane_of(part.bits, axis_, k); left != 0; left &= left - 1) {
+    const int bit = std::countr_zero(left);
+    const VoxelCoord at = voxel_at(axis_, k, bit / brick_size, bit % brick_size);
+    enter(first + at, share_of(part.codes->codes[static_cast<size_t>(Brick::index(at.x, at.y, at.z))]));
+  }
+}
+
+Code SpanSections::code(VoxelCoord voxel) {
+  const BrickCoord brick = brick_of(voxel);
+  const VoxelCoord in = voxel - first_voxel(brick);
+  return bodies_.codes(brick).codes[static_cast<size_t>(Brick::index(in.x, in.y, in.z))];
+}
+
+void SpanSections::enter_beside(const SpanPart& part, int k) {
+  constexpr uint64_t low_j = 0x0101010101010101U, high_j = low_j << 7U;
+  const VoxelCoord first = first_voxel(part.brick);
+  const uint64_t own = plane_of(part.bits, axis_, k);
+  const uint64_t beside =
+      ((own << 8U) | (own >> 8U) | ((own & ~high_j) << 1U) | ((own & ~low_j) >> 1U)) & ~own;
+  for (uint64_t left = beside; left != 0; left &= left - 1) {
+    const int bit = std::countr_zero(left);
+    const VoxelCoord at = voxel_at(axis_, k, bit / brick_size, bit % brick_size);
+    const Code there = part.codes->codes[static_cast<size_t>(Brick::index(at.x, at.y, at.z))];
+    if (there >= 0) shares_[cell(first + at)] = share_of(there);
+  }
+  const auto across_face = [&](int i, int j) {
+    const VoxelCoord voxel = first + voxel_at(axis_, k, i, j);
+    const size_t here = cell(voxel);
+    if (own_[here] != 0 || shares_[here] > 0.0) return;
+    const Code there = code(voxel);
+    if (there >= 0) shares_[here] = share_of(there);
+  };
+  for (int n = 0; n < brick_size; ++n) {
+    if (((own >> static_cast<unsigned>(n)) & 1U) != 0) across_face(-1, n);
+    if (((own >> static_cast<unsigned>(56 + n)) & 1U) != 0) across_face(brick_size, n);
+    if (((own >> static_cast<unsigned>(8 * n)) & 1U) != 0) across_face(n, -1);
+    if (((own >> static_cast<unsigned>(8 * n + 7)) & 1U) != 0) across_face(n, brick_size);
+  }
+}
+
 SpanSection SpanSections::layer(const SpanBody& body, int axis, int layer) {
   VoxelBox box{};
-  std::vector<const SpanPart*> there;
+  there_.clear();
   for (const uint32_t number : body.parts) {
     const SpanPart& part = bodies_.parts()[number];
     const VoxelCoord first = first_voxel(part.brick);
     const int k = layer - along_axis(first, axis);
     if (k < 0 || k >= brick_size) continue;
     const VoxelBox own{first, first + VoxelCoord{brick_size, brick_size, brick_size}};
-    box = there.empty() ? own : hull_of(box, own);
-    there.push_back(&part);
+    box = there_.empty() ? own : hull_of(box, own);
+    there_.push_back(&part);
   }
-  if (there.empty()) return {};
+  if (there_.empty()) return {};
   begin(box.grown(1), axis);
-  for (const SpanPart* part : there) {
-    const VoxelCoord first = first_voxel(part->brick);
-    VoxelCoord at{};
-    along_axis(at, axis) = layer - along_axis(first, axis);
-    int &i = along_axis(at, (axis + 1) % 3), &j = along_axis(at, (axis + 2) % 3);
-    for (i = 0; i < brick_size; ++i)
-      for (j = 0; j < brick_size; ++j)
-        if (is_set(part->bits, at))
-          enter(first + at,
-                share_of(part->codes->codes[static_cast<size_t>(Brick::index(at.x, at.y, at.z))]));
-  }
-  // Voxels beside them whose middle lies outside, but which hold some.
-  for (const SpanPart* part : there) {
-    const VoxelCoord first = first_voxel(part->brick);
-    VoxelCoord at{};
-    along_axis(at, axis) = layer - along_axis(first, axis);
-    int &i = along_axis(at, (axis + 1) % 3), &j = along_axis(at, (axis + 2) % 3);
-    for (i = -1; i <= brick_size; ++i)
-      for (j = -1; j <= brick_size; ++j) {
-        const bool i_out = i < 0 || i == brick_size, j_out = j < 0 || j == brick_size;
-        const size_t here = cell(first + at);
-        if ((i_out && j_out) || own_[here] || shares_[here] > 0.0) continue;
-        const auto wide = static_cast<size_t>(high_);
-        const bool beside = (i > -1 && own_[here - wide]) || (i < brick_size && own_[here + wide]) ||
-                            (j > -1 && own_[here - 1]) || (j < brick_size && own_[here + 1]);
-        if (!beside) continue;
-        const VoxelCoord voxel = first + at;
-        const BrickCoord brick = brick_of(voxel);
-        const Brick& codes = brick == part->brick ? *part->codes : bodies_.codes(brick);
-        const VoxelCoord in = voxel - first_voxel(brick);
-        const Code code = codes.codes[static_cast<size_t>(Brick::index(in.x, in.y, in.z))];
-        if (code >= 0) shares_[here] = share_of(code);
-      }
-  }
+  const auto place = [&](const SpanPart* part) { return layer - along_axis(first_voxel(part->brick), axis); };
+  for (const SpanPart* part : there_) enter_own(*part, place(part));
+  for (const SpanPart* part : there_) enter_beside(*part, place(part));
   return measure();
 }
 
@@ -158,18 +189,12 @@ SpanSection SpanSections::face(std::span<const SpanContact> contacts, int axis, 
     const SpanPart &lower = bodies_.parts()[contact.lower], &upper = bodies_.parts()[contact.upper];
     const VoxelCoord first = first_voxel(upper.brick);
     const BrickBits both = across(lower.bits, 2 * static_cast<size_t>(axis)) & upper.bits;
-    VoxelCoord at{};
-    int &i = along_axis(at, (axis + 1) % 3), &j = along_axis(at, (axis + 2) % 3);
-    for (i = 0; i < brick_size; ++i)
-      for (j = 0; j < brick_size; ++j)
-        if (is_set(both, at)) enter(first + at, 1.0);
+    for (uint64_t left = plane_of(both, axis, 0); left != 0; left &= left - 1) {
+      const int bit = std::countr_zero(left);
+      enter(first + voxel_at(axis, 0, bit / brick_size, bit % brick_size), 1.0);
+    }
   }
   // The mean of both sides, and of what lies beside them: so a sloping beam's section is not too small.
-  const auto code = [&](VoxelCoord voxel) {
-    const BrickCoord brick = brick_of(voxel);
-    const VoxelCoord in = voxel - first_voxel(brick);
-    return bodies_.codes(brick).codes[static_cast<size_t>(Brick::index(in.x, in.y, in.z))];
-  };
   VoxelCoord step{};
   along_axis(step, axis) = 1;
   VoxelCoord voxel = box.lo;
@@ -180,12 +205,13 @@ SpanSection SpanSections::face(std::span<const SpanContact> contacts, int axis, 
     for (j = j_lo; j < j_lo + high_; ++j) {
       const size_t here = cell(voxel);
       const auto wide = static_cast<size_t>(high_);
-      const bool beside = (i > i_lo && own_[here - wide]) || (i < i_lo + wide_ - 1 && own_[here + wide]) ||
-                          (j > j_lo && own_[here - 1]) || (j < j_lo + high_ - 1 && own_[here + 1]);
-      if (!own_[here] && !beside) continue;
+      const bool beside = (i > i_lo && own_[here - wide] != 0) ||
+                          (i < i_lo + wide_ - 1 && own_[here + wide] != 0) ||
+                          (j > j_lo && own_[here - 1] != 0) || (j < j_lo + high_ - 1 && own_[here + 1] != 0);
+      if (own_[here] == 0 && !beside) continue;
       // Beside it, rock on both sides belongs to other contacts.
       const Code low = code(voxel - step), high = code(voxel);
-      if (own_[here] || low >= 0 || high >= 0) shares_[here] = 0.5 * (share_of(low) + share_of(high));
+      if (own_[here] != 0 || low >= 0 || high >= 0) shares_[here] = 0.5 * (share_of(low) + share_of(high));
     }
   return measure();
 }

@@ -32,6 +32,10 @@ class SpanSections {
   /// An empty grid over the box, across the axis.
   void begin(const VoxelBox& box, int axis);
   void enter(VoxelCoord voxel, double share);
+  /// A part's voxels in the layer; then those beside them whose middle lies outside, but which hold some.
+  void enter_own(const SpanPart& part, int k);
+  void enter_beside(const SpanPart& part, int k);
+  Code code(VoxelCoord voxel);
   SpanSection measure() const;
   size_t cell(VoxelCoord voxel) const;
 
@@ -40,7 +44,8 @@ class SpanSections {
   VoxelCoord lo_;
   int wide_ = 0, high_ = 0;     ///< cells along the first and the second axis
   std::vector<double> shares_;  ///< of each voxel that is rock
-  std::vector<bool> own_;
+  std::vector<uint8_t> own_;
+  std::vector<const SpanPart*> there_;
 };
 
 /// Member of a coordinate along an axis.

@@ -14,8 +14,15 @@ namespace {
 
 /// States that are tried. Each one after the first is a better guess of where the rock yields.
 constexpr int states_max = 16;
-/// Products of blocks that all states of a search may take, about 10 ms. Above: what was looked at stands.
-constexpr size_t products_max = 32000;
+/// Products of blocks that all states of a search may take, about 20 ms. Above, the last state decides: it
+/// falls if bodies move, and some section is strained to more than this.
+constexpr size_t products_max = 40000;
+constexpr double unclear_ratio = 1.1;
+/// From this state on it falls for sure, if it moves so many times as far as when all was elastic, and a
+/// section is strained so much though none cracked lately.
+constexpr int sure_states = 3;
+constexpr double sure_share = 3.0;
+constexpr double sure_ratio = 1.5;
 /// After so many states nothing falls if no body moves a little farther than when all was elastic: then
 /// joints between bodies that others hold are at their limit.
 constexpr int local_states = 4;
@@ -51,17 +58,22 @@ class Spans {
 
   SpansFound run() {
     if (frame_.loads.empty()) return found_;
-    double best = 1e30;
-    int idle = 0;
+    double best = 1e30, most = 0.0;
+    int idle = 0, settled = 0;  // states since the ratio fell, and since a section cracked
     for (int i = 0; i < states_max; ++i) {
-      if (!solve()) return found_;
+      if (!solve()) {
+        if (i == 0 || most < unclear_ratio || !any_moves(moved_share)) return found_;
+        break;
+      }
       if (i == 0) remember_elastic();
-      const double most = judge();
+      most = judge();
       if (i == 0) found_.strain = most;
       if (most <= tolerance) return found_;
       if (i >= local_states && !any_moves(local_share)) return found_;
+      if (i >= sure_states && settled >= 2 && most > sure_ratio && any_moves(sure_share)) break;
       const bool cracked = crack();
       idle = most < 0.99 * best || cracked ? 0 : idle + 1;
+      settled = cracked ? 0 : settled + 1;
       best = std::min(best, most);
       if (idle > 3) break;
       soften();
