@@ -101,7 +101,7 @@ void add_spans(World::State& state, std::span<const BrickCoord> cluster, Support
   if (state.config.rules < rules::spans || !found.overloads.empty()) return;
   SpansFound spans = find_spans(state.field, *state.palette, cluster);
   state.work.spend(limits::span_brick_cost_us * static_cast<float>(spans.bricks_read) +
-                   limits::span_body_cost_us * static_cast<float>(spans.bodies) +
+                   limits::span_joint_cost_us * static_cast<float>(spans.joints) +
                    limits::span_product_cost_us * static_cast<float>(spans.products));
   found.overloads = std::move(spans.overloads);
 }

@@ -52,6 +52,7 @@ class Spans {
     found_.bricks_read = bodies_.bricks_read();
     frame_ = join_spans(bodies_, field.source().voxel_size_m);
     found_.bodies = frame_.loads.size();
+    found_.joints = frame_.joints.size();
     states_.resize(frame_.joints.size());
     find_loose();
   }

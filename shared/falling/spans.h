@@ -25,8 +25,9 @@ namespace scree {
 
 struct SpansFound {
   std::vector<Overload> overloads;
-  size_t bodies = 0;       ///< of the frame
-  size_t bricks_read = 0;  ///< measures of the cost, with the products of blocks of all solutions
+  size_t bodies = 0;  ///< of the frame
+  size_t joints = 0;
+  size_t bricks_read = 0;  ///< as joints, a measure of the cost; with the products of blocks in all solutions
   size_t products = 0;
   double strain = 0.0;  ///< greatest tension of the elastic state over what its section bears
 };
@@ -34,7 +35,7 @@ struct SpansFound {
 /// What connects to these bricks, or to bricks beside them.
 SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed);
 
-/// Parts of one frame: farther ones hold. A plate of 16 × 16 bricks, or a beam of 300.
-inline constexpr size_t span_parts_max = 300;
+/// Parts of one frame: farther ones hold. A plate of 12 × 12 bricks, or a beam of 150.
+inline constexpr size_t span_parts_max = 160;
 
 }  // namespace scree
