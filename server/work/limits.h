@@ -47,7 +47,7 @@ inline constexpr float support_part_cost_us = 0.7F;
 /// A brick and a joint of a search for spans, and a product of blocks in its solutions
 /// (shared/falling/spans.h).
 inline constexpr float span_brick_cost_us = 1.3F;
-inline constexpr float span_joint_cost_us = 30.0F;
+inline constexpr float span_joint_cost_us = 36.0F;
 inline constexpr float span_product_cost_us = 0.3F;
 
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
