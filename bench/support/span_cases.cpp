@@ -15,7 +15,7 @@ namespace {
 constexpr float voxel_m = 0.25F;
 constexpr float level_m = 9.0F;  ///< of a beam's middle: more than a brick above the ground
 constexpr float half_width_m = 1.0F;
-/// Of a clamped square plate, w L²/n is the bending at its limit: 42.85 exactly (Fox 1974). Straight yield
+/// At the limit of a clamped square plate the bending is w L²/n: 42.85 exactly (Fox 1974). Straight yield
 /// lines give an upper bound, 48.
 constexpr double clamped_plate_n = 42.85;
 

@@ -60,7 +60,7 @@ class SpanBodies {
   const std::vector<SpanBody>& bodies() const { return bodies_; }
   /// Between different bodies, of which one at least does not hold.
   const std::vector<SpanContact>& contacts() const { return contacts_; }
-  /// Of any brick; valid as long as this.
+  /// Those of any brick; valid as long as this.
   const Brick& codes(BrickCoord brick) { return *entry(brick).codes; }
   /// Bricks that were read: a measure of the cost.
   size_t bricks_read() const { return bricks_.size(); }

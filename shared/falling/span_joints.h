@@ -44,8 +44,8 @@ SpanJoints join_spans(SpanBodies& bodies, float voxel_m);
 struct SpanStrain {
   double bent = 0.0;     ///< tension at the edge, of bending and torsion
   double pressed = 0.0;  ///< pressure over the section, negative when pulled
-  /// Of a section that is cracked through and pressed: the tension of as much bending as it can bear by
-  /// turning about its edge.
+  /// The tension of as much bending as a section that is cracked through and pressed can bear, by turning
+  /// about its edge.
   double rocking = 0.0;
 };
 SpanStrain strain_of(const SpanJoint& joint, const SpanCheck& check, glm::dvec3 place, const Six& forces);

@@ -13,16 +13,16 @@ namespace scree {
 namespace {
 
 /// States that are tried. Each one after the first is a better guess of where the rock yields.
-constexpr int states_max = 16;
+constexpr int states_max = 24;
 /// Products of blocks that all states of a search may take, about 20 ms. Above, the last state decides: it
 /// falls if bodies move, and some section is strained to more than this.
-constexpr size_t products_max = 40000;
-constexpr double unclear_ratio = 1.1;
+constexpr size_t products_max = 48000;
+constexpr double unclear_ratio = 1.15;
 /// From this state on it falls for sure, if it moves so many times as far as when all was elastic, and a
 /// section is strained so much though none cracked lately.
 constexpr int sure_states = 3;
 constexpr double sure_share = 3.0;
-constexpr double sure_ratio = 1.5;
+constexpr double sure_ratio = 2.0;
 /// After so many states nothing falls if no body moves a little farther than when all was elastic: then
 /// joints between bodies that others hold are at their limit.
 constexpr int local_states = 4;
@@ -30,7 +30,7 @@ constexpr double local_share = 1.2;
 /// A section through more joints is no beam's: its cracks are yield lines, which keep their bending.
 constexpr size_t beam_joints_max = 4;
 /// How far beyond its strength a section of a state may be strained that counts as bearable.
-constexpr double tolerance = 1.02;
+constexpr double tolerance = 1.055;
 /// Joints at this part of their strength are at their limit.
 constexpr double limit_share = 0.97;
 /// What a joint keeps of its stiffness at least.
@@ -59,7 +59,7 @@ class Spans {
 
   SpansFound run() {
     if (frame_.loads.empty()) return found_;
-    double best = 1e30, most = 0.0;
+    double before = 1e30, most = 0.0;
     int idle = 0, settled = 0;  // states since the ratio fell, and since a section cracked
     for (int i = 0; i < states_max; ++i) {
       if (!solve()) {
@@ -73,9 +73,9 @@ class Spans {
       if (i >= local_states && !any_moves(local_share)) return found_;
       if (i >= sure_states && settled >= 2 && most > sure_ratio && any_moves(sure_share)) break;
       const bool cracked = crack();
-      idle = most < 0.99 * best || cracked ? 0 : idle + 1;
+      idle = most < 0.99 * before || cracked ? 0 : idle + 1;
       settled = cracked ? 0 : settled + 1;
-      best = std::min(best, most);
+      before = most;
       if (idle > 3) break;
       soften();
     }
@@ -232,7 +232,9 @@ class Spans {
           strain_of(frame_.joints[i], check, place(i), forces_[i]).pressed < -0.5 * check.strength;
       if (pulled || state.stiffness < turned_min)
         state.tightness = std::max(state.tightness / std::min(state.ratio, 100.0), stiffness_min);
-      state.stiffness = std::max(state.stiffness / state.ratio, stiffness_min);
+      // By a power below 1, three quarters, because whole steps swing about the limit.
+      const double root = std::sqrt(state.ratio);
+      state.stiffness = std::max(state.stiffness / (root * std::sqrt(root)), stiffness_min);
     }
   }
 

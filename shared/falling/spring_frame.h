@@ -34,7 +34,7 @@ class SpringFrame {
   /// Call once, after all springs. False when a body is free to move, or when it takes more than `steps`
   /// products of blocks.
   bool factorise(size_t steps);
-  /// Of blocks, in factorise().
+  /// Products of blocks that factorise() took.
   size_t products() const { return products_; }
   /// Loads on the bodies become their shifts and turns.
   void solve(std::vector<Six>& loads) const;
