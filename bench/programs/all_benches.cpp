@@ -81,6 +81,8 @@ std::vector<Bench> benches_from_l() {
        run_storm_bench,
        {},
        true},
+      {"beams", "beams, plates and arches of many heights against theory, and the search's time",
+       run_beams_bench},
       {"support", "beams of three heights and materials against the formula, and the search's time",
        run_support_bench},
       {"transforms", "900 boxes pushed about, and a blast of 1,000 pieces: bits of a pose, four ways",

@@ -31,6 +31,7 @@ BenchReport run_replay_bench(const BenchOptions& options);
 BenchReport run_seams_bench(const BenchOptions& options);
 BenchReport run_storage_bench(const BenchOptions& options);
 BenchReport run_storm_bench(const BenchOptions& options);
+BenchReport run_beams_bench(const BenchOptions& options);
 BenchReport run_support_bench(const BenchOptions& options);
 BenchReport run_transforms_bench(const BenchOptions& options);
 BenchReport run_wire_bench(const BenchOptions& options);

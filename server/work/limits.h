@@ -44,6 +44,11 @@ inline constexpr float speck_cost_us = 200.0F;
 /// (shared/falling/support_search.h).
 inline constexpr float island_brick_cost_us = 1.0F;
 inline constexpr float support_part_cost_us = 0.7F;
+/// A brick and a joint of a search for spans, and a product of blocks in its solutions
+/// (shared/falling/spans.h).
+inline constexpr float span_brick_cost_us = 1.3F;
+inline constexpr float span_joint_cost_us = 36.0F;
+inline constexpr float span_product_cost_us = 0.3F;
 
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.

@@ -1,5 +1,6 @@
-// In which order a world serves the work that its parties caused. A recording says by which rules it was
-// made, and is verified by these. A world of an older file is played on by the newest.
+// By which rules a world goes: in which order it serves the work that its parties caused, what its merges make, what
+// its search for support finds, and how its pieces break and fly. A recording says by which rules it was made, and is
+// verified by these. A world of an older file is played on by the newest.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +16,10 @@ inline constexpr uint32_t by_party = 1;
 inline constexpr uint32_t spare_time = 2;
 /// Also, merges make rubble, of which the palette has rows.
 inline constexpr uint32_t rubble = 3;
+/// Also, the search for support finds spans that break between several supports (shared/falling/spans.h).
+inline constexpr uint32_t spans = 4;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = rubble;
+inline constexpr uint32_t newest = spans;
 }  // namespace rules
 
 }  // namespace scree

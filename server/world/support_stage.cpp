@@ -7,9 +7,11 @@
 #include "server/work/limits.h"
 #include "server/work/price.h"
 #include "server/world/limits.h"
+#include "server/world/rules.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/falling/spans.h"
 #include "shared/falling/support_search.h"
 
 namespace scree {
@@ -94,15 +96,25 @@ bool break_off(World::State& state, const Overload& overload, uint64_t party, Ti
   return true;
 }
 
+/// Where nothing is too heavy for its neck and nothing is a lever: whether a span between supports breaks.
+void add_spans(World::State& state, std::span<const BrickCoord> cluster, SupportFound& found) {
+  if (state.config.rules < rules::spans || !found.overloads.empty()) return;
+  SpansFound spans = find_spans(state.field, *state.palette, cluster);
+  state.work.spend(limits::span_brick_cost_us * static_cast<float>(spans.bricks_read) +
+                   limits::span_joint_cost_us * static_cast<float>(spans.joints) +
+                   limits::span_product_cost_us * static_cast<float>(spans.products));
+  found.overloads = std::move(spans.overloads);
+}
+
 /// Searches the party's first cluster, and breaks off what is too heavy. Whether anything was.
 bool search_cluster(World::State& state, uint64_t party, TickDelta& delta) {
   std::set<BrickCoord>& strained = state.strained.at(party);
   const std::vector<BrickCoord> cluster = first_cluster(strained);
   for (const BrickCoord brick : cluster) strained.erase(brick);
-  const SupportFound found =
-      find_overloads(state.field, *state.palette, cluster, limits::support_reach_bricks);
+  SupportFound found = find_overloads(state.field, *state.palette, cluster, limits::support_reach_bricks);
   state.work.spend(limits::support_part_cost_us * static_cast<float>(found.parts));
   delta.work.supports_given_up += found.given_up ? 1 : 0;
+  add_spans(state, cluster, found);
   bool room = true;
   for (const Overload& overload : found.overloads) room = room && break_off(state, overload, party, delta);
   if (!room) state.strained[party].insert(cluster.begin(), cluster.end());
