@@ -1,5 +1,6 @@
-// In which order a world serves the work that its parties caused. A recording says by which rules it was
-// made, and is verified by these. A world of an older file is played on by the newest.
+// In which order a world serves the work that its parties caused, and how blows throw and break. A recording
+// says by which rules it was made, and is verified by these. A world of an older file is played on by the
+// newest.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,11 @@ inline constexpr uint32_t as_they_come = 0;
 inline constexpr uint32_t by_party = 1;
 /// Also, a fall or a cut that fits into no tick comes as soon as ticks with time to spare have paid for it.
 inline constexpr uint32_t spare_time = 2;
+/// Also, what is random in blasts and breaks goes by place and not by ids of pieces, blasts push to the open
+/// side, a carve in stages keeps the pattern's gradient, and even rock breaks into natural sizes.
+inline constexpr uint32_t by_place = 3;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = spare_time;
+inline constexpr uint32_t newest = by_place;
 }  // namespace rules
 
 }  // namespace scree

@@ -8,6 +8,7 @@
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/field/eight_bytes.h"
+#include "shared/field/mass.h"
 #include "shared/field/voxel_vector.h"
 
 namespace scree {
@@ -184,6 +185,22 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
   }
   CHECK_DEBUG(all_apart(out.seeds));
   return std::move(out.seeds);
+}
+
+double seeds_due(const Volume& part, SeedPattern pattern, glm::vec3 impact_voxels) {
+  CHECK(is_drawn(pattern));
+  if (traits_of(pattern).places != at_impact) return static_cast<double>(part.mass);
+  double sum = 0.0;
+  const VoxelBox& box = part.window.box;
+  const Code* code = part.window.codes.data();
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z, ++code) {
+        if (*code >= 0) continue;
+        const glm::vec3 off = as_vector(VoxelCoord{x, y, z}) - impact_voxels;
+        sum += static_cast<double>(occupancy(*code)) / std::max(1.0, static_cast<double>(glm::dot(off, off)));
+      }
+  return sum;
 }
 
 std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<glm::vec3>& points_voxels,

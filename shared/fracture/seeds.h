@@ -5,6 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
+#include "shared/field/piece.h"
 #include "shared/field/window.h"
 #include "shared/fracture/seed_pattern.h"
 
@@ -14,6 +15,9 @@ namespace scree {
 /// none where the volume has no solid voxel. The pattern is one of drawn_patterns.
 std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, uint32_t count,
                                      uint32_t random_seed, glm::vec3 impact_voxels);
+
+/// How many of a drawn pattern's seeds lie in a part of a volume, relative to other parts.
+double seeds_due(const Volume& part, SeedPattern pattern, glm::vec3 impact_voxels);
 
 /// The points (voxels) that can be seeds, in their order. A point outside the volume (its voxel is not
 /// solid), or nearer than a voxel to an earlier one, is dropped, so that every seed gets a cell. When none is
