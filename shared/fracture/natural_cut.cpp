@@ -22,7 +22,7 @@ namespace {
 constexpr float law_n = 1.2F;
 /// The most of a volume that becomes dust.
 constexpr float fines_share_max = 0.06F;
-/// Fewer pieces are all wanted: none is planned as dust.
+/// A break into fewer leaves no dust: so few are all large.
 constexpr uint32_t fines_seeds_min = 16;
 /// Mass of the smallest piece that is planned, voxels; smaller than limits::piece_mass_min none can be.
 constexpr float piece_voxels_min = 2.5F;
@@ -207,7 +207,7 @@ void cut_on(Cut& cut, const NaturalBreak& natural) {
   for (const Block& block : plan.blocks)
     cut_block(std::move(cut.pieces[block.piece]), block.pieces, natural,
               natural.random_seed + 1 + static_cast<uint32_t>(block.piece), made);
-  turn_fines_to_dust(made, natural.seeds);
+  if (natural.seeds >= fines_seeds_min) turn_fines_to_dust(made, natural.seeds);
   cut = std::move(made);
 }
 
