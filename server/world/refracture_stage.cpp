@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <optional>
 
 #include "server/work/limits.h"
 #include "server/work/price.h"
@@ -16,8 +18,8 @@ namespace scree {
 namespace {
 
 /// Pieces of a natural break of which each part of it, cut in stages, gets at least so many.
-constexpr uint32_t natural_pieces_min = 24;
-constexpr uint32_t natural_parts_min = 8;
+constexpr uint32_t natural_pieces_min = 40;
+constexpr uint32_t natural_parts_min = 5;
 
 /// The blow in the frame of a piece's volume: that of the terrain that it was cut from, however it has flown.
 glm::vec3 impact_voxels(const World::State& state, const PendingRefracture& pending) {
@@ -54,10 +56,16 @@ float next_cut_us(const World::State& state, const PendingRefracture& pending) {
   return cut_price_us(cutter, voxels, pieces_at_once(cutter, voxels, pending.pieces));
 }
 
-/// A piece's share of the seeds of all, up to a factor that all have in common.
-double share_of(const World::State& state, const Volume& volume, const PendingRefracture& of_all) {
-  if (state.config.rules < rules::by_place) return static_cast<double>(volume.mass);
-  return seeds_due(volume, of_all.pattern, impact_voxels(state, of_all));
+/// Each piece's share of the seeds of all, up to a factor that all have in common.
+std::vector<double> shares_of(const World::State& state, const Applied& applied,
+                              const PendingRefracture& of_all) {
+  std::vector<const Volume*> parts;
+  for (const CreatedPiece& created : applied.created) parts.push_back(state.pieces.at(created.id).get());
+  if (state.config.rules >= rules::by_place)
+    return seeds_due(parts, of_all.pattern, impact_voxels(state, of_all));
+  std::vector<double> masses;
+  for (const Volume* part : parts) masses.push_back(static_cast<double>(part->mass));
+  return masses;
 }
 
 /// So many of all pieces; by place, what is rounded off goes to the next.
@@ -68,12 +76,8 @@ uint32_t pieces_of(const World::State& state, double before, double share, doubl
 }
 
 void share_out(World::State& state, const Applied& applied, const PendingRefracture& of_all) {
-  double sum = 0.0;
-  std::vector<double> shares;
-  for (const CreatedPiece& created : applied.created) {
-    shares.push_back(share_of(state, *state.pieces.at(created.id), of_all));
-    sum += shares.back();
-  }
+  const std::vector<double> shares = shares_of(state, applied, of_all);
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
   if (sum == 0.0 || of_all.pieces <= applied.created.size()) return;
   if (of_all.piece != 0 && applied.created.size() < 2) return;  // it cannot be cut, now or later
   double before = 0.0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -17,6 +18,8 @@ namespace {
 
 /// Positions tried for a seed, on average: those too near to others or rejected by the draw are lost.
 constexpr uint32_t tries_per_seed = 32;
+/// In this last part of the tries every pattern becomes uniform.
+constexpr double uniform_tries = 0.25;
 constexpr float spacing_voxels = 1.0F;
 
 /// Seeds by unit cell, so that a seed's neighbours are found in constant time. They lie in voxels of a box.
@@ -147,6 +150,23 @@ int rounded(float x) {
   return floor_to_int(x + 0.5F);
 }
 
+/// Σ 1/d² over the solid voxels, within a voxel 1, by their mass; and the least d² so far.
+double density_sum(const Window& window, glm::vec3 impact_voxels, double& nearest2) {
+  double sum = 0.0;
+  const VoxelBox& box = window.box;
+  const Code* code = window.codes.data();
+  for (int x = box.lo.x; x < box.hi.x; ++x)
+    for (int y = box.lo.y; y < box.hi.y; ++y)
+      for (int z = box.lo.z; z < box.hi.z; ++z, ++code) {
+        if (*code >= 0) continue;
+        const glm::vec3 off = as_vector(VoxelCoord{x, y, z}) - impact_voxels;
+        const auto distance2 = static_cast<double>(glm::dot(off, off));
+        nearest2 = std::min(nearest2, distance2);
+        sum += static_cast<double>(occupancy(*code)) / units_per_voxel / std::max(1.0, distance2);
+      }
+  return sum;
+}
+
 }  // namespace
 
 std::vector<glm::vec3> at_impact(uint32_t /*count*/, glm::vec3 impact_voxels,
@@ -180,27 +200,33 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
     const float dx = random.unit() - 0.5F, dy = random.unit() - 0.5F, dz = random.unit() - 0.5F;
     const glm::vec3 p = as_vector(voxel) + glm::vec3(dx, dy, dz);
     const float draw = random.unit();
-    // In the last quarter of the tries every pattern becomes uniform.
+    static_assert(uniform_tries == 0.25);
     if (density.wants(p, draw) || tries > tries_max - tries_max / 4) out.add(flattened(p));
   }
   CHECK_DEBUG(all_apart(out.seeds));
   return std::move(out.seeds);
 }
 
-double seeds_due(const Volume& part, SeedPattern pattern, glm::vec3 impact_voxels) {
+std::vector<double> seeds_due(const std::vector<const Volume*>& parts, SeedPattern pattern,
+                              glm::vec3 impact_voxels) {
   CHECK(is_drawn(pattern));
-  if (traits_of(pattern).places != at_impact) return static_cast<double>(part.mass);
-  double sum = 0.0;
-  const VoxelBox& box = part.window.box;
-  const Code* code = part.window.codes.data();
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y)
-      for (int z = box.lo.z; z < box.hi.z; ++z, ++code) {
-        if (*code >= 0) continue;
-        const glm::vec3 off = as_vector(VoxelCoord{x, y, z}) - impact_voxels;
-        sum += static_cast<double>(occupancy(*code)) / std::max(1.0, static_cast<double>(glm::dot(off, off)));
-      }
-  return sum;
+  std::vector<double> by_mass, by_density;
+  double voxels = 0.0, all = 0.0, nearest2 = std::numeric_limits<double>::max();
+  for (const Volume* part : parts) {
+    by_mass.push_back(static_cast<double>(part->mass) / units_per_voxel);
+    by_density.push_back(density_sum(part->window, impact_voxels, nearest2));
+    voxels += by_mass.back();
+    all += by_density.back();
+  }
+  if (traits_of(pattern).places != at_impact || all == 0.0 || voxels == 0.0) return by_mass;
+  // Of a plain pattern's seeds so many are drawn by density, and then the tries become uniform. A part that
+  // is cut on draws its own.
+  const double accepted = std::max(1.0, nearest2) * all / voxels;
+  const double dense =
+      is_cut_on(pattern) ? 1.0 : std::min(1.0, accepted * tries_per_seed * (1.0 - uniform_tries));
+  for (size_t i = 0; i < parts.size(); ++i)
+    by_mass[i] = dense * by_density[i] / all + (1.0 - dense) * by_mass[i] / voxels;
+  return by_mass;
 }
 
 std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<glm::vec3>& points_voxels,

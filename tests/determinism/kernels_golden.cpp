@@ -268,8 +268,11 @@ void print_natural(Cutter cutter) {
     for (const auto& [id, piece] : pieces) {
       digest.add(uint64_t{id});
       digest.add(*piece);
-      digest.add(std::bit_cast<uint64_t>(seeds_due(*piece, SeedPattern::natural, ground / 0.25F)));
     }
+    std::vector<const Volume*> parts;
+    for (const auto& [id, piece] : pieces) parts.push_back(piece.get());
+    for (const double due : seeds_due(parts, SeedPattern::radial, ground / 0.25F))
+      digest.add(std::bit_cast<uint64_t>(due));
   }
   digest.print("natural_" + std::string(name_of(cutter)));
 }
