@@ -26,6 +26,13 @@ glm::vec3 impact_voxels(const World::State& state, const PendingRefracture& pend
   return pending.impact_m / state.config.terrain.voxel_size_m;
 }
 
+/// Within a part of a carve, a pattern about the impact would be steeper than over the whole, where many
+/// seeds are uniform (seeds_due): its last cut is plain. The parts have the gradient.
+bool ends_plain(SeedPattern pattern) {
+  const SeedPatternRow& row = traits_of(pattern);
+  return row.places == at_impact && row.flattened == Flattened::none && !row.is_cut_on;
+}
+
 ShatterOperation operation_of(const World::State& state, const PendingRefracture& pending,
                               const BodyState& body) {
   const Volume& volume = *state.pieces.at(pending.piece);
@@ -43,7 +50,10 @@ ShatterOperation operation_of(const World::State& state, const PendingRefracture
       .impact_voxels = by_place ? impact_voxels(state, pending) : volume.centre_voxels + off_m / dx,
       .first_piece = state.next_piece,
       .cutter = cutter};
-  if (operation.seeds < pending.pieces) begin_in_stages(operation.pattern, operation.seeds, pending.pieces);
+  if (operation.seeds < pending.pieces)
+    begin_in_stages(operation.pattern, operation.seeds, pending.pieces);
+  else if (by_place && pending.thrown_by == nullptr && ends_plain(operation.pattern))
+    operation.pattern = plain_pattern;
   return operation;
 }
 

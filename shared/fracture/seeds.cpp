@@ -219,8 +219,8 @@ std::vector<double> seeds_due(const std::vector<const Volume*>& parts, SeedPatte
     all += by_density.back();
   }
   if (traits_of(pattern).places != at_impact || all == 0.0 || voxels == 0.0) return by_mass;
-  // Of a plain pattern's seeds so many are drawn by density, and then the tries become uniform. A part that
-  // is cut on draws its own.
+  // So many seeds of a plain pattern are drawn by density, before the tries become uniform. A part that is
+  // cut on draws its own.
   const double accepted = std::max(1.0, nearest2) * all / voxels;
   const double dense =
       is_cut_on(pattern) ? 1.0 : std::min(1.0, accepted * tries_per_seed * (1.0 - uniform_tries));
