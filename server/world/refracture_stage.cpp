@@ -26,13 +26,6 @@ glm::vec3 impact_voxels(const World::State& state, const PendingRefracture& pend
   return pending.impact_m / state.config.terrain.voxel_size_m;
 }
 
-/// Within a part of a carve, a pattern about the impact would be steeper than over the whole, where many
-/// seeds are uniform (seeds_due): its last cut is plain. The parts have the gradient.
-bool ends_plain(SeedPattern pattern) {
-  const SeedPatternRow& row = traits_of(pattern);
-  return row.places == at_impact && row.flattened == Flattened::none && !row.is_cut_on;
-}
-
 ShatterOperation operation_of(const World::State& state, const PendingRefracture& pending,
                               const BodyState& body) {
   const Volume& volume = *state.pieces.at(pending.piece);
@@ -50,10 +43,7 @@ ShatterOperation operation_of(const World::State& state, const PendingRefracture
       .impact_voxels = by_place ? impact_voxels(state, pending) : volume.centre_voxels + off_m / dx,
       .first_piece = state.next_piece,
       .cutter = cutter};
-  if (operation.seeds < pending.pieces)
-    begin_in_stages(operation.pattern, operation.seeds, pending.pieces);
-  else if (by_place && pending.thrown_by == nullptr && ends_plain(operation.pattern))
-    operation.pattern = plain_pattern;
+  if (operation.seeds < pending.pieces) begin_in_stages(operation.pattern, operation.seeds, pending.pieces);
   return operation;
 }
 
@@ -67,15 +57,15 @@ float next_cut_us(const World::State& state, const PendingRefracture& pending) {
 }
 
 /// Each piece's share of the seeds of all, up to a factor that all have in common.
-std::vector<double> shares_of(const World::State& state, const Applied& applied,
-                              const PendingRefracture& of_all) {
+std::vector<SeedsDue> shares_of(const World::State& state, const Applied& applied,
+                                const PendingRefracture& of_all) {
   std::vector<const Volume*> parts;
   for (const CreatedPiece& created : applied.created) parts.push_back(state.pieces.at(created.id).get());
   if (state.config.rules >= rules::by_place)
     return seeds_due(parts, of_all.pattern, impact_voxels(state, of_all));
-  std::vector<double> masses;
-  for (const Volume* part : parts) masses.push_back(static_cast<double>(part->mass));
-  return masses;
+  std::vector<SeedsDue> by_mass;
+  for (const Volume* part : parts) by_mass.push_back({static_cast<double>(part->mass), of_all.pattern});
+  return by_mass;
 }
 
 /// So many of all pieces; by place, what is rounded off goes to the next.
@@ -86,8 +76,9 @@ uint32_t pieces_of(const World::State& state, double before, double share, doubl
 }
 
 void share_out(World::State& state, const Applied& applied, const PendingRefracture& of_all) {
-  const std::vector<double> shares = shares_of(state, applied, of_all);
-  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0);
+  const std::vector<SeedsDue> shares = shares_of(state, applied, of_all);
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0,
+                                     [](double before, const SeedsDue& due) { return before + due.share; });
   if (sum == 0.0 || of_all.pieces <= applied.created.size()) return;
   if (of_all.piece != 0 && applied.created.size() < 2) return;  // it cannot be cut, now or later
   double before = 0.0;
@@ -96,8 +87,9 @@ void share_out(World::State& state, const Applied& applied, const PendingRefract
     PendingRefracture pending = of_all;
     if (pending.piece != 0) pending.thrown_by = nullptr;  // its parts were thrown when it was cut
     pending.piece = created.id;
-    pending.pieces = pieces_of(state, before, shares[i], sum, of_all.pieces);
-    before += shares[i];
+    pending.pieces = pieces_of(state, before, shares[i].share, sum, of_all.pieces);
+    pending.pattern = shares[i].pattern;
+    before += shares[i].share;
     if (pending.pieces >= 2) enter_refracture(state, pending);
   }
 }

@@ -207,26 +207,34 @@ std::vector<glm::vec3> scatter_seeds(const Window& volume, SeedPattern pattern, 
   return std::move(out.seeds);
 }
 
-std::vector<double> seeds_due(const std::vector<const Volume*>& parts, SeedPattern pattern,
-                              glm::vec3 impact_voxels) {
+std::vector<SeedsDue> seeds_due(const std::vector<const Volume*>& parts, SeedPattern pattern,
+                                glm::vec3 impact_voxels) {
   CHECK(is_drawn(pattern));
-  std::vector<double> by_mass, by_density;
-  double voxels = 0.0, all = 0.0, nearest2 = std::numeric_limits<double>::max();
+  std::vector<double> voxels, densities;
+  double all_voxels = 0.0, all_density = 0.0, nearest2 = std::numeric_limits<double>::max();
   for (const Volume* part : parts) {
-    by_mass.push_back(static_cast<double>(part->mass) / units_per_voxel);
-    by_density.push_back(density_sum(part->window, impact_voxels, nearest2));
-    voxels += by_mass.back();
-    all += by_density.back();
+    voxels.push_back(static_cast<double>(part->mass) / units_per_voxel);
+    densities.push_back(density_sum(part->window, impact_voxels, nearest2));
+    all_voxels += voxels.back();
+    all_density += densities.back();
   }
-  if (traits_of(pattern).places != at_impact || all == 0.0 || voxels == 0.0) return by_mass;
+  const SeedPatternRow& row = traits_of(pattern);
   // So many seeds of a plain pattern are drawn by density, before the tries become uniform. A part that is
   // cut on draws its own.
-  const double accepted = std::max(1.0, nearest2) * all / voxels;
-  const double dense =
-      is_cut_on(pattern) ? 1.0 : std::min(1.0, accepted * tries_per_seed * (1.0 - uniform_tries));
-  for (size_t i = 0; i < parts.size(); ++i)
-    by_mass[i] = dense * by_density[i] / all + (1.0 - dense) * by_mass[i] / voxels;
-  return by_mass;
+  double dense = row.is_cut_on ? 1.0 : 0.0;
+  if (row.places == at_impact && !row.is_cut_on && all_voxels > 0.0)
+    dense = std::min(
+        1.0, std::max(1.0, nearest2) * all_density / all_voxels * tries_per_seed * (1.0 - uniform_tries));
+  if (all_density == 0.0) dense = 0.0;
+  std::vector<SeedsDue> due;
+  for (size_t i = 0; i < parts.size(); ++i) {
+    const double by_density = dense > 0.0 ? dense * densities[i] / all_density : 0.0;
+    const double uniform = all_voxels > 0.0 ? (1.0 - dense) * voxels[i] / all_voxels : 0.0;
+    const bool becomes_plain =
+        row.places == at_impact && row.flattened == Flattened::none && parts.size() > 1;
+    due.push_back({by_density + uniform, becomes_plain && uniform > by_density ? plain_pattern : pattern});
+  }
+  return due;
 }
 
 std::vector<glm::vec3> authored_seeds(const Window& volume, const std::vector<glm::vec3>& points_voxels,

@@ -271,8 +271,8 @@ void print_natural(Cutter cutter) {
     }
     std::vector<const Volume*> parts;
     for (const auto& [id, piece] : pieces) parts.push_back(piece.get());
-    for (const double due : seeds_due(parts, SeedPattern::radial, ground / 0.25F))
-      digest.add(std::bit_cast<uint64_t>(due));
+    for (const SeedsDue& due : seeds_due(parts, SeedPattern::radial, ground / 0.25F))
+      digest.add(std::bit_cast<uint64_t>(due.share));
   }
   digest.print("natural_" + std::string(name_of(cutter)));
 }
