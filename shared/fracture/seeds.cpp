@@ -18,6 +18,9 @@ namespace {
 
 /// Positions tried for a seed, on average: those too near to others or rejected by the draw are lost.
 constexpr uint32_t tries_per_seed = 32;
+/// A part of a volume is cut plainly where the uniform seeds due are more than so many times the dense ones
+/// (bench sizes: the gradient in stages is then that at once).
+constexpr double plain_ratio = 3.0;
 /// In this last part of the tries every pattern becomes uniform.
 constexpr double uniform_tries = 0.25;
 constexpr float spacing_voxels = 1.0F;
@@ -232,7 +235,8 @@ std::vector<SeedsDue> seeds_due(const std::vector<const Volume*>& parts, SeedPat
     const double uniform = all_voxels > 0.0 ? (1.0 - dense) * voxels[i] / all_voxels : 0.0;
     const bool becomes_plain =
         row.places == at_impact && row.flattened == Flattened::none && parts.size() > 1;
-    due.push_back({by_density + uniform, becomes_plain && uniform > by_density ? plain_pattern : pattern});
+    due.push_back({by_density + uniform,
+                   becomes_plain && uniform > plain_ratio * by_density ? plain_pattern : pattern});
   }
   return due;
 }

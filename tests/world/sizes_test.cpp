@@ -90,15 +90,15 @@ TEST(sizes, natural_pieces_follow_the_law_of_blasted_rock_and_others_do_not) {
 }
 
 TEST(sizes, the_law_and_the_gradient_stay_when_a_carve_is_cut_in_stages) {
-  constexpr uint32_t blows = 4;
+  constexpr uint32_t blows = 16;
   double radial = 0.0, radial_staged = 0.0, n = 0.0, natural_staged = 0.0;
   for (uint32_t i = 1; i <= blows; ++i) {
     int stages = 0;
-    CarveRequest carve = blow(SeedPattern::radial, 3.0F, 300, i);
+    CarveRequest carve = blow(SeedPattern::radial, 3.0F, 200, i);
     radial += at_once(carve).near_over_far(carve.impact_m) / blows;
     radial_staged += in_stages(carve, stages).near_over_far(carve.impact_m) / blows;
     EXPECT_GT(stages, 1);
-    carve = blow(SeedPattern::natural, 5.0F, 400, i);
+    carve = blow(SeedPattern::natural, 4.0F, 400, i);
     const Fragments made = in_stages(carve, stages);
     EXPECT_GT(stages, 1);
     n += made.law().n / blows;
