@@ -155,7 +155,8 @@ BenchReport run_sizes_bench(const BenchOptions& options) {
       }
   for (const SeedPattern pattern : {SeedPattern::radial, SeedPattern::natural}) {
     report_stages_of(report, pattern, 3.0F, 200, blows);
-    report_stages_of(report, pattern, 5.0F, 400, blows / 4);
+    report_stages_of(report, pattern, 4.0F, 300, blows);
+    report_stages_of(report, pattern, 5.0F, 400, blows);
     options.progress((done += 5.0) / 40.0);
   }
   return report;

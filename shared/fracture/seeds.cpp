@@ -20,7 +20,7 @@ namespace {
 constexpr uint32_t tries_per_seed = 32;
 /// A part of a volume is cut plainly where the uniform seeds due are more than so many times the dense ones
 /// (bench sizes: the gradient in stages is then that at once).
-constexpr double plain_ratio = 3.0;
+constexpr double plain_ratio = 7.0;
 /// In this last part of the tries every pattern becomes uniform.
 constexpr double uniform_tries = 0.25;
 constexpr float spacing_voxels = 1.0F;
