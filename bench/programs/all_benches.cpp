@@ -72,6 +72,10 @@ std::vector<Bench> benches_from_l() {
        "--minutes",
        run_replay_bench},
       {"seams", "50 carves of a ball merged back in place: the error of the surface", run_seams_bench},
+      {"sizes",
+       "sizes of fragments by seed pattern: Rosin and Rammler's n, fines, the gradient, at once and in "
+       "stages",
+       run_sizes_bench},
       {"storage",
        "a kept world: ticks with saving and without, bytes of a carve, a start after so many carves",
        run_storage_bench,

@@ -29,6 +29,7 @@ BenchReport run_raymarch_bench(const BenchOptions& options);
 BenchReport run_recombine_bench(const BenchOptions& options);
 BenchReport run_replay_bench(const BenchOptions& options);
 BenchReport run_seams_bench(const BenchOptions& options);
+BenchReport run_sizes_bench(const BenchOptions& options);
 BenchReport run_storage_bench(const BenchOptions& options);
 BenchReport run_storm_bench(const BenchOptions& options);
 BenchReport run_beams_bench(const BenchOptions& options);

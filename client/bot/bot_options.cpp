@@ -26,7 +26,7 @@ std::vector<std::string> names_of() {
 /// As the command line says it; complete() makes the rest of BotOptions of it.
 struct Words {
   std::string shape{name_of(CarverConfig{}.shape)};
-  std::string pattern = "radial";
+  std::string pattern{name_of(usual_pattern)};
   std::vector<float> centre_m{};  ///< empty: in the view of the world's spawn
 };
 

@@ -26,7 +26,7 @@ struct CarverConfig {
   uint32_t seeds = 64;
   /// Nothing: radial and uniform in turn. A pattern that needs points gets those of a wall's stones, every
   /// second course half a stone aside; no more than limits::authored_seeds_max.
-  std::optional<SeedPattern> pattern = SeedPattern::radial;
+  std::optional<SeedPattern> pattern = usual_pattern;
   float blast_speed_m_s = 6.0F;
 };
 

@@ -7,6 +7,7 @@
 #include "server/work/limits.h"
 #include "server/work/price.h"
 #include "server/work/work.h"
+#include "server/world/blast.h"
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -77,8 +78,9 @@ uint32_t seeds_for(const World::State& state, const Blow& blow) {
   return std::min({seeds, heavy_enough, room});
 }
 
-uint32_t random_seed(const World::State& state, PieceId id) {
-  return static_cast<uint32_t>(state.tick) * 0x9E3779B1U + id;
+uint32_t random_seed(const World::State& state, const BodyImpact& impact) {
+  const uint32_t which = state.config.rules >= rules::by_place ? number_of_place(impact.point_m) : impact.id;
+  return static_cast<uint32_t>(state.tick) * 0x9E3779B1U + which;
 }
 
 /// The initial states of the children of a break: the piece's motion at their places, and a push away from
@@ -138,6 +140,11 @@ class Breakup {
   glm::vec3 surplus_{0.0F};
 };
 
+SeedPattern break_pattern(const World::State& state, const MaterialRow& row) {
+  const SeedPattern pattern = pattern_of(row.breaks, row.axis);
+  return is_cut_on(pattern) && state.config.rules < rules::by_place ? SeedPattern::radial : pattern;
+}
+
 /// Breaks or dents in one tick: up to a limit, and as far as the tick's budget goes.
 struct Quota {
   uint32_t max = 0;
@@ -164,18 +171,19 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   const Cutter cutter = cutter_for(state.config.methods.cutter, voxels);
   if (!quota.try_afford(cut_price_us(cutter, voxels, seeds), state.work, delta.work.breaks_left_out)) return;
   const MaterialRow& row = struck_row(state, blow.impact);
-  const SeedPattern pattern = pattern_of(row.breaks, row.axis);
+  const SeedPattern pattern = break_pattern(state, row);
   Breakup breakup(state, blow);
   const PieceTraits parent = state.traits_of(id);
   state.bodies.remove(id);
-  const Applied applied = state.apply_and_record(ShatterOperation{.piece = id,
-                                                                  .pattern = pattern,
-                                                                  .seeds = seeds,
-                                                                  .random_seed = random_seed(state, id),
-                                                                  .impact_voxels = breakup.impact_voxels(),
-                                                                  .first_piece = state.next_piece,
-                                                                  .cutter = cutter},
-                                                 parent.owner, delta);
+  const Applied applied =
+      state.apply_and_record(ShatterOperation{.piece = id,
+                                              .pattern = pattern,
+                                              .seeds = seeds,
+                                              .random_seed = random_seed(state, blow.impact),
+                                              .impact_voxels = breakup.impact_voxels(),
+                                              .first_piece = state.next_piece,
+                                              .cutter = cutter},
+                             parent.owner, delta);
   CHECK_EQ(applied.terrain_gain, 0);
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
@@ -259,7 +267,7 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
       .shape = sphere(impact.point_m + impact.normal * (0.25F * radius_m), radius_m),
       .pattern = SeedPattern::uniform,
       .seeds = seeds,
-      .random_seed = random_seed(state, impact.id),
+      .random_seed = random_seed(state, impact),
       .impact_m = impact.point_m,
       .first_piece = state.next_piece,
       .cutter = cutter_for(state.config.methods.cutter,

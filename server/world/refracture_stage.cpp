@@ -2,16 +2,29 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <optional>
 
 #include "server/work/limits.h"
 #include "server/work/price.h"
+#include "server/world/blast.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/fracture/seeds.h"
 
 namespace scree {
 
 namespace {
+
+/// Pieces of a natural break of which each part of it, cut in stages, gets at least so many.
+constexpr uint32_t natural_pieces_min = 40;
+constexpr uint32_t natural_parts_min = 5;
+
+/// The blow in the frame of a piece's volume: that of the terrain that it was cut from, however it has flown.
+glm::vec3 impact_voxels(const World::State& state, const PendingRefracture& pending) {
+  return pending.impact_m / state.config.terrain.voxel_size_m;
+}
 
 ShatterOperation operation_of(const World::State& state, const PendingRefracture& pending,
                               const BodyState& body) {
@@ -19,13 +32,19 @@ ShatterOperation operation_of(const World::State& state, const PendingRefracture
   const glm::vec3 off_m = glm::conjugate(body.pose.rotation) * (pending.impact_m - body.pose.position_m);
   const auto voxels = static_cast<float>(volume.window.codes.size());
   const Cutter cutter = cutter_for(state.config.methods.cutter, voxels, limits::polygons_later_us);
-  return {.piece = pending.piece,
-          .pattern = pending.pattern,
-          .seeds = pieces_at_once(cutter, voxels, pending.pieces),
-          .random_seed = pending.random_seed + pending.piece,
-          .impact_voxels = volume.centre_voxels + off_m / state.config.terrain.voxel_size_m,
-          .first_piece = state.next_piece,
-          .cutter = cutter};
+  const float dx = state.config.terrain.voxel_size_m;
+  const bool by_place = state.config.rules >= rules::by_place;
+  const uint32_t which = by_place ? number_of_place(volume.centre_voxels * dx) : pending.piece;
+  ShatterOperation operation{
+      .piece = pending.piece,
+      .pattern = pending.pattern,
+      .seeds = pieces_at_once(cutter, voxels, pending.pieces),
+      .random_seed = pending.random_seed + which,
+      .impact_voxels = by_place ? impact_voxels(state, pending) : volume.centre_voxels + off_m / dx,
+      .first_piece = state.next_piece,
+      .cutter = cutter};
+  if (operation.seeds < pending.pieces) begin_in_stages(operation.pattern, operation.seeds, pending.pieces);
+  return operation;
 }
 
 /// Price of its next cut; none when the piece is gone.
@@ -37,16 +56,40 @@ float next_cut_us(const World::State& state, const PendingRefracture& pending) {
   return cut_price_us(cutter, voxels, pieces_at_once(cutter, voxels, pending.pieces));
 }
 
+/// Each piece's share of the seeds of all, up to a factor that all have in common.
+std::vector<SeedsDue> shares_of(const World::State& state, const Applied& applied,
+                                const PendingRefracture& of_all) {
+  std::vector<const Volume*> parts;
+  for (const CreatedPiece& created : applied.created) parts.push_back(state.pieces.at(created.id).get());
+  if (state.config.rules >= rules::by_place)
+    return seeds_due(parts, of_all.pattern, impact_voxels(state, of_all));
+  std::vector<SeedsDue> by_mass;
+  for (const Volume* part : parts) by_mass.push_back({static_cast<double>(part->mass), of_all.pattern});
+  return by_mass;
+}
+
+/// So many of all pieces; by place, what is rounded off goes to the next.
+uint32_t pieces_of(const World::State& state, double before, double share, double sum, uint32_t all) {
+  const auto up_to = [&](double part) { return static_cast<uint32_t>(part * all / sum); };
+  if (state.config.rules < rules::by_place) return up_to(share);
+  return up_to(before + share) - up_to(before);
+}
+
 void share_out(World::State& state, const Applied& applied, const PendingRefracture& of_all) {
-  MassUnits mass = 0;
-  for (const CreatedPiece& created : applied.created) mass += state.pieces.at(created.id)->mass;
-  if (mass == 0 || of_all.pieces <= applied.created.size()) return;
+  const std::vector<SeedsDue> shares = shares_of(state, applied, of_all);
+  const double sum = std::accumulate(shares.begin(), shares.end(), 0.0,
+                                     [](double before, const SeedsDue& due) { return before + due.share; });
+  if (sum == 0.0 || of_all.pieces <= applied.created.size()) return;
   if (of_all.piece != 0 && applied.created.size() < 2) return;  // it cannot be cut, now or later
-  for (const CreatedPiece& created : applied.created) {
+  double before = 0.0;
+  for (size_t i = 0; i < shares.size(); ++i) {
+    const CreatedPiece& created = applied.created[i];
     PendingRefracture pending = of_all;
     if (pending.piece != 0) pending.thrown_by = nullptr;  // its parts were thrown when it was cut
     pending.piece = created.id;
-    pending.pieces = static_cast<uint32_t>(state.pieces.at(created.id)->mass * of_all.pieces / mass);
+    pending.pieces = pieces_of(state, before, shares[i].share, sum, of_all.pieces);
+    pending.pattern = shares[i].pattern;
+    before += shares[i].share;
     if (pending.pieces >= 2) enter_refracture(state, pending);
   }
 }
@@ -62,20 +105,29 @@ void refracture_piece(World::State& state, const PendingRefracture& pending, Sha
   state.ledger.pieces -= applied.dust;
   state.ledger.dust += applied.dust;
   const float dx = state.config.terrain.voxel_size_m;
+  std::optional<Blast> blast;
+  if (pending.thrown_by != nullptr) blast.emplace(state, *pending.thrown_by);
   const auto born = [&](PieceId id, const Volume& volume) {
     Newborn part{part_of(body, (volume.centre_voxels - centre_voxels) * dx), traits};
-    if (pending.thrown_by != nullptr) {
-      const BodyState flight = thrown(id, part.body.pose.position_m, *pending.thrown_by);
+    if (blast) {
+      const BodyState flight = blast->thrown(id, part.body.pose.position_m);
       part.body.velocity_m_s += flight.velocity_m_s;
       part.body.spin_rad_s += flight.spin_rad_s;
     }
     return part;
   };
   spawn(state, applied, born, delta);
-  share_out(state, applied, pending);
+  if (!is_cut_on(operation.pattern)) share_out(state, applied, pending);  // else it is what it shall be
 }
 
 }  // namespace
+
+void begin_in_stages(SeedPattern& pattern, uint32_t& seeds, uint32_t wanted) {
+  CHECK(seeds < wanted);
+  if (!is_cut_on(pattern)) return;
+  pattern = SeedPattern::radial;
+  seeds = std::min(seeds, std::max(natural_parts_min, wanted / natural_pieces_min));
+}
 
 void enter_refracture(World::State& state, const PendingRefracture& pending) {
   state.refractures.push(pending.party, {pending, next_cut_us(state, pending)});

@@ -7,8 +7,13 @@
 
 namespace scree {
 
+/// Makes a break's pattern and seeds, as many as are made at once, those of its first stage of several. A
+/// pattern whose cells are cut on gets a few cells about the blow, each of which breaks by the pattern later.
+void begin_in_stages(SeedPattern& pattern, uint32_t& seeds, uint32_t wanted);
+
 /// Enters the pieces of a party's carve that asked for `wanted` pieces: each is to be cut into its share, by
-/// mass. `whole`: there is one, which the blow has not thrown yet.
+/// the seeds that the pattern would have in it if all were cut at once. `whole`: there is one, which the blow
+/// has not thrown yet.
 void queue_refractures(World::State& state, const Applied& applied, const CarveRequest& request,
                        uint64_t party, uint32_t wanted, bool whole);
 

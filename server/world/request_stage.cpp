@@ -7,6 +7,7 @@
 #include "server/work/limits.h"
 #include "server/work/memory.h"
 #include "server/work/price.h"
+#include "server/world/blast.h"
 #include "server/world/buried_stage.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
@@ -29,8 +30,9 @@ using Checked = tl::expected<void, Refused>;
 void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, uint64_t party,
                TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
+  const Blast blast(state, request);
   const auto born = [&](PieceId id, const Volume& volume) {
-    return Newborn{thrown(id, volume.centre_voxels * dx, request), {.owner = party}};
+    return Newborn{blast.thrown(id, volume.centre_voxels * dx), {.owner = party}};
   };
   spawn(state, applied, born, delta);
 }
@@ -173,6 +175,7 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, 
       cutter_for(state.config.methods.cutter, voxels_of(band_box(in_voxels(request.shape, dx))));
   const uint32_t at_once = seeds_at_once(state, request, grant, cutter);
   CarveOperation operation = operation_of(state, request, at_once, cutter);
+  if (at_once < grant.pieces) begin_in_stages(operation.pattern, operation.seeds, grant.pieces);
   if (is_relaxed(request.pattern)) relax_seeds(state, operation);
   const Applied applied = state.apply_and_record(operation, party, delta);
   state.enter_removed(applied);

@@ -18,8 +18,11 @@ inline constexpr uint32_t spare_time = 2;
 inline constexpr uint32_t rubble = 3;
 /// Also, the search for support finds spans that break between several supports (shared/falling/spans.h).
 inline constexpr uint32_t spans = 4;
+/// Also, what is random in blasts and breaks goes by place and not by ids of pieces, blasts push to the open
+/// side, a carve in stages keeps the gradient of its pattern, and even rock breaks into natural sizes.
+inline constexpr uint32_t by_place = 5;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = spans;
+inline constexpr uint32_t newest = by_place;
 }  // namespace rules
 
 }  // namespace scree

@@ -8,7 +8,6 @@
 #include "server/fracture/hull.h"
 #include "server/world/limits.h"
 #include "shared/base/check.h"
-#include "shared/base/random.h"
 
 namespace scree {
 
@@ -19,23 +18,6 @@ BodyState part_of(const BodyState& body, glm::vec3 offset_m) {
   part.pose.position_m += turned_m;
   part.velocity_m_s += glm::cross(body.spin_rad_s, turned_m);
   return part;
-}
-
-BodyState thrown(PieceId id, glm::vec3 centre_m, const CarveRequest& request) {
-  const glm::vec3 source_m = 2.0F * centre_of(request.shape) - request.impact_m;
-  const glm::vec3 away = centre_m - source_m;
-  const float distance_m = std::sqrt(glm::dot(away, away));
-  // Plus a part upwards: a blow against flat ground would otherwise press half of the pieces into it.
-  const glm::vec3 direction = away / std::max(distance_m, 0.01F) + glm::vec3(0.0F, 0.7F, 0.0F);
-  const float reach_m = std::max(reach_of(request.shape), 0.01F);
-  const float speed = request.blast_speed_m_s * reach_m / (reach_m + distance_m);
-  Random random(request.random_seed * 0x9E3779B97F4A7C15ULL + id);
-  const auto spin = [&] { return (random.unit() - 0.5F) * speed; };
-  BodyState state;
-  state.pose.position_m = centre_m;
-  state.velocity_m_s = direction * speed;
-  state.spin_rad_s = {spin(), spin(), spin()};
-  return state;
 }
 
 namespace {

@@ -19,11 +19,6 @@ struct Newborn {
 /// axes) from the body's.
 BodyState part_of(const BodyState& body, glm::vec3 offset_m);
 
-/// The motion of a piece of a carve: it flies away from the mirror image of the impact behind the shape's
-/// centre, so towards the impact, more slowly with distance, and spins. Away from the impact itself, most
-/// pieces would be pressed into the rock behind them.
-BodyState thrown(PieceId id, glm::vec3 centre_m, const CarveRequest& request);
-
 /// Gives each piece that the operation made a hull, a body and its traits, enters it in the delta, and
 /// advances State::next_piece past its id. Call right after apply_and_record().
 void spawn(World::State& state, const Applied& applied,

@@ -8,7 +8,7 @@ SeedPattern pattern_of(BreakLook look, GrainAxis axis) {
   };
   switch (look) {
     case BreakLook::even:
-      return SeedPattern::radial;
+      return SeedPattern::natural;
     case BreakLook::grain:
       return along(SeedPattern::grain_x);
     case BreakLook::slabs:

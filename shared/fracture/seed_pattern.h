@@ -23,6 +23,8 @@ class Random;
 /// - grain_x, …: radial, but all in one plane across the axis, so that cells are splinters along it.
 /// - slabs_x, …: radial, but all on one line along the axis, so that cells are plates across it.
 /// - shards: radial, but all in one plane across the volume's shortest side, so that cells go through it.
+/// - natural: a few blocks, radial, each cut on by itself: sizes by the law of blasted rock, small near the
+///   impact, and dust (natural_cut.h).
 enum class SeedPattern : uint8_t {
   uniform = 0,
   radial = 1,
@@ -35,7 +37,8 @@ enum class SeedPattern : uint8_t {
   slabs_x = 8,
   slabs_y = 9,
   slabs_z = 10,
-  shards = 11
+  shards = 11,
+  natural = 12
 };
 
 /// drawn: by everyone who applies the operation, from its random seed. given: points that come with the
@@ -56,6 +59,7 @@ struct SeedPatternRow {
   SeedSource source;
   DensePlaces* places = nullptr;  ///< of a drawn pattern; null: seeds lie anywhere
   Flattened flattened = Flattened::none;
+  bool is_cut_on = false;  ///< the seeds make blocks, which are cut on
 };
 
 constexpr SeedPatternRow drawn_flat(std::string_view name, Flattened flattened) {
@@ -88,6 +92,8 @@ constexpr SeedPatternRow row_of(SeedPattern pattern) {
       return drawn_flat("slabs_z", Flattened::xy);
     case SeedPattern::shards:
       return drawn_flat("shards", Flattened::shortest);
+    case SeedPattern::natural:
+      return {.name = "natural", .source = SeedSource::drawn, .places = at_impact, .is_cut_on = true};
   }
   return {};
 }
@@ -101,6 +107,10 @@ constexpr bool is_given(SeedPattern pattern) {
 constexpr bool is_relaxed(SeedPattern pattern) {
   return is_known(pattern) && traits_of(pattern).source == SeedSource::relaxed;
 }
+/// Whether the pieces are no cells of the pattern's own seeds, but cut from these.
+constexpr bool is_cut_on(SeedPattern pattern) {
+  return is_known(pattern) && traits_of(pattern).is_cut_on;
+}
 /// Whether a request needs no points.
 constexpr bool asks_no_points(SeedPattern pattern) {
   return !is_given(pattern);
@@ -109,6 +119,9 @@ constexpr bool asks_no_points(SeedPattern pattern) {
 /// Patterns that need no points: for a piece that shatters, and for a person who carves.
 inline constexpr auto drawn_patterns = kinds_that<SeedPattern, is_drawn>;
 inline constexpr auto pointless_patterns = kinds_that<SeedPattern, asks_no_points>;
+
+/// What people and programs ask for that say nothing else.
+inline constexpr SeedPattern usual_pattern = SeedPattern::natural;
 
 /// Takes the place of a pattern whose points are missing, in later cuts and in predictions.
 inline constexpr SeedPattern plain_pattern = SeedPattern::uniform;

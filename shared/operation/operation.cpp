@@ -11,6 +11,7 @@
 #include "shared/field/material_changes.h"
 #include "shared/field/paint.h"
 #include "shared/fracture/material_shares.h"
+#include "shared/fracture/natural_cut.h"
 #include "shared/fracture/seeds.h"
 #include "shared/fracture/shatter.h"
 #include "shared/operation/prepared_stamp.h"
@@ -52,9 +53,21 @@ MassUnits mass_created(const Applied& applied, const PieceTable& pieces) {
   return sum;
 }
 
+/// How many seeds the pattern places for a carve or a shatter.
+template <typename Break>
+uint32_t first_seeds(const Break& op) {
+  return is_cut_on(op.pattern) ? seeds_of_blocks(op.seeds) : op.seeds;
+}
+
+/// The second half of a carve or a shatter whose pattern has one.
+template <typename Break>
+void finish(Cut& cut, const Break& op, glm::vec3 impact_voxels) {
+  if (is_cut_on(op.pattern)) cut_on(cut, {op.cutter, op.seeds, op.random_seed, impact_voxels});
+}
+
 std::vector<glm::vec3> seeds_of(const CarveOperation& op, const Window& volume, float voxel_size_m) {
   if (is_drawn(op.pattern))
-    return scatter_seeds(volume, op.pattern, op.seeds, op.random_seed, op.impact_m / voxel_size_m);
+    return scatter_seeds(volume, op.pattern, first_seeds(op), op.random_seed, op.impact_m / voxel_size_m);
   std::vector<glm::vec3> points;
   for (const glm::vec3& point_m : op.authored_m) points.push_back(point_m / voxel_size_m);
   return authored_seeds(volume, points, op.random_seed);
@@ -77,6 +90,7 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   for (const MaterialMass& one : lost) flow_of(applied, one.material).terrain -= one.mass;
   applied.terrain_gain = -sum_of(lost);
   share_materials(cut, rock.stones, lost);
+  finish(cut, carve_op, carve_op.impact_m / dx);
   enter(std::move(cut), carve_op.first_piece, pieces, applied);
   applied.changed = scatter(field, after);
   CHECK_EQ(mass_created(applied, pieces) + applied.dust, -applied.terrain_gain);
@@ -202,9 +216,10 @@ Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
   const std::shared_ptr<const Volume> volume = remove_piece(pieces, op.piece);
   Applied applied;
   applied.seeds_voxels =
-      scatter_seeds(volume->window, op.pattern, op.seeds, op.random_seed, op.impact_voxels);
+      scatter_seeds(volume->window, op.pattern, first_seeds(op), op.random_seed, op.impact_voxels);
   Cut cut = shatter(op.cutter, *volume, applied.seeds_voxels);
   share_materials(cut, volume->materials, masses_of(*volume));
+  finish(cut, op, op.impact_voxels);
   enter_piece(applied, *volume, -1);
   enter(std::move(cut), op.first_piece, pieces, applied);
   CHECK_EQ(mass_created(applied, pieces) + applied.dust, volume->mass);

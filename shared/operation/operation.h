@@ -143,7 +143,8 @@ std::optional<PieceId> parent_of(const Operation& operation);
 /// A piece that an operation made: its id, and its seeds, from which its cells can be computed again.
 struct CreatedPiece {
   PieceId id = 0;
-  std::vector<uint32_t> seeds;  ///< indices into Applied::seeds_voxels
+  /// Indices into Applied::seeds_voxels. Where the pattern's seeds are cut on: those of its block.
+  std::vector<uint32_t> seeds;
 };
 
 struct Applied {

@@ -17,7 +17,7 @@ namespace scree {
 
 struct CarveRequest {
   Shape shape;
-  SeedPattern pattern = SeedPattern::radial;
+  SeedPattern pattern = usual_pattern;
   uint32_t seeds = 32;
   uint32_t random_seed = 0;
   glm::vec3 impact_m{0.0F};  ///< place of the blow; pieces fly out towards it

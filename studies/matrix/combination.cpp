@@ -15,7 +15,7 @@ std::vector<Simulated> all_simulated() {
     for (const Simplifier simplifier : all_kinds<Simplifier>)
       for (const TerrainColliderKind collider : all_kinds<TerrainColliderKind>)
         for (const Recombination recombine : all_kinds<Recombination>)
-          for (const SeedPattern pattern : pointless_patterns)
+          for (const SeedPattern pattern : compared_patterns)
             all.push_back({cutter, simplifier, collider, recombine, pattern});
   return all;
 }

@@ -23,8 +23,14 @@ struct Simulated {
 /// "field hull field facets radial": in the order of the members.
 std::string text_of(const Simulated& simulated);
 
-/// Every one. The patterns are those that need no points: `authored` is no method, but points that somebody
-/// sends.
+constexpr bool is_compared(SeedPattern pattern) {
+  return asks_no_points(pattern) && !is_cut_on(pattern);
+}
+/// The patterns that are compared. `authored` is no method, but points that somebody sends; the pieces of
+/// `natural` are no cells of its seeds, so their error against these says nothing.
+inline constexpr auto compared_patterns = kinds_that<SeedPattern, is_compared>;
+
+/// Every one.
 std::vector<Simulated> all_simulated();
 
 /// The settings that stand for it; all else by default.

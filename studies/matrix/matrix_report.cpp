@@ -24,15 +24,15 @@ std::string sessions_text(const MatrixResults& results) {
   return fmt::format(
       "Drawing × cutter × simplifier × collider × recombination × pattern: {} × {} × {} × {} × {} × {}. The "
       "pattern "
-      "`authored` is left out: it is no method, but points that somebody sends. The other five choices "
-      "change what a "
+      "`authored` is left out: it is no method, but points that somebody sends. So is `natural`, whose "
+      "pieces are no cells of its seeds. The other five choices change what a "
       "session does, and each other, so {}: {} sessions, {} of them without recombination (`off`), as a "
       "control that is "
       "not ranked. A session is {} blow(s) of 2 m into {} pieces, one a second, in {} ticks of 1/60 s, in "
       "the canyon, on "
       "one thread.",
       all_methods().size(), kind_count<Cutter>, kind_count<Simplifier>, kind_count<TerrainColliderKind>,
-      kind_count<Recombination>, pointless_patterns.size(),
+      kind_count<Recombination>, compared_patterns.size(),
       results.quick ? "with `--quick` those that differ from the defaults in one of them are measured"
                     : "all are measured",
       results.sessions.size() + results.frozen.size(), results.frozen.size(), plan.blows, plan.seeds,

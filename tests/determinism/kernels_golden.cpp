@@ -1,5 +1,6 @@
 // Prints a hash of what each field kernel computes on fixed inputs, one "name hash" a line. The output must
 // be the same from every compiler at every optimisation (tests/determinism/CMakeLists.txt).
+#include <algorithm>
 #include <glm/vec3.hpp>
 #include <memory>
 #include <string>
@@ -246,6 +247,36 @@ void print_shatter(Cutter cutter, const std::string& name) {
   digest.print(name);
 }
 
+/// Natural breaks: of terrain, and of the largest piece of it.
+void print_natural(Cutter cutter) {
+  const TerrainSource source{TerrainKind::canyon, 3, 0.25F};
+  GoldenHash digest;
+  for (const uint32_t seeds : {1U, 5U, 60U}) {
+    MapField field(source);
+    PieceTable pieces;
+    const glm::vec3 ground(9.0F, ground_height_m(source, 9.0F, 4.0F), 4.0F);
+    const Applied carved =
+        apply(CarveOperation{sphere(ground, 2.0F), SeedPattern::natural, seeds, 5, ground, 1, cutter}, field,
+              pieces);
+    const auto largest = std::ranges::max_element(
+        pieces, {}, [](const auto& piece) { return std::pair(piece.second->mass, piece.first); });
+    const Applied broken = apply(ShatterOperation{largest->first, SeedPattern::natural, 20, 7,
+                                                  largest->second->centre_voxels, 1000, cutter},
+                                 field, pieces);
+    digest.add(static_cast<uint64_t>(carved.dust));
+    digest.add(static_cast<uint64_t>(broken.dust));
+    for (const auto& [id, piece] : pieces) {
+      digest.add(uint64_t{id});
+      digest.add(*piece);
+    }
+    std::vector<const Volume*> parts;
+    for (const auto& [id, piece] : pieces) parts.push_back(piece.get());
+    for (const SeedsDue& due : seeds_due(parts, SeedPattern::radial, ground / 0.25F))
+      digest.add(std::bit_cast<uint64_t>(due.share));
+  }
+  digest.print("natural_" + std::string(name_of(cutter)));
+}
+
 /// Posts, their feet carved away: found, and lifted.
 void print_islands() {
   MapField field({TerrainKind::noise, 5, 0.25F});
@@ -328,6 +359,7 @@ int main() {
   scree::print_shatter(scree::Cutter::field, "shatter");
   scree::print_shatter(scree::Cutter::slice, "shatter_slice");
   scree::print_shatter(scree::Cutter::conform, "shatter_conform");
+  for (const scree::Cutter cutter : scree::all_kinds<scree::Cutter>) scree::print_natural(cutter);
   scree::print_islands();
   for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
     scree::print_session(kind);

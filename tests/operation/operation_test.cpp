@@ -86,6 +86,25 @@ TEST(operation, every_cutter_and_pattern_conserves_mass) {
     }
 }
 
+TEST(operation, a_natural_break_turns_its_finest_into_dust_by_every_cutter) {
+  for (const Cutter cutter : all_kinds<Cutter>) {
+    MapField field(flat_terrain);
+    PieceTable pieces;
+    CarveOperation op = ball(60, SeedPattern::natural);
+    op.cutter = cutter;
+    const Applied applied = apply(op, field, pieces);
+    EXPECT_LE(pieces.size(), 60U);
+    EXPECT_GE(pieces.size(), 25U);
+    EXPECT_EQ(mass_of(pieces) + applied.dust, -applied.terrain_gain);
+    EXPECT_GT(applied.dust, -applied.terrain_gain / 50);
+    EXPECT_LT(applied.dust, -applied.terrain_gain / 12);
+    MassUnits left = 0;
+    for (const MaterialFlow& flow : applied.flows) left -= flow.terrain + flow.pieces;
+    EXPECT_EQ(left, applied.dust) << "by material";
+    for (const auto& [id, volume] : pieces) EXPECT_GE(volume->mass, limits::piece_mass_min);
+  }
+}
+
 TEST(operation, authored_seeds_outside_of_the_volume_leave_it_whole) {
   MapField field(flat_terrain);
   PieceTable pieces;

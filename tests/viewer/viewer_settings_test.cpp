@@ -218,7 +218,7 @@ TEST(Tool, actions_stay_within_the_ranges) {
 
 TEST(Tool, is_told_with_what_it_does_and_units) {
   Tool tool;
-  EXPECT_EQ(describe(tool), "carve: crater, radius 2.00 m, blast 6 m/s, radial, about 20 pieces");
+  EXPECT_EQ(describe(tool), "carve: crater, radius 2.00 m, blast 6 m/s, natural, about 20 pieces");
   tool.use = ToolUse::fill;
   tool.kind = ToolKind::box;
   EXPECT_EQ(describe(tool), "fill: box, radius 2.00 m");

@@ -80,6 +80,7 @@ TEST_P(WorldAtItsEnds, carves_throws_and_merges) {
   whole.blast_speed_m_s = limits::blast_speed_max_m_s;
   CarveRequest many = whole;
   many.shape = sphere({40.0F, -4.0F, 0.0F}, limits::edit_reach_max_m);
+  many.pattern = SeedPattern::radial;
   many.seeds = 64;
   const Command carves[] = {{1, 1, whole}, {0, 1, many}};
   auto delta = (*world)->step(carves);

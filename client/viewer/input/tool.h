@@ -65,7 +65,7 @@ struct Tool {
   std::string material;   ///< to fill or paint with, by name; empty: as the ground, or the first
   float radius_m = 2.0F;  ///< of a box: half its side; a tunnel is six times as long
   float blast_speed_m_s = 6.0F;
-  SeedPattern pattern = SeedPattern::radial;
+  SeedPattern pattern = usual_pattern;
   uint32_t seeds = 0;  ///< 0: by the volume, so that pieces are about as large at any size
 
   bool operator==(const Tool&) const = default;
