@@ -20,6 +20,8 @@ const int pattern_bricks = 3;
 const int pattern_planks = 4;
 const int pattern_pebbles = 5;
 
+bool is_rubble(int look) { return texelFetch(u_materials, ivec2(look - 1, 1), 0).w > 0.5; }
+
 // What a pattern makes of a place: `shade` times the colour, slopes that bend the normal, how open it is.
 struct Marks {
   vec3 shade;

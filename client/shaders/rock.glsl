@@ -75,7 +75,7 @@ Rock stone_of(vec3 q, vec3 n, vec3 bed, vec3 bent, float fine, float gap, float 
   return rock;
 }
 
-// Rubble: stones up to 80 cm large, and small ones in the gaps between them. `bed`: the colour of broken rock here;
+// Rubble: stones up to 80 cm large, and small ones in the gaps between them. `bed`: the colour of a broken face;
 // `bent`: slopes of the noise, which keep faces from being even; `sand`: brightness by grains of sand.
 Rock rubble_at(vec3 p, vec3 n, vec3 bed, vec3 bent, float fine, float sand, float in_cleft, float away) {
   vec3 q = along_beds * p;
@@ -103,7 +103,8 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
   vec4 middle = noise(p * 1.3 + 17.0);
   vec4 small = noise(p * 5.1 + 5.0);
 #if SURFACES > 0
-  if (look > 0) return material_at(look, p, shape_normal, coarse, middle, small, away);
+  bool heaped = look > 0 && is_rubble(look);
+  if (look > 0 && !heaped) return material_at(look, p, shape_normal, coarse, middle, small, away);
 #endif
   float fine = 0.6 * middle.x + 0.4 * small.x;
   float uneven = fine;
@@ -120,6 +121,15 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
     bump += (sand.yzw * 0.17 + dust.yzw * 0.10 * (1.0 - smoothstep(2.0, 6.0, away))) * near;
     fine += (0.30 * (sand.x - 0.5) + 0.16 * (dust.x - 0.5)) * near;
   }
+
+#if SURFACES > 0
+  if (heaped) {
+    vec3 bed = texelFetch(u_materials, ivec2(look - 1, 0), 0).rgb * mix(0.85, 1.15, coarse.x);
+    Rock rubble = rubble_at(p, shape_normal, bed, middle.yzw, uneven, 1.0 + fine - uneven, in_cleft, away);
+    rubble.normal = normalize(rubble.normal);
+    return rubble;
+  }
+#endif
 
   vec3 albedo = weathered(p, shape_normal, coarse, fine);
   if (bare > 0.0) {
@@ -145,17 +155,6 @@ Rock rock_at(vec3 p, vec3 shape_normal, vec2 worn, int look, float in_cleft, flo
   }
   // The slopes bend the normal, less with distance, where they would only flicker.
   Rock rock = Rock(albedo, normalize(shape_normal - (bump - shape_normal * dot(bump, shape_normal)) * grain), open, 1.0);
-#if SURFACES > 0
-  // Rubble is stones, whatever shape the field has room for; a layer thinner than a voxel has room for none.
-  float piled = bare * worn.y / max(worn.x + worn.y, 1e-3) * smoothstep(0.12, 0.40, worn.y);
-  if (piled > 0.0) {
-    vec3 bed = mix(vec3(0.46, 0.235, 0.12), vec3(0.56, 0.36, 0.21), coarse.x) * u_bulk_tint;
-    Rock rubble = rubble_at(p, shape_normal, bed, middle.yzw, uneven, 1.0 + fine - uneven, in_cleft, away);
-    rock.albedo = mix(rock.albedo, rubble.albedo, piled);
-    rock.normal = normalize(mix(rock.normal, normalize(rubble.normal), piled));
-    rock.open = mix(rock.open, rubble.open, piled);
-  }
-#endif
   return rock;
 }
 

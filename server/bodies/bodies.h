@@ -55,6 +55,9 @@ struct BodyImpact {
   glm::vec3 point_m{0.0F};       ///< where, in the world
   glm::vec3 normal{0.0F};        ///< unit, towards the body
   float impulse_n_s = 0.0F;      ///< along the normal, summed over the points of the contact; positive
+  /// Change of the speed of that place of the body, by its mass and inertia: more than that of its centre,
+  /// where a corner strikes. Half of the impulse's product with it is the blow's energy.
+  float give_m_s = 0.0F;
 };
 
 struct BodiesConfig {

@@ -23,8 +23,8 @@ namespace {
 /// An impact, compared with the piece's strength.
 struct Blow {
   BodyImpact impact;
-  float speed_m_s = 0.0F;  ///< change of the piece's speed
-  float excess = 0.0F;     ///< that change over strength_m_s(); up to 1 the piece holds
+  float speed_m_s = 0.0F;  ///< which the piece would lose in a flat blow of as much energy
+  float excess = 0.0F;     ///< that speed over strength_m_s(); up to 1 the piece holds
 };
 
 /// The material of a piece at the place of a blow.
@@ -55,7 +55,7 @@ float strength_m_s(const World::State& state, const BodyImpact& impact) {
 std::vector<Blow> blows_of(const World::State& state) {
   std::vector<Blow> blows;
   for (const BodyImpact& impact : state.bodies.impacts(limits::impact_speed_min_m_s)) {
-    const float speed = impact.impulse_n_s / state.bodies.mass_kg(impact.id);
+    const float speed = std::sqrt(impact.impulse_n_s * impact.give_m_s / state.bodies.mass_kg(impact.id));
     blows.push_back({impact, speed, speed / strength_m_s(state, impact)});
   }
   std::ranges::stable_sort(blows, std::ranges::greater{}, &Blow::excess);
@@ -230,7 +230,7 @@ class Ejecta {
       squares += mass_kg(state, volume) * glm::dot(direction(volume), direction(volume));
     }
     const float impulse = blow.impact.impulse_n_s;
-    const float by_energy = std::sqrt(limits::dent_energy_share * impulse * blow.speed_m_s / squares);
+    const float by_energy = std::sqrt(limits::dent_energy_share * impulse * blow.impact.give_m_s / squares);
     speed_m_s_ = std::min({limits::dent_throw * blow.speed_m_s, by_energy, impulse / mass});
   }
 
@@ -257,7 +257,7 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   const BodyImpact& impact = blow.impact;
   const float dx = state.config.terrain.voxel_size_m;
   const Material material = material_at(state.field, impact.point_m - impact.normal * dx);
-  const float energy_j = 0.5F * impact.impulse_n_s * blow.speed_m_s;
+  const float energy_j = 0.5F * impact.impulse_n_s * impact.give_m_s;
   const float volume_m3 = energy_j / state.palette->row_or_first(material).dent_resistance_j_m3;
   const uint32_t seeds = limits::dent_seeds;
   if (volume_m3 < limits::dent_voxels_min * dx * dx * dx) return;

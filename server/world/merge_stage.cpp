@@ -82,9 +82,7 @@ void settle(World::State& state, TickDelta& delta) {
   std::vector<RestPiece> alive;
   for (const BodyState& body : state.bodies.states())
     if (const float reach_m = state.bodies.reach_m(body.id); !body.frozen)
-      alive.push_back({body.id, body.pose, reach_m,
-                       energy_speed_m_s(body, reach_m),
-                       body.velocity_m_s});
+      alive.push_back({body.id, body.pose, reach_m, energy_speed_m_s(body, reach_m), body.velocity_m_s});
   const BodyContacts contacts = state.bodies.contacts();
   std::vector<RestSupport> supports;
   for (const Carried& carried : contacts.carried) supports.push_back({carried.upper, carried.lower});

@@ -1,6 +1,6 @@
-// By which rules a world goes: in which order it serves the work that its parties caused, what its merges make, what
-// its search for support finds, and how its pieces break and fly. A recording says by which rules it was made, and is
-// verified by these. A world of an older file is played on by the newest.
+// By which rules a world goes: in which order it serves the work that its parties caused, what its merges
+// make, what its search for support finds, and how its pieces break and fly. A recording says by which rules
+// it was made, and is verified by these. A world of an older file is played on by the newest.
 #pragma once
 
 #include <cstdint>

@@ -35,15 +35,21 @@ Result<void> check(const Bounded& bounded) {
               "): choose another (" + bounded.option + ")");
 }
 
+/// What is rubble follows from the palette and the rules.
+TerrainSource without_rubble(TerrainSource source) {
+  source.rubble = Rubble();
+  return source;
+}
+
 }  // namespace
 
 bool WorldConfig::operator==(const WorldConfig& other) const {
   const auto tied = [](const WorldConfig& c) {
-    return std::tie(c.terrain, c.tick_rate_hz, c.pieces_max, c.memory_max_mb, c.merges_per_tick_max,
-                    c.work_percent, c.air_drag_percent, c.methods, c.service, c.spawn, c.ground, c.rules,
-                    *c.palette, c.material_numbers);
+    return std::tie(c.tick_rate_hz, c.pieces_max, c.memory_max_mb, c.merges_per_tick_max, c.work_percent,
+                    c.air_drag_percent, c.methods, c.service, c.spawn, c.ground, c.rules, *c.palette,
+                    c.material_numbers);
   };
-  return tied(*this) == tied(other);
+  return tied(*this) == tied(other) && without_rubble(terrain) == without_rubble(other.terrain);
 }
 
 Result<void> validate(const WorldConfig& config) {
@@ -105,7 +111,7 @@ Result<void> check_ground(const WorldConfig& config) {
 
 bool is_same_terrain(const WorldConfig& a, const WorldConfig& b) {
   if (a.ground != b.ground || a.terrain.voxel_size_m != b.terrain.voxel_size_m) return false;
-  return a.ground != Digest{} || a.terrain == b.terrain;
+  return a.ground != Digest{} || without_rubble(a.terrain) == without_rubble(b.terrain);
 }
 
 Result<void> give_ground(const Digest& ground, TerrainSource& terrain, const GroundGiver& give) {

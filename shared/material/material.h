@@ -17,7 +17,7 @@ constexpr size_t row_number(Material material) {
   return static_cast<size_t>(material);
 }
 
-/// Mass of a full voxel of a material without pores. Of rubble, whose stones fill a part of it, less.
+/// Mass of a full voxel of a material without pores. Stones of rubble fill a part of it.
 inline constexpr int fill_solid = 128;
 
 /// The rows that the ground's layers are of where no palette says other ones: the first of the built-in one.

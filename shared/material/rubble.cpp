@@ -61,8 +61,8 @@ MaterialRow derived(const Palette& palette, Material stones) {
   row.sound = {row.sound.pitch, std::min(row.sound.damping_s, 0.01F), std::max(row.sound.noise, 0.9F)};
   row.look.variation = std::min(1.0F, row.look.variation + 0.2F);
   row.look.roughness = std::max(row.look.roughness, 0.95F);
-  row.look.pattern = SurfacePattern::pebbles;
-  row.look.pattern_m = 0.5F;
+  row.look.albedo.reset();
+  row.look.normal.reset();
   return row;
 }
 

@@ -25,7 +25,7 @@ struct RubbleRows {
   bool operator==(const RubbleRows&) const = default;
 };
 
-/// Of a valid palette.
+/// `palette` is valid.
 RubbleRows rubble_rows(const Palette& palette);
 
 /// Cheap to copy; equal where the rows are.

@@ -82,7 +82,7 @@ void stamp(StampMethod method, Window& window, const Volume& volume, const Quant
            float voxel_size_m, int shift);
 
 /// Finds the shift whose gain comes nearest the budget, and this gain, exactly; each method's own plan says
-/// when the gain may exceed the budget. Of a method that lays, all is solid; else plan_laid() plans.
+/// when the gain may exceed the budget. With a method that lays, all must be solid; else plan_laid() plans.
 StampPlan plan_stamp(StampMethod method, const Window& window, const Volume& volume,
                      const QuantisedPose& pose, float voxel_size_m, MassUnits budget,
                      const MergeFills& fills = {});

@@ -11,6 +11,7 @@
 #include "server/app/saved_world.h"
 #include "server/app/server_options.h"
 #include "server/world/settings.h"
+#include "shared/material/rubble.h"
 #include "tests/support/flat_world.h"
 #include "tests/support/holds.h"
 #include "tests/support/png_bytes.h"
@@ -207,7 +208,9 @@ TEST_F(KeptMaterials, a_world_goes_on_with_other_numbers_and_more_rows_and_keeps
   EXPECT_EQ(refused(other), "");
   const auto kept = open(nullptr);
   ASSERT_TRUE(kept);
-  EXPECT_EQ(**kept, other);
+  const Palette rows = numbered_as(builtin_palette(), *with_rubble(std::make_shared<const Palette>(other)));
+  EXPECT_EQ(**kept, rows);
+  EXPECT_EQ(rows.rows.back().name, "marble_rubble");
 }
 
 TEST_F(KeptMaterials, a_palette_of_another_world_is_refused_and_nothing_is_lost) {

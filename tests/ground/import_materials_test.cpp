@@ -8,6 +8,7 @@
 #include "shared/field/material_window.h"
 #include "tests/support/box_solid.h"
 #include "tests/support/holds.h"
+#include "tests/support/materials.h"
 #include "tests/support/test_folder.h"
 #include "tools/export/mesh_export.h"
 #include "tools/export/vdb/vdb_export.h"
@@ -107,7 +108,7 @@ TEST_F(ImportMaterials, of_other_names_become_rows_of_their_colours) {
   import(two_blocks("Red_Tiles", "Moss"));
   EXPECT_EQ(at({-2.0F, 4.0F, 0.25F}), "red_tiles");
   EXPECT_EQ(at({2.0F, 4.0F, 0.25F}), "moss");
-  EXPECT_EQ(file_->palette()->rows.size(), builtin_palette().rows.size() + 2);
+  EXPECT_EQ(stones_of(*file_->palette()), stones_of(builtin_palette()) + 2);
   EXPECT_NEAR(file_->palette()->row(*file_->palette()->named("moss")).look.colour[1], 0.4F, 1e-6F);
   EXPECT_TRUE(scree::holds(said_, "'Moss' as moss")) << said_;
 }
@@ -122,7 +123,7 @@ TEST_F(ImportMaterials, are_chosen_by_a_map_by_one_for_all_or_by_few_colours) {
   EXPECT_EQ(file_->palette(), shared_builtin_palette());
   import(two_blocks("Red_Tiles", "Moss"), {.colour_rows_max = 1});
   EXPECT_EQ(at({2.0F, 4.0F, 0.25F}), at({-2.0F, 4.0F, 0.25F})) << "both are one row";
-  EXPECT_EQ(file_->palette()->rows.size(), builtin_palette().rows.size() + 1);
+  EXPECT_EQ(stones_of(*file_->palette()), stones_of(builtin_palette()) + 1);
   import(two_blocks("Red_Tiles", "Moss"), {.colour_rows_max = 0});
   EXPECT_EQ(at({2.0F, 4.0F, 0.25F}), "rock");
 }
@@ -144,7 +145,7 @@ TEST_F(ImportMaterials, with_a_picture_have_its_colours) {
     if (is_corner) textured += "/" + std::to_string(block);
   }
   import(textured);
-  EXPECT_EQ(file_->palette()->rows.size(), builtin_palette().rows.size() + 2);
+  EXPECT_EQ(stones_of(*file_->palette()), stones_of(builtin_palette()) + 2);
   const auto red = [&](glm::vec3 p_m) {
     return static_cast<int>(srgb_of_linear(file_->palette()->row(material_at(*field_, p_m)).look.colour[0]));
   };

@@ -57,7 +57,9 @@ TEST_F(ImportProgram, takes_a_palette_a_map_and_voxels) {
   EXPECT_EQ(code, 0) << said;
   const auto file = GroundFile::open(ground);
   ASSERT_TRUE(file) << file.error().message;
-  EXPECT_EQ((*file)->palette()->names(), (std::vector<std::string_view>{"chalk", "flint", "vox_2"}));
+  EXPECT_EQ((*file)->palette()->names(),
+            (std::vector<std::string_view>{"chalk", "flint", "chalk_rubble", "flint_rubble", "vox_2",
+                                           "vox_2_rubble"}));
   const auto [refused, why] = run(from + " --material marble");
   EXPECT_EQ(refused, 1);
   EXPECT_NE(why.find("'marble' is no material of the palette; it has rock, soil, ice"), std::string::npos)

@@ -7,6 +7,7 @@
 #include "content/builtin_palette.h"
 #include "shared/field/material_window.h"
 #include "tests/support/holds.h"
+#include "tests/support/materials.h"
 #include "tests/support/test_folder.h"
 #include "tests/support/vox_bytes.h"
 #include "tools/export/vox_export.h"
@@ -75,9 +76,12 @@ TEST_F(VoxImportTest, a_voxel_is_a_voxel_and_its_colour_a_row_of_the_palette) {
   EXPECT_EQ(material({1, 0, -1}), "air");
   EXPECT_EQ(material({0, 1, -1}), "air");
   EXPECT_EQ(file_->header().format, 2U);
-  ASSERT_EQ(file_->palette()->rows.size(), builtin_palette().rows.size() + 3);
-  EXPECT_EQ(file_->palette()->rows[12].look.colour, (std::array{1.0F, 1.0F, 1.0F})) << "colour 1 is white";
-  EXPECT_NEAR(file_->palette()->rows[13].look.colour[2], 0.604F, 0.001F) << "0.8 of sRGB";
+  ASSERT_EQ(stones_of(*file_->palette()), stones_of(builtin_palette()) + 3);
+  EXPECT_EQ(file_->palette()->row(*file_->palette()->named("vox_1")).look.colour,
+            (std::array{1.0F, 1.0F, 1.0F}))
+      << "colour 1 is white";
+  EXPECT_NEAR(file_->palette()->row(*file_->palette()->named("vox_2")).look.colour[2], 0.604F, 0.001F)
+      << "0.8 of sRGB";
   EXPECT_TRUE(scree::holds(said_, "3 became rows of the palette: vox_1, vox_2, vox_216")) << said_;
 }
 
@@ -135,7 +139,7 @@ TEST_F(VoxImportTest, more_colours_than_rows_share_them_by_median_cut) {
   ASSERT_FALSE(refused) << "255 colours and the built-in rows";
   EXPECT_TRUE(scree::holds(refused.error().message, "--palette makes fewer"));
   imported(vox.file(), {.colour_rows_max = 100});
-  EXPECT_EQ(file_->palette()->rows.size(), builtin_palette().rows.size() + 100);
+  EXPECT_EQ(stones_of(*file_->palette()), stones_of(builtin_palette()) + 100);
   EXPECT_TRUE(scree::holds(said_, "255 became 100 rows of the palette (--palette)")) << said_;
   imported(vox.file(), {.colour_rows_max = 0});
   EXPECT_EQ(file_->palette(), shared_builtin_palette());

@@ -33,7 +33,7 @@ struct RubbleGround : LedgerGround {
       prepared = prepare_stamp(field, pieces, id, pose, bounded_stamp, mass);
     return act(prepared.operation).terrain_gain;
   }
-  /// Of a box of voxels: what is full, in voxels, and the mass, in those of solid rock.
+  /// What is full in a box, in voxels, and the mass, in voxels of solid rock.
   std::pair<double, double> bulk_and_mass(const VoxelBox& box) {
     const Window codes = gather(field, box);
     const RockWindow rock = rock_of(gather_materials(field, box), field.rubble());

@@ -195,8 +195,8 @@ std::map<int, std::string> rows() {
 
 TEST(Kinds, are_those_of_the_specification) {
   EXPECT_EQ(values_of("Role", "access.proto"), rows<Role>());
-  EXPECT_EQ(values_of("ShapeKind"), rows<ShapeKind>());
-  EXPECT_EQ(values_of("SeedPattern"), rows<SeedPattern>());
+  EXPECT_EQ(values_of("ShapeKind", "shape.proto"), rows<ShapeKind>());
+  EXPECT_EQ(values_of("SeedPattern", "shape.proto"), rows<SeedPattern>());
   EXPECT_EQ(values_of("TerrainKind"), rows<TerrainKind>());
 }
 

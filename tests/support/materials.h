@@ -1,6 +1,7 @@
 // Materials of whole bricks, and those that the ground's layers are of.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "content/builtin_palette.h"
@@ -13,6 +14,12 @@ inline BrickMaterials all_of(Material material) {
 }
 
 inline constexpr std::array ground_layers{material::rock, material::soil, material::ice};
+
+/// Rows that are no rubble.
+inline size_t stones_of(const Palette& palette) {
+  return static_cast<size_t>(
+      std::ranges::count_if(palette.rows, [](const MaterialRow& row) { return !row.rubble; }));
+}
 
 inline const MaterialRow& builtin_row(Material material) {
   return builtin_palette().row(material);

@@ -1,6 +1,9 @@
 #include "client/render/gl/material_table.h"
 
 #include <array>
+#include <glm/vec3.hpp>
+
+#include "client/render/scene/ground_tint.h"
 
 namespace scree {
 namespace {
@@ -12,15 +15,26 @@ struct Texel {
 constexpr size_t table_columns = 256;
 constexpr size_t table_lines = 3;
 
+/// Rubble of the ground's bulk is of the colour of its broken faces (rock.glsl), which is not that of its
+/// row.
+glm::vec3 colour_of(const MaterialRow& material, const Palette& palette) {
+  constexpr glm::vec3 broken(0.51F, 0.30F, 0.165F);
+  if (material.rubble && material.rubble->of == palette.ground.bulk)
+    return broken * ground_tints(palette).bulk;
+  return {material.look.colour[0], material.look.colour[1], material.look.colour[2]};
+}
+
 }  // namespace
 
 void MaterialTable::set(const Palette& palette, const MaterialImages& images) {
   std::array<Texel, table_columns * table_lines> texels;
   for (size_t row = 0; row < table_columns; ++row) {
-    const MaterialLook& look = palette.row_or_first(static_cast<Material>(row)).look;
-    const auto& [red, green, blue] = look.colour;
-    texels[row] = {red, green, blue, look.variation};
-    texels[table_columns + row] = {look.roughness, static_cast<float>(look.pattern), look.pattern_m, 0.0F};
+    const MaterialRow& material = palette.row_or_first(static_cast<Material>(row));
+    const MaterialLook& look = material.look;
+    const glm::vec3 colour = colour_of(material, palette);
+    texels[row] = {colour.r, colour.g, colour.b, look.variation};
+    texels[table_columns + row] = {look.roughness, static_cast<float>(look.pattern), look.pattern_m,
+                                   material.rubble ? 1.0F : 0.0F};
     texels[2 * table_columns + row] = {static_cast<float>(images.layer_of(look.albedo)),
                                        static_cast<float>(images.layer_of(look.normal)), look.image_m, 0.0F};
   }

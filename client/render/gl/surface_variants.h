@@ -12,7 +12,7 @@
 
 namespace scree {
 
-/// What a shader of surfaces knows to draw: the ground, weathered or cut; also materials and heaps; also
+/// What a shader of surfaces knows to draw: the ground, weathered or cut; also materials and rubble; also
 /// materials' images.
 enum class Surfaces { ground, materials, images };
 

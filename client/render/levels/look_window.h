@@ -3,7 +3,7 @@
 //
 // A surface looks as the nearest solid voxel beneath it. Where a voxel says nothing of its material, it looks
 // as the ground does; but soil and ice under the ground's surface show where a cut lays them bare. What is of
-// the ground's bulk always looks as the ground does: rubble that was merged is no other rock.
+// the ground's bulk always looks as the ground does.
 #pragma once
 
 #include <cstdint>
