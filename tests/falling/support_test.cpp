@@ -303,7 +303,7 @@ TEST(support, cutting_legs_ends_and_leaves_no_search_behind) {
   Happened happened;
   ServerReport report;
   std::shared_ptr<const TickDelta> delta;
-  for (int tick = 0; tick < 900; ++tick) {
+  for (int tick = 0; tick < 1800; ++tick) {
     std::vector<Command> commands;
     if (tick < 4)
       commands.push_back(
