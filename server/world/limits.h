@@ -107,6 +107,10 @@ inline constexpr uint32_t dent_seeds = 4;
 inline constexpr float dent_throw = 0.3F;
 inline constexpr float dent_energy_share = 0.1F;
 
+/// A heavier piece stays a block of what it is when it merges, voxels: as rubble it would need a surface that
+/// lies more than a voxel farther out, which merges do not make. With 12 to a side it would still find room.
+inline constexpr int64_t rubble_voxels_max = 1000;
+
 /// Merges of a tick whose budget is used up may cost so much, microseconds: 16 of small pieces, which so many
 /// fewer bodies save in a few ticks. One piece merges in any case.
 inline constexpr float merge_least_us = 1000.0F;

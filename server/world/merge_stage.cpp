@@ -146,19 +146,20 @@ StampMethod method_for(const World::State& state, const StampedPiece& piece) {
   return Window::count(box) <= limits::stamp_voxels_max ? wanted : smallest_stamp;
 }
 
-/// What pieces become.
-Brings brings(const World::State& state) {
-  return state.config.rules >= rules::rubble ? Brings::rubble : Brings::materials;
+/// What a piece becomes.
+Brings brings(const World::State& state, PieceId id) {
+  const bool is_stone = state.pieces.at(id)->mass <= limits::rubble_voxels_max * units_per_voxel;
+  return is_stone && state.config.rules >= rules::rubble ? Brings::rubble : Brings::materials;
 }
 
 /// The plan for one piece. Where redistancing would close gaps between earlier merges that hold more mass
 /// than the piece and all dust have, the piece merges by a method that never gains too much.
 PreparedStamp prepare_one(World::State& state, const StampedPiece& piece, MassUnits mass, MassUnits budget) {
   PreparedStamp prepared = prepare_stamp(state.field, state.pieces, piece.piece, piece.pose,
-                                         method_for(state, piece), budget, brings(state));
+                                         method_for(state, piece), budget, brings(state, piece.piece));
   if (prepared.gain <= mass + state.ledger.dust) return prepared;
   return prepare_stamp(state.field, state.pieces, piece.piece, piece.pose, bounded_stamp, budget,
-                       brings(state));
+                       brings(state, piece.piece));
 }
 
 /// The field gains the pieces' mass, and with it dust that earlier merges could not place.
@@ -169,10 +170,13 @@ void merge_group(World::State& state, const std::vector<StampedPiece>& group, Ti
   const MassUnits budget = stamp_budget(mass, state.ledger.dust);
   const StampedPiece& first = group.front();
   const StampMethod method = merge_method(state);
-  const PreparedStamp prepared =
-      group.size() > 1 ? prepare_group(state.field, state.pieces, group, method, budget, brings(state))
-                       : prepare_one(state, first, mass, budget);
-  if (prepared.gain > mass + state.ledger.dust) {
+  const Brings what = brings(state, first.piece);
+  const bool are_alike =
+      std::ranges::all_of(group, [&](const StampedPiece& one) { return brings(state, one.piece) == what; });
+  const PreparedStamp prepared = group.size() > 1
+                                     ? prepare_group(state.field, state.pieces, group, method, budget, what)
+                                     : prepare_one(state, first, mass, budget);
+  if (!are_alike || prepared.gain > mass + state.ledger.dust) {
     CHECK(group.size() > 1);
     for (const StampedPiece& one : group) merge_group(state, {one}, delta);
     return;

@@ -13,7 +13,7 @@ import { Writer } from './packed.js';
 import { Requests } from './requests.js';
 import { World, bigOf, keyOf } from './world.js';
 
-const PROTOCOL = 4;
+const PROTOCOL = 5;
 const GROUND_WAITING_MAX = 1024;
 const text = (name, fallback) => ({ [name]: { type: 'string', default: fallback } });
 const { values: options } = parseArgs({

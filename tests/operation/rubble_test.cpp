@@ -79,6 +79,34 @@ TEST(rubble, a_stone_that_merges_takes_as_much_more_room_as_rubble_has_pores) {
   }
 }
 
+/// A box of rock, cut out whole, merges on flat ground; how much of its mass finds room.
+double gain_of_block(int side, Brings brings) {
+  RubbleGround ground;
+  const float half_m = 0.5F * static_cast<float>(side) * voxel_m;
+  const Shape block = box({0.0F, 12.0F, 0.0F}, glm::vec3(half_m));
+  ground.act(FillOperation{block, material::rock});
+  CarveOperation cut = carve_ball({0.0F, 12.0F, 0.0F}, 1.0F, 1, 1);
+  cut.shape = box({0.0F, 12.0F, 0.0F}, glm::vec3(half_m + 0.5F));
+  ground.act(cut);
+  const Volume& volume = *ground.pieces.at(1);
+  const auto mass = static_cast<double>(volume.mass);
+  const QuantisedPose pose = quantise({{0.0F, half_m, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}});
+  return static_cast<double>(ground
+                                 .act(prepare_stamp(ground.field, ground.pieces, 1, pose, StampMethod::facets,
+                                                    stamp_budget(volume.mass, 0), brings)
+                                          .operation)
+                                 .terrain_gain) /
+         mass;
+}
+
+TEST(rubble, finds_room_up_to_blocks_of_a_thousand_voxels_and_larger_ones_do_as_rock) {
+  for (const int side : {3, 6, 10}) EXPECT_GT(gain_of_block(side, Brings::rubble), 0.99) << side;
+  for (const int side : {16, 24}) {
+    EXPECT_LT(gain_of_block(side, Brings::rubble), 0.95) << "as rubble it does not fit";
+    EXPECT_GT(gain_of_block(side, Brings::materials), 0.99) << side;
+  }
+}
+
 TEST(rubble, what_is_cut_out_of_it_is_stones_of_the_rock_again) {
   RubbleGround ground;
   const Material rubble = rubble_of(material::rock);

@@ -64,7 +64,17 @@ const std::vector<OldFiles>& old_files() {
        0x1378DFA96508E289,
        0xA0E74AC3003E4F87,
        true,
-       false}};
+       false},
+      {"format_3",
+       "hills",
+       "scree-server 0.2.0",
+       "19e7b0ed981ebbfd198706bbf0cd9e77f3821bccaf5baf5afd950002cafbb8b2",
+       {"hills.scree", "hills_cut.scree"},
+       119,
+       0xB117BE0314A116FE,
+       0x49F1E71C90B6CAB8,
+       true,
+       true}};
   return all;
 }
 

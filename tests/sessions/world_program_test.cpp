@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* ground_hash = "d608d388e03637fb9130bd8f2850f723a5909c8e49968f9c0cc8447b50282cf4";
+constexpr const char* ground_hash = "19e7b0ed981ebbfd198706bbf0cd9e77f3821bccaf5baf5afd950002cafbb8b2";
 
 class WorldProgramTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* name : {"hills.ground", "hills.world", "hills.scree", "hills_cut.scree"})
-      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_2" / name, folder / name);
+      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_3" / name, folder / name);
     ::setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
   }
   void TearDown() override { ::unsetenv("XDG_DATA_HOME"); }

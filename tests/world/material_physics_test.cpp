@@ -7,6 +7,7 @@
 #include "server/fracture/hull.h"
 #include "server/world/world.h"
 #include "shared/falling/support_search.h"
+#include "shared/field/material_window.h"
 #include "shared/operation/operation.h"
 #include "tests/support/flat_world.h"
 #include "tests/support/materials.h"
@@ -216,6 +217,26 @@ TEST(material_physics, a_lintel_of_concrete_on_posts_of_brick_breaks_at_the_load
     (holds(middle) ? holding : breaking) = middle;
   }
   EXPECT_NEAR(holding / wanted_kg, 1.0, 0.1);
+}
+
+/// What a cube of rock is after its fall of a metre onto rock.
+Material after_a_fall_of_cube(int side) {
+  WorldConfig config = rock_world();
+  config.methods.impacts = config.methods.dents = false;
+  World world(config);
+  const float half_m = 0.5F * static_cast<float>(side) * voxel_m;
+  const Command hung{.body =
+                         FillRequest{box({0.0F, half_m + 1.0F, 0.0F}, glm::vec3(half_m)), material::rock}};
+  auto delta = world.step({&hung, 1});
+  for (int tick = 0; tick < 300 && (tick < 60 || !delta->pieces.empty()); ++tick) delta = world.step({});
+  EXPECT_TRUE(delta->pieces.empty());
+  EXPECT_EQ(delta->ledger.error(), 0);
+  return material_at(world.field(), {0.0F, 0.5F, 0.0F});
+}
+
+TEST(material_physics, stones_become_rubble_and_large_blocks_stay_rock) {
+  EXPECT_EQ(after_a_fall_of_cube(6), named("rock_rubble"));
+  EXPECT_EQ(after_a_fall_of_cube(14), material::rock);
 }
 
 }  // namespace
