@@ -8,6 +8,7 @@
 #include "bench/support/server_process.h"
 #include "server/app/chunk_text.h"
 #include "server/app/ground_giver.h"
+#include "server/formats/world_codec.h"
 #include "server/replay/replay_source.h"
 #include "server/store/database.h"
 #include "server/store/world_file.h"
@@ -98,7 +99,7 @@ TEST_F(WorldProgramTest, files_of_this_version_are_opened_and_go_on) {
   expect_whole(world);
   const Ran before = run("info " + world);
   ASSERT_EQ(before.code, 0) << before.said;
-  EXPECT_EQ(before.json.at("format"), 2);
+  EXPECT_EQ(before.json.at("format"), world_format);
   EXPECT_EQ(before.json.at("terrain"), std::string("ground ") + ground_hash);
   EXPECT_EQ(before.json.at("ledger_error"), 0);
   EXPECT_GT(before.json.at("chunks_edited"), 0);

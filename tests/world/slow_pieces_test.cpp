@@ -92,8 +92,8 @@ TEST(SlowPieces, heaps_come_to_rest_in_bounded_time) {
               static_cast<double>(settled.fastest_m_s));
   EXPECT_GT(settled.merged, 300U);
   EXPECT_LT(settled.all_s, 6.0);
-  // By published poses, which overlaps move, too, where rubble that takes more room than its pieces reaches into
-  // their neighbours: their own speed is at most 0.2 m/s.
+  // By published poses, which overlaps move, too, where rubble that takes more room than its pieces reaches
+  // into their neighbours: their own speed is at most 0.2 m/s.
   EXPECT_LE(settled.fast, settled.merged / 6);
 }
 
