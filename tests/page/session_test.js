@@ -110,7 +110,7 @@ test('a click carves; pieces fly, and are terrain again; the field is the server
   await assert_well();
 });
 
-test('a blast of 64 pieces arrives', async (t) => {
+test('a blast of dozens of pieces arrives', async (t) => {
   await page.evaluate(() => {
     globalThis.longest_ms = 0;
     new PerformanceObserver((list) => { for (const { duration } of list.getEntries()) globalThis.longest_ms = Math.max(globalThis.longest_ms, duration); }).observe({ entryTypes: ['longtask'] });
@@ -130,7 +130,8 @@ test('a blast of 64 pieces arrives', async (t) => {
   await until(page, 'the mouse is taken', () => document.pointerLockElement !== null);
   const before_ms = await page.evaluate(() => { const ms = globalThis.longest_ms; globalThis.longest_ms = 0; return ms; });
   await page.mouse.click(WIDTH / 2, HEIGHT / 2);
-  await until(page, '64 pieces fly', () => globalThis.scree.state().pieces_near >= 60);
+  // Natural sizes: half as many as asked for, and more; the finest are dust.
+  await until(page, 'they fly', () => globalThis.scree.state().pieces_near >= 25);
   await until(page, 'they come to rest', () => globalThis.scree.state().status?.pieces === 0);
   const { frame } = await state();
   t.diagnostic(`longest task ${await page.evaluate(() => globalThis.longest_ms)} ms (before: ${before_ms}), longest message ${frame.apply_worst_ms.toFixed(1)} ms, longest job ${frame.work_worst_ms.toFixed(1)} ms; software draws in these tasks, too`);
