@@ -59,7 +59,7 @@ Rock stone_of(vec3 q, vec3 n, vec3 bed, vec3 bent, float fine, float gap, float 
   edge = stone.edge - gap;
   float near = 1.0 - smoothstep(0.25, 0.9, pixel);
   // Stones touch here and there: joints are not equally wide.
-  float width = 0.03 + 0.09 * smoothstep(0.30, 0.75, fine);
+  float width = 0.02 + 0.06 * smoothstep(0.30, 0.75, fine);
   float deep = (1.0 - smoothstep(0.3 * width, width + pixel, edge)) * near;
   float rim = 1.0 - smoothstep(0.0, 0.24, edge);
   vec4 face = facet(q * 1.25 + stone.way * 9.0, bent * 0.06);
@@ -68,9 +68,9 @@ Rock stone_of(vec3 q, vec3 n, vec3 bed, vec3 bent, float fine, float gap, float 
   vec3 tint = mix(vec3(0.82, 0.87, 0.94), vec3(1.15, 0.96, 0.80), smoothstep(0.15, 0.85, stone.way.y + 0.5));
   float shade = (0.66 + 0.70 * (stone.way.z + 0.5)) * (0.62 + 0.76 * fine);
   Rock rock;
-  rock.albedo = bed * tint * shade * mix(1.0, 0.66, rim * rim * near) * mix(1.0, 0.30, deep);
+  rock.albedo = bed * tint * shade * mix(1.0, 0.80, rim * rim * near) * mix(1.0, 0.55, deep);
   rock.normal = n - (bump - n * dot(bump, n)) * near;
-  rock.open = 1.0 - 0.30 * rim * near - 0.45 * deep;
+  rock.open = 1.0 - 0.15 * rim * near - 0.30 * deep;
   rock.roughness = 1.0;
   return rock;
 }
@@ -83,7 +83,7 @@ Rock rubble_at(vec3 p, vec3 n, vec3 bed, vec3 bent, float fine, float sand, floa
   float gap = 0.07 + 0.22 * (1.0 - in_cleft) + 0.16 * (fine - 0.5);
   float edge, small_edge;
   Rock large = stone_of(q * 1.35, n, bed, bent, fine, gap, 0.0018 * away, edge);
-  Rock small = stone_of(q * 3.6 + 7.0, n, bed * 0.72, bent * 0.6, fine, 0.0, 0.005 * away, small_edge);
+  Rock small = stone_of(q * 3.6 + 7.0, n, bed * 0.86, bent * 0.6, fine, 0.0, 0.005 * away, small_edge);
   float filled = 1.0 - smoothstep(-0.02, 0.02, edge);
   Rock rock;
   rock.albedo = mix(large.albedo, small.albedo, filled) * (sand * mix(0.55, 1.0, smoothstep(0.1, 0.8, in_cleft)));
