@@ -123,19 +123,56 @@ Run crossing_tunnels(uint32_t rate_hz) {
   return play(rate_hz, carves, 0.0F);
 }
 
+/// The times that blocks of different sizes break when they fall 78 m onto rock, and the pieces that they
+/// break into; means.
+struct Broken {
+  double breaks = 0.0;
+  double pieces = 0.0;
+};
+
+Broken falling_blocks(uint32_t rate_hz, int blocks) {
+  Broken sum;
+  for (int i = 0; i < blocks; ++i) {
+    WorldConfig config;
+    config.terrain = {TerrainKind::flat, 1, 0.25F};
+    config.tick_rate_hz = rate_hz;
+    config.methods.dents = false;
+    World world(config);
+    const float half_m = 0.75F + 0.09F * static_cast<float>(i);
+    const Command hung{
+        .body = FillRequest{box({0.13F * static_cast<float>(i), 78.0F + half_m, 0.0F}, glm::vec3(half_m))}};
+    auto delta = world.step({&hung, 1});
+    for (uint32_t tick = 0; tick < 8 * rate_hz; ++tick) {
+      for (const AppliedOperation& applied : delta->operations)
+        sum.breaks += std::holds_alternative<ShatterOperation>(applied.operation) ? 1.0 / blocks : 0.0;
+      sum.pieces += tick == 0 ? 0.0 : static_cast<double>(delta->spawned.size()) / blocks;
+      delta = world.step({});
+    }
+  }
+  return sum;
+}
+
 }  // namespace
 
 BenchReport run_rates_bench(const BenchOptions& options) {
   BenchReport report;
   std::map<uint32_t, Run> blasts, tunnels;
+  std::map<uint32_t, Broken> falls;
   for (const uint32_t rate_hz : rates_hz) {
     blasts[rate_hz] = blows(rate_hz, options.quick ? 2 : blows_max);
     tunnels[rate_hz] = crossing_tunnels(rate_hz);
+    falls[rate_hz] = falling_blocks(rate_hz, options.quick ? 4 : 24);
     options.progress(static_cast<double>(blasts.size()) / static_cast<double>(std::size(rates_hz)));
   }
   for (const auto& [rate_hz, run] : blasts) {
     const std::string name = fmt::format("at_{}_hz", rate_hz);
     const Run& tunnel = tunnels.at(rate_hz);
+    const Broken& broken = falls.at(rate_hz);
+    report.metric(name + "_falls_breaks", broken.breaks);
+    report.metric(name + "_falls_pieces", broken.pieces);
+    const double by_rate = broken.pieces / falls.at(60).pieces;
+    report.check(name + "_falls", by_rate >= 0.9 && by_rate <= 1.1,
+                 fmt::format("{:.2f} of the pieces at 60 Hz, wanted 0.9 to 1.1", by_rate));
     report.metric(name + "_half_merged_s", run.rest_s);
     report.metric(name + "_all_merged_s", run.all_s);
     report.metric(name + "_above_birth_energy_m", run.above_birth_m);
