@@ -86,7 +86,6 @@ class BlowSearch {
         direction_(direction_of(load.newtons)),
         bricks_(bricks_of(load.on)),
         parts_(field, palette, bricks_, reach_bricks, support_parts_max) {
-    found_.looked = true;
     found_.parts = parts_.parts().size();
     for (const VoxelCoord voxel : load.on)
       if (const auto part = part_of(voxel)) struck_.insert(*part);
@@ -210,8 +209,8 @@ class BlowSearch {
   BlowFound found_;
 };
 
-/// Whether nothing of so massive rock can break: neither what lies behind the blow, nor, as long as the force
-/// is less than bends it, a tower of such rock.
+}  // namespace
+
 bool surely_holds(const Field& field, const Palette& palette, const BlowLoad& load) {
   const MaterialRow& row = struck_row(field, palette, load.on.front());
   const auto face_m2 = static_cast<double>(field.source().voxel_size_m * field.source().voxel_size_m);
@@ -224,11 +223,8 @@ bool surely_holds(const Field& field, const Palette& palette, const BlowLoad& lo
   });
 }
 
-}  // namespace
-
 BlowFound find_break(Field& field, const Palette& palette, const BlowLoad& load, int reach_bricks) {
   CHECK(!load.on.empty() && glm::length(load.newtons) > 0.0);
-  if (surely_holds(field, palette, load)) return {};
   return BlowSearch(field, palette, load, reach_bricks).run();
 }
 

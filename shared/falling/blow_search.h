@@ -34,11 +34,14 @@ struct BlowLoad {
 struct BlowFound {
   std::optional<Overload> overload;  ///< what breaks off, if anything does
   double share = 1.0;                ///< of the force, at which it does
-  bool looked = false;               ///< false: the terrain is so massive that nothing was looked for
   bool given_up = false;             ///< the terrain is too intricate for the limits
   size_t parts = 0;                  ///< with the following, measures of the cost
   size_t span_bricks = 0, span_joints = 0, span_products = 0;
 };
+
+/// Whether rock behind the blow is so massive that nothing can break: neither it, nor a tower of such rock.
+/// No search is needed then. False where the force could bend a tower of 3³ bricks.
+bool surely_holds(const Field& field, const Palette& palette, const BlowLoad& load);
 
 /// Searches the bounds of the struck bricks, grown by `reach_bricks` in every direction.
 BlowFound find_break(Field& field, const Palette& palette, const BlowLoad& load, int reach_bricks);
