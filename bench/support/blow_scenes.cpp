@@ -12,12 +12,12 @@ namespace scree {
 
 namespace {
 
-constexpr float voxel_m = 0.25F;
+constexpr float blow_voxel_m = 0.25F;
 
 WorldConfig rock_ground() {
   WorldConfig config;
   config.terrain = {
-      TerrainKind::flat, 1, voxel_m, {}, {material::rock, material::rock, material::rock, 1.0F, 1.5F}};
+      TerrainKind::flat, 1, blow_voxel_m, {}, {material::rock, material::rock, material::rock, 1.0F, 1.5F}};
   auto palette = std::make_shared<Palette>(builtin_palette());
   palette->ground = config.terrain.rows;
   config.palette = std::move(palette);
@@ -28,14 +28,14 @@ WorldConfig rock_ground() {
 /// A box by its lowest corner and its size, between planes of voxels.
 Shape block(glm::vec3 lo_m, glm::vec3 size_m) {
   const glm::vec3 half = 0.5F * size_m;
-  return box(lo_m + half - 0.5F * voxel_m, half);
+  return box(lo_m + half - 0.5F * blow_voxel_m, half);
 }
 
 std::vector<glm::vec3> grid(glm::vec3 lo_m, glm::vec3 size_m) {
   std::vector<glm::vec3> places;
-  for (float x = 0.0F; x < size_m.x; x += voxel_m)
-    for (float y = 0.0F; y < size_m.y; y += voxel_m)
-      for (float z = 0.0F; z < size_m.z; z += voxel_m) places.push_back(lo_m + glm::vec3(x, y, z));
+  for (float x = 0.0F; x < size_m.x; x += blow_voxel_m)
+    for (float y = 0.0F; y < size_m.y; y += blow_voxel_m)
+      for (float z = 0.0F; z < size_m.z; z += blow_voxel_m) places.push_back(lo_m + glm::vec3(x, y, z));
   return places;
 }
 
@@ -49,10 +49,10 @@ BlowScene roof() {
     scene.target.push_back(block({side, -0.5F, -6.0F}, {1.0F, 5.5F, 12.0F}));
     scene.target.push_back(block({-6.0F, -0.5F, side}, {12.0F, 5.5F, 1.0F}));
   }
-  scene.target.push_back(block({-6.0F, 5.0F, -6.0F}, {12.0F, voxel_m, 12.0F}));
+  scene.target.push_back(block({-6.0F, 5.0F, -6.0F}, {12.0F, blow_voxel_m, 12.0F}));
   scene.striker = block({-3.75F, 6.0F, -3.75F}, {7.5F, 7.5F, 7.5F});
   for (const float height_m : {0.5F, 2.0F, 5.0F, 15.0F}) scene.speeds_m_s.push_back(fall_m_s(height_m));
-  scene.places_m = grid({-5.0F, 5.0F, -5.0F}, {10.0F, voxel_m, 10.0F});
+  scene.places_m = grid({-5.0F, 5.0F, -5.0F}, {10.0F, blow_voxel_m, 10.0F});
   return scene;
 }
 
@@ -99,16 +99,17 @@ BlowScene plate() {
 }
 
 bool is_rock(const Field& field, glm::vec3 place_m) {
-  const glm::vec3 at = place_m / voxel_m + 0.5F;
+  const glm::vec3 at = place_m / blow_voxel_m + 0.5F;
   const VoxelCoord voxel{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
   const VoxelCoord inside = voxel - first_voxel(brick_of(voxel));
-  return field.brick(brick_of(voxel)).at(inside.x, inside.y, inside.z) < 0;
+  return field.brick(brick_of(voxel)).codes[static_cast<size_t>(Brick::index(inside.x, inside.y, inside.z))] <
+         0;
 }
 
 int64_t target_voxels(const Field& field, const BlowScene& scene) {
   int64_t voxels = 0;
   VoxelBox all{{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}};
-  for (const Shape& shape : scene.target) all = hull_of(all, band_box(in_voxels(shape, voxel_m)));
+  for (const Shape& shape : scene.target) all = hull_of(all, band_box(in_voxels(shape, blow_voxel_m)));
   all.lo.y = std::max(all.lo.y, 1);  // the ground's own does not count
   const Window window = gather(field, all);
   for (const Code code : window.codes) voxels += code < 0 ? 1 : 0;
@@ -145,7 +146,7 @@ std::unique_ptr<World> set_out(const BlowScene& scene, float speed_m_s, uint32_t
   }
   CHECK_EQ(value.moment.motion.bodies.size(), 1U);
   value.moment.motion.bodies.front().velocity_m_s = scene.direction * speed_m_s;
-  auto restored = World::restore(value);
+  auto restored = World::salvage(value);
   CHECK(restored.has_value());
   return std::move(*restored);
 }

@@ -30,7 +30,9 @@ std::optional<VoxelCoord> rock_at(const World::State& state, glm::vec3 point_m, 
     const glm::vec3 at = (point_m - normal * (depth * dx)) / dx + 0.5F;
     const VoxelCoord voxel{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
     const VoxelCoord inside = voxel - first_voxel(brick_of(voxel));
-    if (state.field.brick(brick_of(voxel)).at(inside.x, inside.y, inside.z) < 0) return voxel;
+    if (state.field.brick(brick_of(voxel))
+            .codes[static_cast<size_t>(Brick::index(inside.x, inside.y, inside.z))] < 0)
+      return voxel;
   }
   return std::nullopt;
 }
