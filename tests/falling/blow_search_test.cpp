@@ -67,7 +67,7 @@ TEST(BlowSearch, a_plug_is_what_was_struck_and_bears_what_shears_it) {
 }
 
 TEST(BlowSearch, a_pillar_snaps_and_massive_rock_holds) {
-  MapField field =
+  const auto field =
       built({{{0.0F, -0.5F, 0.0F}, {0.5F, 6.5F, 0.5F}}, {{10.0F, -0.5F, -8.0F}, {16.0F, 10.5F, 16.0F}}});
   const BlowFound found = struck(*field, load_on({{0, 12, 0}, {0, 12, 1}}, {3.6e7, 0.0, 0.0}));
   ASSERT_TRUE(found.overload.has_value());
