@@ -21,12 +21,10 @@ namespace scree {
 
 namespace {
 
-/// Full bricks behind the blow, in depth and to each side, that are massive.
-constexpr int massive_depth = 2;
-constexpr int massive_side = 1;
-/// Massive rock bears this part of what bends a square section as wide as that, at the search's reach: a
-/// third of a brick's height times the sixth of W = a³/6.
-constexpr double bends_massive = 24.0 * 24.0 * 24.0 / 6.0 / 60.0;
+/// Massive rock is at most so many bricks wide to each side of what is struck, and one more deep.
+constexpr int massive_side_max = 3;
+/// Voxels of the lever by which a force bends such rock at most: the search's reach.
+constexpr double massive_lever = 60.0;
 /// By how much the tries grow by which the force is found that breaks a span; how many there are; and the
 /// products of blocks that all of them may take: as many as one search.
 constexpr double span_step = 1.5;
@@ -53,21 +51,33 @@ const MaterialRow& struck_row(const Field& field, const Palette& palette, VoxelC
 }
 
 /// Whether only full bricks and ground lie behind the brick.
-bool is_massive(const Field& field, const Ground& ground, BrickCoord brick, LoadDirection direction) {
+bool is_massive(const Field& field, const Ground& ground, BrickCoord brick, LoadDirection direction,
+                int side) {
   const auto full = [&](BrickCoord at) {
     return ground.holds(at) || solid_bits(field.brick(at)) == ~BrickBits{};
   };
-  const int step = direction.up ? 1 : -1;
-  for (int depth = 1; depth <= massive_depth; ++depth)
-    for (int i = -massive_side; i <= massive_side; ++i)
-      for (int j = -massive_side; j <= massive_side; ++j) {
+  for (int depth = 1; depth <= side + 1; ++depth)
+    for (int i = -side; i <= side; ++i)
+      for (int j = -side; j <= side; ++j) {
         BrickCoord at = brick;
-        along_axis(at, direction.axis) += depth * step;
+        along_axis(at, direction.axis) += direction.up ? depth : -depth;
         along_axis(at, (direction.axis + 1) % 3) += i;
         along_axis(at, (direction.axis + 2) % 3) += j;
         if (!full(at)) return false;
       }
   return true;
+}
+
+/// Bricks to each side that a square tower must have so that the force does not bend it too much at the
+/// search's reach: W = a³/6.
+int massive_side(const Field& field, const Palette& palette, const BlowLoad& load) {
+  const auto bends_pa = static_cast<double>(struck_row(field, palette, load.on.front()).bearing.bending_pa);
+  const auto face_m2 = static_cast<double>(field.source().voxel_size_m * field.source().voxel_size_m);
+  for (int side = 1;; ++side) {
+    const double wide = (2 * side + 1) * brick_size;
+    const double bears = wide * wide * wide / 6.0 / massive_lever * bends_pa * face_m2;
+    if (glm::length(load.newtons) <= bears || side > massive_side_max) return side;
+  }
 }
 
 /// What breaks, and the part of the force at which it does.
@@ -212,14 +222,12 @@ class BlowSearch {
 }  // namespace
 
 bool surely_holds(const Field& field, const Palette& palette, const BlowLoad& load) {
-  const MaterialRow& row = struck_row(field, palette, load.on.front());
-  const auto face_m2 = static_cast<double>(field.source().voxel_size_m * field.source().voxel_size_m);
-  if (glm::length(load.newtons) > bends_massive * static_cast<double>(row.bearing.bending_pa) * face_m2)
-    return false;
   const Ground ground(field);
   const LoadDirection direction = direction_of(load.newtons);
+  const int side = massive_side(field, palette, load);
   return std::ranges::all_of(bricks_of(load.on), [&](BrickCoord brick) {
-    return ground.holds(brick) || is_massive(field, ground, brick, direction);
+    return ground.holds(brick) ||
+           (side <= massive_side_max && is_massive(field, ground, brick, direction, side));
   });
 }
 

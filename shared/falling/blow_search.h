@@ -40,7 +40,7 @@ struct BlowFound {
 };
 
 /// Whether rock behind the blow is so massive that nothing can break: neither it, nor a tower of such rock.
-/// No search is needed then. False where the force could bend a tower of 3³ bricks.
+/// No search is needed then. The harder the blow, the more rock that takes.
 bool surely_holds(const Field& field, const Palette& palette, const BlowLoad& load);
 
 /// Searches the bounds of the struck bricks, grown by `reach_bricks` in every direction.
