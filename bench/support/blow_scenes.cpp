@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "server/formats/world_value.h"
 #include "shared/base/check.h"
 #include "shared/field/window.h"
 
@@ -133,11 +134,12 @@ std::unique_ptr<World> set_out(const BlowScene& scene, float speed_m_s, uint32_t
   config.rules = rules;
   World world(config);
   std::vector<Command> commands;
-  for (const Shape& shape : scene.target) commands.push_back({1, commands.size() + 1, FillRequest{shape}});
+  uint32_t request = 0;
+  for (const Shape& shape : scene.target) commands.push_back({1, ++request, FillRequest{shape}});
   world.step(commands);
   for (int i = 0; i < 600 && world.step({})->work.requests_waiting > 0; ++i) {
   }
-  std::vector<Command> fill{{1, commands.size() + 1, FillRequest{scene.striker}}};
+  std::vector<Command> fill{{1, ++request, FillRequest{scene.striker}}};
   world.step(fill);  // nothing holds it: it is an island
   WorldSnapshot value = world.snapshot();
   for (int i = 0; i < 600 && value.moment.motion.bodies.empty(); ++i) {

@@ -12,13 +12,13 @@
 namespace scree {
 
 struct BlowScene {
-  std::string name;
-  std::vector<Shape> target;  ///< of rock, on flat rock
-  Shape striker;              ///< where the striker is when it sets out; of rock, clear of all else
-  glm::vec3 direction{0.0F};  ///< unit
-  std::vector<float> speeds_m_s;
-  std::vector<glm::vec3> places_m;  ///< in the target: where rock stands or is gone
-  uint32_t ticks = 0;               ///< until what stands is counted
+  std::string name{};
+  std::vector<Shape> target{};  ///< of rock, on flat rock
+  Shape striker{};              ///< where the striker is when it sets out; of rock, clear of all else
+  glm::vec3 direction{0.0F};    ///< unit
+  std::vector<float> speeds_m_s{};
+  std::vector<glm::vec3> places_m{};  ///< in the target: where rock stands or is gone
+  uint32_t ticks = 0;                 ///< until what stands is counted
 };
 
 /// A roof of one voxel on four walls under a block; a pillar of half a metre, struck by 41 t; ten towers in a
