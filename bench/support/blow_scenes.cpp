@@ -172,7 +172,10 @@ BlowOutcome strike(const BlowScene& scene, float speed_m_s, uint32_t rules) {
     const bool breaks = std::ranges::any_of(delta->operations, [](const AppliedOperation& applied) {
       return applied.stage == TickStage::impacts && std::holds_alternative<CarveOperation>(applied.operation);
     });
-    if (breaks && !std::exchange(broke, true)) outcome.energy_left_j = energy_of(world->moment());
+    if (breaks && !std::exchange(broke, true)) {
+      outcome.energy_left_j = energy_of(world->moment());
+      outcome.first = before - target_voxels(world->field(), scene);
+    }
     outcome.worst_ms = std::max(outcome.worst_ms, delta->times[TickStage::impacts]);
     CHECK_EQ(delta->ledger.error(), 0);
   }

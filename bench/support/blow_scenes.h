@@ -28,6 +28,7 @@ std::vector<BlowScene> blow_scenes();
 
 struct BlowOutcome {
   double energy_j = 0.0;       ///< of the striker, when it set out
+  int64_t first = 0;           ///< voxels of the target that are gone after the tick that broke terrain first
   size_t gone = 0;             ///< places
   int64_t voxels = 0;          ///< of the target's that are no terrain any more
   double energy_left_j = 0.0;  ///< of all that moves, after the tick that broke terrain first; 0: none did

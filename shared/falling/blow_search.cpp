@@ -25,11 +25,11 @@ namespace {
 constexpr int massive_side_max = 3;
 /// Voxels of the lever by which a force bends such rock at most: the search's reach.
 constexpr double massive_lever = 60.0;
-/// By how much the tries grow by which the force is found that breaks a span; how many there are; and the
-/// products of blocks that all of them may take: as many as one search.
-constexpr double span_step = 1.5;
-constexpr int span_tries = 5;
-constexpr size_t span_products_max = 48000;
+/// Forces that are tried on spans are powers of this, newtons; how many; and the products of blocks that all
+/// tries may take, some 4 ms.
+constexpr double span_step = 2.0;
+constexpr int span_tries = 8;
+constexpr size_t span_products_max = 12000;
 
 LoadDirection direction_of(glm::dvec3 force) {
   const glm::dvec3 size = glm::abs(force);
@@ -180,31 +180,35 @@ class BlowSearch {
 
   SpansFound spans_under(double share) {
     const SpanForce force{load_.on.front(), load_.at, load_.newtons * share};
-    SpansFound found = find_spans(field_, palette_, bricks_, share > 0.0 ? &force : nullptr);
+    SpansFound found =
+        find_spans(field_, palette_, bricks_, share > 0.0 ? &force : nullptr, struck_parts_max);
     found_.span_bricks += found.bricks_read;
     found_.span_joints += found.joints;
     found_.span_products += found.products;
     return found;
   }
 
-  /// From the force at which the first section would crack if all were elastic: the first try that breaks.
-  /// So the answer does not depend on how much harder the blow is.
+  /// Of forces that do not depend on the blow's, the least that breaks a span: from the one on at which the
+  /// first section would crack if all were elastic. The greatest tension grows with the force, ever faster,
+  /// so that a line to it from the tension without force reaches no farther.
   void try_spans() {
-    const double most = best_ ? best_->share : 1.0;
-    SpansFound whole = spans_under(most);
-    if (whole.overloads.empty()) return;
-    const SpansFound weight = spans_under(0.0);
-    if (!weight.overloads.empty()) return;  // it has stood so far: nobody knows by what
-    double share = most * std::max(1.0 - weight.strain, 0.0) / std::max(whole.strain - weight.strain, 1e-6);
-    for (int i = 0; i < span_tries && share < most && found_.span_products < span_products_max; ++i) {
-      SpansFound part = spans_under(share);
-      if (!part.overloads.empty()) {
-        enter({std::move(part.overloads.front()), share});
-        return;
-      }
-      share *= span_step;
+    const double most_n = (best_ ? best_->share : 1.0) * newtons_;
+    double greatest_n = 1.0;
+    while (greatest_n * span_step <= most_n) greatest_n *= span_step;
+    SpansFound found = spans_under(greatest_n / newtons_);
+    if (found.overloads.empty()) return;
+    const double weight = spans_under(0.0).strain;
+    if (weight >= 1.0) return;  // it has stood so far: nobody knows by what
+    const double cracks_n = greatest_n * (1.0 - weight) / std::max(found.strain - weight, 1e-6);
+    double tried_n = 1.0;
+    while (tried_n < cracks_n) tried_n *= span_step;
+    for (int i = 0; i < span_tries && tried_n <= greatest_n; ++i, tried_n *= span_step) {
+      if (found_.span_products > span_products_max) return;
+      SpansFound part = spans_under(tried_n / newtons_);
+      if (part.overloads.empty()) continue;
+      enter({std::move(part.overloads.front()), tried_n / newtons_});
+      return;
     }
-    best_ = Break{std::move(whole.overloads.front()), most};
   }
 
   Field& field_;

@@ -49,8 +49,8 @@ constexpr double pressed_share = 1.25;
 class Spans {
  public:
   Spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-        const SpanForce* force)
-      : bodies_(field, palette, changed, span_parts_max) {
+        const SpanForce* force, size_t parts_max)
+      : bodies_(field, palette, changed, parts_max) {
     found_.bricks_read = bodies_.bricks_read();
     frame_ = join_spans(bodies_, field.source().voxel_size_m);
     found_.bodies = frame_.loads.size();
@@ -337,8 +337,8 @@ class Spans {
 }  // namespace
 
 SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                      const SpanForce* force) {
-  return Spans(field, palette, changed, force).run();
+                      const SpanForce* force, size_t parts_max) {
+  return Spans(field, palette, changed, force, parts_max).run();
 }
 
 }  // namespace scree

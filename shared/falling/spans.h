@@ -40,11 +40,13 @@ struct SpanForce {
   glm::dvec3 newtons{0.0};
 };
 
-/// What connects to these bricks, or to bricks beside them. `force`: null where weight is all.
-SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                      const SpanForce* force = nullptr);
-
 /// Parts of one frame: farther ones hold. A plate of 12 × 12 bricks, or a beam of 150.
 inline constexpr size_t span_parts_max = 160;
+/// The same under a blow, which is to cost less: a plate of 6 × 6 bricks.
+inline constexpr size_t struck_parts_max = 40;
+
+/// What connects to these bricks, or to bricks beside them. `force`: null where weight is all.
+SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                      const SpanForce* force = nullptr, size_t parts_max = span_parts_max);
 
 }  // namespace scree
