@@ -19,8 +19,8 @@ namespace {
 /// it bears.
 constexpr double rough_margin = 4.0;
 
-/// Halvings by which the part of a force is found at which a section breaks: to a ten-thousandth.
-constexpr int bisections = 14;
+/// Halvings by which the part of a force is found at which a section breaks: to a millionth of the force.
+constexpr int bisections = 20;
 
 struct Candidate {
   double excess = 0.0;  ///< tension over what the section bears
