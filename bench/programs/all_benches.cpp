@@ -9,6 +9,9 @@ namespace {
 
 std::vector<Bench> benches_to_k() {
   return {
+      {"blows",
+       "a roof, a pillar, ten towers in a row, a wall and a plate, struck at several speeds: what breaks",
+       run_blows_bench},
       {"buried", "scenes that enclose pieces in rock: none may travel through it, or be left",
        run_buried_bench},
       {"capacity", "bots that carve once a second: how many until carves are refused or ticks late",

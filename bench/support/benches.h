@@ -5,6 +5,7 @@
 
 namespace scree {
 
+BenchReport run_blows_bench(const BenchOptions& options);
 BenchReport run_buried_bench(const BenchOptions& options);
 BenchReport run_capacity_bench(const BenchOptions& options);
 BenchReport run_carve_bench(const BenchOptions& options);

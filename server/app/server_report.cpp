@@ -56,6 +56,7 @@ Json json_of(const WorkReport& work) {
           {"merges_put_off_most", work.merges_put_off_most},
           {"breaks_left_out", work.breaks_left_out},
           {"dents_left_out", work.dents_left_out},
+          {"blows_left_out", work.blows_left_out},
           {"supports_put_off_most", work.supports_put_off_most},
           {"supports_given_up", work.supports_given_up},
           {"islands_put_off_most", work.islands_put_off_most},
@@ -150,6 +151,7 @@ void WorkReport::add(Tick tick, const TickWork& work) {
   merges_put_off_most = std::max(merges_put_off_most, work.merges_put_off);
   breaks_left_out += work.breaks_left_out;
   dents_left_out += work.dents_left_out;
+  blows_left_out += work.blows_left_out;
   supports_put_off_most = std::max(supports_put_off_most, work.supports_put_off);
   supports_given_up += work.supports_given_up;
   islands_put_off_most = std::max(islands_put_off_most, work.islands_put_off);

@@ -28,6 +28,7 @@ struct WorkReport {
   uint32_t merges_put_off_most = 0;
   uint64_t breaks_left_out = 0;
   uint64_t dents_left_out = 0;
+  uint64_t blows_left_out = 0;
   uint32_t supports_put_off_most = 0;
   uint64_t supports_given_up = 0;
   uint32_t islands_put_off_most = 0;

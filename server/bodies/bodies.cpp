@@ -119,6 +119,7 @@ void Bodies::step() {
   State& s = *state_;
   s.tell_changes();
   s.blows.clear();
+  s.terrain_blows.clear();
   for (int step = 0; step < s.steps_a_tick; ++step) {
     if (step > 0) s.blows.add(list_impacts(s.dispatcher, s.terrain.object(), limits::struck_speed_min_m_s));
     s.step();
@@ -243,6 +244,24 @@ std::vector<BodyImpact> Bodies::impacts(float speed_min_m_s) const {
     return speed_min_m_s * body->second.mass_kg;
   });
   return all;
+}
+
+const std::vector<TerrainBlow>& Bodies::terrain_blows() const {
+  return state_->terrain_blows;
+}
+
+void Bodies::give_back(PieceId id, glm::vec3 impulse_n_s, glm::vec3 at_m) {
+  const auto found = state_->bodies.find(id);
+  CHECK(found != state_->bodies.end() && !found->second.frozen && is_sound(impulse_n_s) && is_sound(at_m));
+  Body& body = found->second;
+  body.rigid->activate(true);
+  body.rigid->applyImpulse(to_bullet(impulse_n_s),
+                           to_bullet(at_m) - body.rigid->getWorldTransform().getOrigin());
+  limit_speeds(body);
+  // What broke bears nothing in the next step: its solver must not begin with this one's impulses.
+  if (body.ground == nullptr) return;
+  for (int i = 0; i < body.ground->getNumContacts(); ++i)
+    body.ground->getContactPoint(i).m_appliedImpulse = 0.0F;
 }
 
 float Bodies::mass_kg(PieceId id) const {

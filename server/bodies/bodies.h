@@ -60,6 +60,20 @@ struct BodyImpact {
   float give_m_s = 0.0F;
 };
 
+/// A body's strongest blow on terrain in the last tick.
+struct TerrainBlow {
+  PieceId id = 0;
+  glm::vec3 point_m{0.0F};          ///< their mean, by impulse
+  glm::vec3 normal{0.0F};           ///< unit, towards the body
+  float impulse_n_s = 0.0F;         ///< along the normal
+  float own_n_s = 0.0F;             ///< part of it that took the body's own speed; the rest others handed on
+  float speed_m_s = 0.0F;           ///< speed there that the contact took, of the body or of those behind it
+  std::vector<glm::vec3> points_m;  ///< where it touched
+
+  /// What the contact took.
+  float energy_j() const { return 0.5F * impulse_n_s * speed_m_s; }
+};
+
 struct BodiesConfig {
   uint32_t tick_rate_hz = 60;
   float gravity_m_s2 = 9.81F;
@@ -124,6 +138,11 @@ class Bodies {
   /// The strongest contact of each body in the last step, if it changed the body's speed by at least
   /// `speed_min_m_s`, which is positive; ordered by id.
   std::vector<BodyImpact> impacts(float speed_min_m_s) const;
+  /// The blows on terrain of the last tick that took at least limits::struck_speed_min_m_s; ordered by id.
+  const std::vector<TerrainBlow>& terrain_blows() const;
+  /// Gives a body back a part of the impulse that a blow on terrain took, because the terrain broke. The body
+  /// must be present and not frozen. It does not become faster than a piece may be.
+  void give_back(PieceId id, glm::vec3 impulse_n_s, glm::vec3 at_m);
   /// The body must be present.
   float mass_kg(PieceId id) const;
   /// Radius of the sphere about the centre of mass that holds the body's hull; metres. The body must be

@@ -8,6 +8,7 @@
 #include "server/bodies/limits.h"
 #include "server/bodies/motion_checks.h"
 #include "server/bodies/sweep.h"
+#include "server/bodies/terrain_blows.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
@@ -116,6 +117,10 @@ void Bodies::State::step() {
   loose.clear();
   for (auto& [id, body] : bodies)
     if (!body.frozen) loose.push_back(&body);
+  for (Body* body : loose) {
+    body->speed_before = body->rigid->getLinearVelocity();
+    body->spin_before = body->rigid->getAngularVelocity();
+  }
   const auto for_all = [this](WorkBatch& batch, auto work) {
     batch.share(std::span(loose), limits::bodies_per_part, work);
   };
@@ -143,6 +148,7 @@ void Bodies::State::step() {
   run(touching);
   terrain.roughen(loose, *config.palette);
   dynamics.solve();
+  keep_strongest(terrain_blows, list_terrain_blows(bodies, dispatcher, limits::struck_speed_min_m_s));
   for (Body* body : loose)
     if (body->rigid->isActive() && is_fast(*body, step_size)) sweep(*body, step_size);
   for_all(moving, [this](std::span<Body*> some) {

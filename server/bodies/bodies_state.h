@@ -56,6 +56,7 @@ struct Bodies::State {
   int steps_a_tick;  ///< a tick longer than limits::step_max_s takes several
   StepSize step_size;
   TickBlows blows;
+  std::vector<TerrainBlow> terrain_blows;  ///< of the tick, ordered by id
   HullAlgorithmCreator hull_algorithm;
   btDefaultCollisionConfiguration collision_configuration;
   Workers workers;

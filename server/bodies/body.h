@@ -44,9 +44,11 @@ struct Body {
   btVector3 inertia_kg_m2;  ///< principal moments
   float reach_m = 0.0F;
   float spin_max_rad_s = 0.0F;
-  bool awake = false;               ///< within a step: at its start
-  bool roused = false;              ///< within tell_changes(): it wakes
-  bool needs_copy = false;          ///< within a step: its probe must copy the terrain first
+  bool awake = false;                        ///< within a step: at its start
+  bool roused = false;                       ///< within tell_changes(): it wakes
+  bool needs_copy = false;                   ///< within a step: its probe must copy the terrain first
+  btVector3 speed_before{0.0F, 0.0F, 0.0F};  ///< at the step's start, of the centre of mass; as the spin
+  btVector3 spin_before{0.0F, 0.0F, 0.0F};
   btTransform last;                 ///< transform before the step: restored when the step's is not finite
   std::optional<BodyState> frozen;  ///< the state of a frozen body
   std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them

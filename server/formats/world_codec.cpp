@@ -215,6 +215,14 @@ void write(kept::Moment& to, const WorldMoment& from) {
   to.set_buried(pack_ids(from.buried));
   to.set_sunk(pack_ids(from.sunk));
   write(*to.mutable_materials(), from.materials);
+  for (const StruckPlace& place : from.struck) {
+    kept::StruckPlace& added = *to.add_struck();
+    added.set_x(place.cell.x);
+    added.set_y(place.cell.y);
+    added.set_z(place.cell.z);
+    added.set_energy_j(place.energy_j);
+    added.set_at(place.at);
+  }
 }
 
 RequestsValue read_requests(const kept::Moment& from, FieldChecker& check) {
@@ -257,6 +265,9 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   moment.buried = check.value_or_refuse(unpack_piece_ids(from.buried(), "buried pieces"));
   moment.sunk = check.value_or_refuse(unpack_piece_ids(from.sunk(), "sunk pieces"));
   moment.materials = scree::read(from.materials(), check);
+  for (const kept::StruckPlace& one : from.struck())
+    moment.struck.push_back(
+        {{one.x(), one.y(), one.z()}, check.not_negative(one.energy_j(), "energy of blows"), one.at()});
   return moment;
 }
 

@@ -179,6 +179,23 @@ struct PartyBricks {
   bool operator==(const PartyBricks&) const = default;
 };
 
+/// A cell of 4³ voxels that blows struck, and what of their energy made no dent yet.
+struct StruckPlace {
+  VoxelCoord cell;
+  float energy_j = 0.0F;
+  Tick at = 0;  ///< tick of the last of them
+
+  bool operator==(const StruckPlace&) const = default;
+};
+inline constexpr int struck_cell_bits = 2;
+inline VoxelCoord cell_of_place(VoxelCoord v) {
+  return {v.x >> struck_cell_bits, v.y >> struck_cell_bits, v.z >> struck_cell_bits};
+}
+inline BrickCoord brick_of_place(VoxelCoord cell) {
+  constexpr int side = 1 << struck_cell_bits;
+  return brick_of(VoxelCoord{cell.x * side, cell.y * side, cell.z * side});
+}
+
 /// All but the terrain: cheap to make, so that every tick can be saved.
 struct WorldMoment {
   RecordedHeader config;  ///< `program` is empty
@@ -202,7 +219,8 @@ struct WorldMoment {
   std::vector<VoxelBox> gained;              ///< around terrain that gained rock
   std::vector<PieceId> buried;               ///< ordered, as `sunk`; may be gone
   std::vector<PieceId> sunk;
-  MaterialLedger materials;  ///< empty in worlds that keep none
+  MaterialLedger materials;         ///< empty in worlds that keep none
+  std::vector<StruckPlace> struck;  ///< ordered by cell
 };
 
 struct WorldSnapshot {

@@ -55,7 +55,7 @@ class TickClock {
       sum.requests_waiting = std::max(sum.requests_waiting, work.requests_waiting);
       sum.merges_put_off = std::max(sum.merges_put_off, work.merges_put_off);
       sum.breaks_left_out += work.breaks_left_out;
-      sum.dents_left_out += work.dents_left_out;
+      sum.dents_left_out += work.dents_left_out + work.blows_left_out;
       sum.ticks_cut_short += work.has_leftovers() ? 1 : 0;
       sum.ticks_merging_sooner += work.merging_sooner ? 1 : 0;
       sum.supports_put_off = std::max(sum.supports_put_off, work.supports_put_off);

@@ -14,6 +14,7 @@ struct TickWork {
   uint32_t merges_put_off = 0;       ///< pieces that are at rest and wait their turn
   uint32_t breaks_left_out = 0;      ///< blows that would have broken a piece
   uint32_t dents_left_out = 0;       ///< blows that would have dented the ground
+  uint32_t blows_left_out = 0;       ///< blows that might have broken terrain off
   bool merging_sooner = false;       ///< a crowd: half of the rest time is enough
   uint32_t supports_put_off = 0;     ///< changed bricks that await a search for support
   uint32_t supports_given_up = 0;    ///< searches for support that ended without a result
@@ -22,7 +23,7 @@ struct TickWork {
 
   bool has_leftovers() const {
     return requests_waiting + refractures_put_off + merges_put_off + breaks_left_out + dents_left_out +
-               supports_put_off + supports_given_up + islands_put_off + islands_too_large >
+               blows_left_out + supports_put_off + supports_given_up + islands_put_off + islands_too_large >
            0;
   }
 };

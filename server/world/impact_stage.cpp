@@ -8,6 +8,7 @@
 #include "server/work/price.h"
 #include "server/work/work.h"
 #include "server/world/blast.h"
+#include "server/world/blow_stage.h"
 #include "server/world/limits.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -25,13 +26,15 @@ struct Blow {
   BodyImpact impact;
   float speed_m_s = 0.0F;  ///< which the piece would lose in a flat blow of as much energy
   float excess = 0.0F;     ///< that speed over strength_m_s(); up to 1 the piece holds
+  bool broke_terrain = false;
 };
 
 /// The material of a piece at the place of a blow.
-Material struck_material(const World::State& state, const Volume& volume, const BodyImpact& impact) {
+Material struck_material(const World::State& state, PieceId piece, glm::vec3 point_m) {
+  const Volume& volume = *state.pieces.at(piece);
   if (volume.materials.is_uniform()) return volume.materials.all;
-  const Pose pose = state.bodies.state(impact.id).pose;
-  const glm::vec3 off_m = glm::conjugate(pose.rotation) * (impact.point_m - pose.position_m);
+  const Pose pose = state.bodies.state(piece).pose;
+  const glm::vec3 off_m = glm::conjugate(pose.rotation) * (point_m - pose.position_m);
   const glm::vec3 at = volume.centre_voxels + off_m / state.config.terrain.voxel_size_m + 0.5F;
   const VoxelBox& box = volume.window.box;
   return volume.materials.at(VoxelCoord{std::clamp(floor_to_int(at.x), box.lo.x, box.hi.x - 1),
@@ -40,7 +43,7 @@ Material struck_material(const World::State& state, const Volume& volume, const 
 }
 
 const MaterialRow& struck_row(const World::State& state, const BodyImpact& impact) {
-  return state.palette->row_or_first(struck_material(state, *state.pieces.at(impact.id), impact));
+  return struck_row(state, impact.id, impact.point_m);
 }
 
 /// The change of speed above which the piece breaks, by what it is of where the blow fell.
@@ -52,13 +55,30 @@ float strength_m_s(const World::State& state, const BodyImpact& impact) {
   return row.strength_m_s / power(std::max(size_m3, 0.001F), row.strength_by_size);
 }
 
+void sort(std::vector<Blow>& blows) {
+  std::ranges::stable_sort(blows, std::ranges::greater{}, &Blow::excess);
+}
+
+/// A body bears no more of a blow than the terrain did before it broke.
+void lessen(std::vector<Blow>& blows, const std::map<PieceId, float>& borne) {
+  for (Blow& blow : blows) {
+    const auto part = borne.find(blow.impact.id);
+    if (part == borne.end() || blow.impact.other) continue;
+    blow.broke_terrain = true;
+    blow.impact.impulse_n_s *= part->second;
+    blow.speed_m_s *= part->second;
+    blow.excess *= part->second;
+  }
+  sort(blows);
+}
+
 std::vector<Blow> blows_of(const World::State& state) {
   std::vector<Blow> blows;
   for (const BodyImpact& impact : state.bodies.impacts(limits::impact_speed_min_m_s)) {
     const float speed = std::sqrt(impact.impulse_n_s * impact.give_m_s / state.bodies.mass_kg(impact.id));
     blows.push_back({impact, speed, speed / strength_m_s(state, impact)});
   }
-  std::ranges::stable_sort(blows, std::ranges::greater{}, &Blow::excess);
+  sort(blows);
   return blows;
 }
 
@@ -200,15 +220,6 @@ float dent_radius_m(float volume_m3) {
   return std::min(cube_root(volume_m3 / 1.325F), limits::dent_radius_max_m);
 }
 
-float mass_kg(const World::State& state, const Volume& volume) {
-  const float dx = state.config.terrain.voxel_size_m;
-  float kg = 0.0F;
-  for (const MaterialMass& one : masses_of(volume))
-    kg += static_cast<float>(one.mass) / units_per_voxel * dx * dx * dx *
-          state.palette->row_or_first(one.material).density_kg_m3;
-  return kg;
-}
-
 /// The speeds of a dent's pieces: up and sideways, away from the blow. Their energy and their momentum come
 /// out of the blow's: of its energy at most limits::dent_energy_share, of its momentum, which is along the
 /// normal, at most all; sideways the momenta cancel out.
@@ -253,11 +264,20 @@ class Ejecta {
   float speed_m_s_ = 0.0F;
 };
 
+/// The blow's, and what earlier ones left at its place.
+float energy_at(World::State& state, const Blow& blow) {
+  const float energy_j = 0.5F * blow.impact.impulse_n_s * blow.impact.give_m_s;
+  if (state.config.rules < rules::blows) return energy_j;
+  const glm::vec3 at = blow.impact.point_m / state.config.terrain.voxel_size_m + 0.5F;
+  const VoxelCoord voxel{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
+  return state.struck.add(voxel, energy_j, state.tick);
+}
+
 void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta& delta) {
   const BodyImpact& impact = blow.impact;
   const float dx = state.config.terrain.voxel_size_m;
   const Material material = material_at(state.field, impact.point_m - impact.normal * dx);
-  const float energy_j = 0.5F * impact.impulse_n_s * impact.give_m_s;
+  const float energy_j = energy_at(state, blow);
   const float volume_m3 = energy_j / state.palette->row_or_first(material).dent_resistance_j_m3;
   const uint32_t seeds = limits::dent_seeds;
   if (volume_m3 < limits::dent_voxels_min * dx * dx * dx) return;
@@ -291,11 +311,16 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
 
 }  // namespace
 
+const MaterialRow& struck_row(const World::State& state, PieceId piece, glm::vec3 point_m) {
+  return state.palette->row_or_first(struck_material(state, piece, point_m));
+}
+
 void apply_impacts(World::State& state, TickDelta& delta) {
   if (!state.config.methods.impacts && !state.config.methods.dents) return;
   Quota breaks{limits::breaks_per_tick_max};
   Quota dents{limits::dents_per_tick_max};
-  const std::vector<Blow> blows = blows_of(state);
+  std::vector<Blow> blows = blows_of(state);
+  lessen(blows, break_terrain(state, delta));
   TurnQueue<WaitingWork>& turns = state.turns.blows;
   for (size_t i = 0; i < blows.size(); ++i) turns.push(state.party_of(blows[i].impact.id), {i});
   turns.begin_tick();
@@ -303,7 +328,8 @@ void apply_impacts(World::State& state, TickDelta& delta) {
     const Blow& blow = blows[turns.next().index];
     const bool on_terrain = !blow.impact.other.has_value();
     const float left_us = state.work.left_us();
-    if (state.config.methods.dents && on_terrain) dent_ground(state, blow, dents, delta);
+    if (state.config.methods.dents && on_terrain && !blow.broke_terrain)
+      dent_ground(state, blow, dents, delta);
     if (state.config.methods.impacts && blow.excess > 1.0F) break_piece(state, blow, breaks, delta);
     turns.pop(left_us - state.work.left_us());
   }

@@ -9,6 +9,9 @@
 
 namespace scree {
 
+/// What a piece is of where it was struck.
+const MaterialRow& struck_row(const World::State& state, PieceId piece, glm::vec3 point_m);
+
 /// Call once a tick, right after the bodies' step.
 void apply_impacts(World::State& state, TickDelta& delta);
 

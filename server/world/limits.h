@@ -80,6 +80,17 @@ inline constexpr float impact_speed_min_m_s = 3.0F;
 inline constexpr uint32_t breaks_per_tick_max = 4;
 inline constexpr uint32_t dents_per_tick_max = 2;
 
+/// Blows that are searched for what they break off, in one tick: about 1 ms each. Above: the weaker ones do
+/// not break terrain.
+inline constexpr uint32_t blows_per_tick_max = 4;
+
+/// Least force of a blow that may break terrain, newtons: of a stone of 20 kg that falls by a metre. Below:
+/// nothing is looked for.
+inline constexpr float blow_min_n = 3.0e4F;
+
+/// Places whose blows were too weak for a dent. Above: the one that was struck least lately is forgotten.
+inline constexpr size_t struck_places_max = 256;
+
 /// Number of breaks among a piece's ancestors from which on it does not break any more.
 inline constexpr uint8_t break_generations_max = 3;
 

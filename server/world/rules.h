@@ -21,8 +21,10 @@ inline constexpr uint32_t spans = 4;
 /// Also, what is random in blasts and breaks goes by place and not by ids of pieces, blasts push to the open
 /// side, a carve in stages keeps the gradient of its pattern, and even rock breaks into natural sizes.
 inline constexpr uint32_t by_place = 5;
+/// Also, blows break terrain off (blow_stage.h), and dents at one place add up.
+inline constexpr uint32_t blows = 6;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = by_place;
+inline constexpr uint32_t newest = blows;
 }  // namespace rules
 
 }  // namespace scree

@@ -91,4 +91,13 @@ void spawn(World::State& state, const Applied& applied,
   state.stopwatch.switch_to(outer, delta.times);
 }
 
+float mass_kg(const World::State& state, const Volume& volume) {
+  const float dx = state.config.terrain.voxel_size_m;
+  float kg = 0.0F;
+  for (const MaterialMass& one : masses_of(volume))
+    kg += static_cast<float>(one.mass) / units_per_voxel * dx * dx * dx *
+          state.palette->row_or_first(one.material).density_kg_m3;
+  return kg;
+}
+
 }  // namespace scree

@@ -24,4 +24,7 @@ BodyState part_of(const BodyState& body, glm::vec3 offset_m);
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta);
 
+/// By its materials, as the palette stands.
+float mass_kg(const World::State& state, const Volume& volume);
+
 }  // namespace scree

@@ -51,6 +51,7 @@ WorldMoment World::moment() const {
   m.loosened_bricks = value_of(s.loosened_bricks);
   m.strained = value_of(s.strained);
   m.gained = s.gained;
+  m.struck = s.struck.value();
   m.buried = {s.buried.begin(), s.buried.end()};
   m.sunk = {s.sunk.begin(), s.sunk.end()};
   return m;

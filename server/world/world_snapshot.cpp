@@ -201,6 +201,18 @@ class Restoring {
     for (const auto& [party, bricks] : m_.strained)
       if (!bricks.empty()) s_.strained[s_.charged(party)].insert(bricks.begin(), bricks.end());
     s_.gained = m_.gained;
+    return struck();
+  }
+
+  Result<void> struck() {
+    if (m_.struck.size() > limits::struck_places_max) return fail("blows struck too many places");
+    for (size_t i = 0; i < m_.struck.size(); ++i) {
+      const StruckPlace& place = m_.struck[i];
+      const bool ascends = i == 0 || m_.struck[i - 1].cell < place.cell;
+      if (!ascends || place.at > m_.tick || !in_world(brick_of_place(place.cell)))
+        return fail("a place that blows struck is out of order, later than now, or outside the world");
+    }
+    s_.struck.restore(m_.struck);
     return {};
   }
 

@@ -117,6 +117,7 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
   if (config.methods.support) add(strained, party, applied.changed);
   if (loose == Loose::specks) add(unswept, party, applied.changed);
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
+  struck.forget(applied.changed);
   if (applied.terrain_gain > 0) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   CHECK(materials.enter(applied.flows));

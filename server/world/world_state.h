@@ -23,6 +23,7 @@
 #include "server/world/rules.h"
 #include "server/world/spawn_place.h"
 #include "server/world/stages.h"
+#include "server/world/struck_places.h"
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
 #include "shared/material/palette.h"
@@ -97,6 +98,7 @@ struct World::State {
   BricksByParty loosened_bricks;  ///< changed bricks that await a search for islands
   BricksByParty strained;         ///< changed bricks that await a search for support
   BricksByParty unswept;          ///< changed by merges and falling islands: specks may lie there
+  StruckPlaces struck;            ///< by blows that made no dent yet
   std::vector<VoxelBox> gained;   ///< around terrain that gained rock since merge_buried() looked last
   std::set<PieceId> buried;       ///< pieces in rock that await their merge
   std::set<PieceId> sunk;         ///< pieces that were in rock when merge_buried() looked last

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <map>
 #include <numeric>
 
 #include "shared/base/check.h"
-#include "shared/falling/section.h"
-#include "shared/field/mass.h"
+#include "shared/falling/link_section.h"
+#include "shared/falling/lumps.h"
 #include "shared/material/material.h"
 
 namespace scree {
@@ -20,64 +19,8 @@ namespace {
 /// it bears.
 constexpr double rough_margin = 4.0;
 
-/// The axes in a section across each axis: the first is the one along which a load bends it.
-constexpr std::array<std::array<int, 2>, 3> plane_axes{{{1, 2}, {0, 2}, {1, 0}}};
-
-glm::dvec3 middle_of_voxel(VoxelCoord v) {
-  return glm::dvec3(v.x, v.y, v.z);
-}
-
-int along(BrickCoord brick, int axis) {
-  return axis == 0 ? brick.x : axis == 1 ? brick.y : brick.z;
-}
-
-/// A weight and where it is.
-struct Mass {
-  double kg = 0.0;
-  glm::dvec3 moment{0.0};  ///< kg voxels
-
-  void add(double more_kg, glm::dvec3 at) {
-    kg += more_kg;
-    moment += at * more_kg;
-  }
-  glm::dvec3 centre() const { return moment / kg; }
-};
-
-/// Parts that connect without crossing the plane that is looked at.
-struct Lump {
-  Mass mass;
-  int64_t voxels = 0;
-  bool held = false;
-  bool changed = false;
-  VoxelBox bounds;  ///< of its bricks
-};
-
-glm::dvec3 centre(const SupportPart& part) {
-  const glm::dvec3 first = middle_of_voxel(first_voxel(part.brick));
-  if (part.is_whole()) return first + 0.5 * (brick_size - 1);
-  glm::dvec3 sum(0.0);
-  for (int axis = 0; axis < 3; ++axis)
-    for (size_t k = 0; k < brick_size; ++k)
-      sum[axis] += static_cast<double>(k) * part.layers[static_cast<size_t>(axis)][k];
-  return first + sum / static_cast<double>(part.voxels);
-}
-
-/// Weight of so many of a part's voxels.
-double kg(const SupportPart& part, int voxels, double voxel_m3) {
-  const auto density = static_cast<double>(part.density_kg_m3);
-  return density * voxel_m3 * static_cast<double>(part.fill) * voxels;
-}
-
-Lump lump_of(const SupportPart& part, double voxel_m3, bool changed) {
-  Lump lump;
-  lump.mass.add(kg(part, part.voxels, voxel_m3), centre(part));
-  lump.voxels = part.voxels;
-  lump.held = part.held;
-  lump.changed = changed;
-  const VoxelCoord first = first_voxel(part.brick);
-  lump.bounds = {first, first + VoxelCoord{brick_size, brick_size, brick_size}};
-  return lump;
-}
+/// Halvings by which the part of a force is found at which a section breaks: to a millionth of the force.
+constexpr int bisections = 20;
 
 struct Candidate {
   double excess = 0.0;  ///< tension over what the section bears
@@ -93,12 +36,14 @@ class Sweep {
     VoxelBox bounds;  ///< of the mass
   };
 
+  /// `force`: null where weight alone bends.
   Sweep(const SupportParts& parts, Field& field, const Palette& palette, const std::set<BrickCoord>& changed,
-        int axis, bool up)
+        const PointForce* force, int axis, bool up)
       : parts_(parts),
         field_(field),
         palette_(palette),
         changed_(changed),
+        force_(force),
         axis_(axis),
         up_(up),
         voxel_m_(static_cast<double>(field.source().voxel_size_m)) {}
@@ -165,13 +110,7 @@ class Sweep {
     if (a == b) return;
     if (a > b) std::swap(a, b);
     lump_of_[b] = a;
-    Lump &to = lumps_[a], &from = lumps_[b];
-    to.mass.kg += from.mass.kg;
-    to.mass.moment += from.mass.moment;
-    to.voxels += from.voxels;
-    to.held = to.held || from.held;
-    to.changed = to.changed || from.changed;
-    to.bounds = hull_of(to.bounds, from.bounds);
+    lumps_[a].add(lumps_[b]);
   }
 
   uint32_t beyond(const SupportLink& link) const { return up_ ? link.upper : link.lower; }
@@ -186,13 +125,18 @@ class Sweep {
     }
     for (const auto& [number, links] : sections) {
       const Lump& lump = lumps_[number];
-      const bool touched = lump.changed || std::ranges::any_of(links, [&](const SupportLink& link) {
-                             return changed_.contains(parts_.parts()[before(link)].brick);
-                           });
-      if (!touched || holds_easily(lump, links)) continue;
+      if (!concerns(lump, links) || holds_easily(lump, links)) continue;
       const Candidate worst = worst_section(lump, links);
       if (worst.excess > 1.0) found_->push_back(broken(lump, links, worst));
     }
+  }
+
+  /// Whether the change touched it, or the force falls on it and on nothing else.
+  bool concerns(const Lump& lump, const std::vector<SupportLink>& links) const {
+    if (force_ != nullptr) return lump.struck == force_->parts.size();
+    return lump.changed || std::ranges::any_of(links, [&](const SupportLink& link) {
+             return changed_.contains(parts_.parts()[before(link)].brick);
+           });
   }
 
   /// What the weakest material of all these parts bears.
@@ -239,6 +183,55 @@ class Sweep {
     return pa * (up_ ? section.tension(-offset) - weight : section.tension(offset) + weight) / bearing_pa;
   }
 
+  /// What bends and pulls a section: newtons, at levers of voxels.
+  struct Bending {
+    glm::dvec2 moment{0.0};
+    double pull = 0.0;
+  };
+  Bending by_weight(const Section& section, double plane, const Mass& mass) const {
+    const auto [u, v] = plane_axes[static_cast<size_t>(axis_)];
+    const double newtons = mass.kg * static_cast<double>(standard_gravity);
+    const glm::dvec3 centre = mass.centre();
+    if (axis_ != 1) return {{std::max(out(centre, plane), 0.0) * newtons, 0.0}, 0.0};
+    const double pull = up_ ? -newtons : newtons;
+    return {pull * (glm::dvec2(centre[u], centre[v]) - section.centroid()), pull};
+  }
+  /// By the force, where it falls beyond the section.
+  Bending by_force(const Section& section, double plane) const {
+    const auto [u, v] = plane_axes[static_cast<size_t>(axis_)];
+    const double lever = out(force_->at, plane);
+    if (lever <= 0.0) return {};
+    const double pull = up_ ? force_->newtons[axis_] : -force_->newtons[axis_];
+    const glm::dvec2 offset = glm::dvec2(force_->at[u], force_->at[v]) - section.centroid();
+    return {pull * offset - lever * glm::dvec2(force_->newtons[u], force_->newtons[v]), pull};
+  }
+  /// How far beyond a plane a place is.
+  double out(glm::dvec3 place, double plane) const {
+    return up_ ? place[axis_] - plane : plane - place[axis_];
+  }
+
+  /// One over the part of the force at which the section breaks, or less than 1. What weight alone would
+  /// break has stood so far: then weight does not count. The tension grows with the part, ever faster, so
+  /// that it passes what the section bears once.
+  double excess_of_force(const Section& section, double plane, const Mass& mass, double bearing_pa) const {
+    Bending weight = by_weight(section, plane, mass);
+    const Bending force = by_force(section, plane);
+    const auto strain = [&](double part) {
+      const double newtons = section.tension(weight.moment + part * force.moment) +
+                             (weight.pull + part * force.pull) / section.area();
+      return newtons / (voxel_m_ * voxel_m_) / bearing_pa;
+    };
+    if (strain(0.0) >= 1.0) weight = {};
+    const double whole = strain(1.0);
+    if (whole <= 1.0) return whole;
+    double holds = 0.0, breaks = 1.0;
+    for (int i = 0; i < bisections; ++i) {
+      const double between = 0.5 * (holds + breaks);
+      (strain(between) > 1.0 ? breaks : holds) = between;
+    }
+    return 1.0 / breaks;
+  }
+
   /// By the links' thinnest sections, taken for blocks as wide as a brick: whether it is far from breaking.
   bool holds_easily(const Lump& lump, const std::vector<SupportLink>& links) const {
     const auto [u, v] = plane_axes[static_cast<size_t>(axis_)];
@@ -252,7 +245,10 @@ class Sweep {
     section.finish();
     const int layer = along(parts_.parts()[links.front().lower].brick, axis_) + 1;
     const double plane = layer * brick_size - 0.5 + (up_ ? -brick_size : brick_size);
-    return excess(section, plane, lump.mass, bearing_pa(links)) * rough_margin < 1.0;
+    const double bears = bearing_pa(links);
+    const double strain = force_ != nullptr ? excess_of_force(section, plane, lump.mass, bears)
+                                            : excess(section, plane, lump.mass, bears);
+    return strain * rough_margin < 1.0;
   }
 
   Candidate worst_section(const Lump& lump, const std::vector<SupportLink>& links) {
@@ -260,11 +256,13 @@ class Sweep {
     const int face = (along(parts_.parts()[links.front().lower].brick, axis_) + 1) * brick_size;
     Candidate worst;
     for (int at = first; at <= last; ++at) {
-      const Section section = measure(links, at);
+      const Section section = section_of(parts_, field_, links, at);
       if (section.area() <= 0.0) continue;
       const Mass mass = beyond_place(lump, links, at);
       if (mass.kg <= 0.0) continue;
-      const double there = excess(section, face + at - 0.5, mass, bearing_pa(links, at));
+      const double plane = face + at - 0.5, bears = bearing_pa(links, at);
+      const double there = force_ != nullptr ? excess_of_force(section, plane, mass, bears)
+                                             : excess(section, plane, mass, bears);
       if (there > worst.excess) worst = {there, at};
     }
     return worst;
@@ -293,53 +291,6 @@ class Sweep {
     return mass;
   }
 
-  /// The section by the codes on both sides: its own voxels, and those of the surface around them.
-  Section measure(const std::vector<SupportLink>& links, int at) const {
-    Section section;
-    if (std::ranges::all_of(links, [&](const SupportLink& link) { return parts_.section(link, at) == 0; }))
-      return section;
-    const auto [u, v] = plane_axes[static_cast<size_t>(axis_)];
-    const VoxelBox box = parts_.section_box(links, at).grown(1);
-    const Window codes = gather(field_, box);
-    Window own(box, 0);
-    for (const SupportLink& link : links) mark(parts_.section_voxels(link, at), own);
-    VoxelCoord step{0, 0, 0};
-    (axis_ == 0 ? step.x : axis_ == 1 ? step.y : step.z) = 1;
-    // The layers on both sides lie in the middle of the box, which was grown by one.
-    VoxelBox low = box;
-    int VoxelCoord::*const normal = axis_ == 0   ? &VoxelCoord::x
-                                    : axis_ == 1 ? &VoxelCoord::y
-                                                 : &VoxelCoord::z;
-    low.lo.*normal += 1;
-    low.hi.*normal = low.lo.*normal + 1;
-    for (int x = low.lo.x; x < low.hi.x; ++x)
-      for (int y = low.lo.y; y < low.hi.y; ++y)
-        for (int z = low.lo.z; z < low.hi.z; ++z) {
-          if (own.at(x, y, z) == 0) continue;
-          const int units =
-              std::min(occupancy(codes.at(x, y, z)), occupancy(codes.at(x + step.x, y + step.y, z + step.z)));
-          if (units == 0) continue;
-          const glm::dvec3 p = middle_of_voxel({x, y, z});
-          section.add({p[u], p[v]}, static_cast<double>(units) / units_per_voxel);
-        }
-    section.finish();
-    return section;
-  }
-
-  /// Marks the voxels and their neighbours in the plane.
-  void mark(const SectionVoxels& voxels, Window& own) const {
-    const std::array<int, 3> reach{axis_ == 0 ? 0 : 1, axis_ == 1 ? 0 : 1, axis_ == 2 ? 0 : 1};
-    for (size_t x = 0; x < voxels.bits.words.size(); ++x)
-      for (int bit = 0; bit < 64; ++bit) {
-        if (((voxels.bits.words[x] >> bit) & 1U) == 0) continue;
-        const VoxelCoord at =
-            voxels.origin + VoxelCoord{static_cast<int>(x), bit / brick_size, bit % brick_size};
-        for (int i = -reach[0]; i <= reach[0]; ++i)
-          for (int j = -reach[1]; j <= reach[1]; ++j)
-            for (int k = -reach[2]; k <= reach[2]; ++k) own.at(at.x + i, at.y + j, at.z + k) = 1;
-      }
-  }
-
   Break broken(const Lump& lump, const std::vector<SupportLink>& links, const Candidate& worst) const {
     Break result{worst.excess, {}, lump.bounds};
     const SupportPart& part = parts_.parts()[beyond(links.front())];
@@ -357,6 +308,7 @@ class Sweep {
   Field& field_;
   const Palette& palette_;
   const std::set<BrickCoord>& changed_;
+  const PointForce* force_;
   int axis_;
   bool up_;
   double voxel_m_;
@@ -367,20 +319,35 @@ class Sweep {
 
 }  // namespace
 
-std::vector<Overload> find_levers(const SupportParts& parts, Field& field, const Palette& palette,
-                                  const std::set<BrickCoord>& changed) {
+namespace {
+
+/// The sections that break, the worst first.
+std::vector<Sweep::Break> all_breaks(const SupportParts& parts, Field& field, const Palette& palette,
+                                     const std::set<BrickCoord>& changed, const PointForce* force) {
   const auto dx = static_cast<double>(field.source().voxel_size_m);
   std::vector<Lump> lumps;
   lumps.reserve(parts.parts().size());
-  for (const SupportPart& part : parts.parts())
-    lumps.push_back(lump_of(part, dx * dx * dx, changed.contains(part.brick)));
+  for (const SupportPart& part : parts.parts()) {
+    lumps.push_back(lump_of(part, dx * dx * dx));
+    lumps.back().changed = changed.contains(part.brick);
+  }
+  if (force != nullptr)
+    for (const uint32_t part : force->parts) lumps[part].struck = 1;
   std::vector<Sweep::Break> found;
   for (int axis = 0; axis < 3; ++axis)
-    for (const bool up : {true, false}) Sweep(parts, field, palette, changed, axis, up).run(lumps, found);
+    for (const bool up : {true, false})
+      Sweep(parts, field, palette, changed, force, axis, up).run(lumps, found);
   std::ranges::stable_sort(found, std::ranges::greater{}, &Sweep::Break::excess);
+  return found;
+}
+
+}  // namespace
+
+std::vector<Overload> find_levers(const SupportParts& parts, Field& field, const Palette& palette,
+                                  const std::set<BrickCoord>& changed) {
   std::vector<Overload> overloads;
   std::vector<VoxelBox> taken;
-  for (Sweep::Break& one : found) {
+  for (Sweep::Break& one : all_breaks(parts, field, palette, changed, nullptr)) {
     const bool apart =
         std::ranges::all_of(taken, [&](const VoxelBox& box) { return common(box, one.bounds).empty(); });
     if (!apart) continue;
@@ -388,6 +355,13 @@ std::vector<Overload> find_levers(const SupportParts& parts, Field& field, const
     overloads.push_back(std::move(one.overload));
   }
   return overloads;
+}
+
+std::optional<ForcedLever> find_lever(const SupportParts& parts, Field& field, const Palette& palette,
+                                      const PointForce& force) {
+  std::vector<Sweep::Break> found = all_breaks(parts, field, palette, {}, &force);
+  if (found.empty()) return std::nullopt;
+  return ForcedLever{std::move(found.front().overload), 1.0 / found.front().excess};
 }
 
 }  // namespace scree

@@ -107,6 +107,36 @@ int64_t LoadFlow::total_load() const {
                          [](int64_t sum, const Node& node) { return sum + node.load; });
 }
 
+int64_t LoadFlow::left() const {
+  int64_t left = 0;
+  for (const Node& node : nodes_)
+    if (!node.grounded) left += node.load;
+  return left;
+}
+
+/// All that load which is left could still flow to: such a set holds all of it, and nothing more fits out.
+std::vector<bool> LoadFlow::smallest_overloaded() const {
+  CHECK_EQ(held_.size(), nodes_.size());
+  std::vector<bool> inside(nodes_.size(), false);
+  std::vector<uint32_t> ahead;
+  for (uint32_t i = 0; i < nodes_.size(); ++i) {
+    if (nodes_[i].grounded || nodes_[i].load == 0) continue;
+    inside[i] = true;
+    ahead.push_back(i);
+  }
+  while (!ahead.empty()) {
+    const uint32_t node = ahead.back();
+    ahead.pop_back();
+    for (uint32_t arc = nodes_[node].first; arc != none; arc = arcs_[arc].next) {
+      const uint32_t to = arcs_[arc].to;
+      if (arcs_[arc].room == 0 || inside[to]) continue;
+      inside[to] = true;
+      ahead.push_back(to);
+    }
+  }
+  return inside;
+}
+
 bool LoadFlow::run(size_t steps) {
   const int64_t total = total_load();
   active_.assign(unreachable() + 1, {});

@@ -33,6 +33,12 @@ class LoadFlow {
     CHECK(node < held_.size());
     return !held_[node];
   }
+  /// After run() returned true: the part of all load that cannot reach the ground.
+  int64_t left() const;
+  /// After run() returned true: of all sets of nodes whose load is so much more than their links to the rest
+  /// can carry, the smallest; by node. Where the same load passes several sections that are equally weak, it
+  /// ends at the one nearest to the load.
+  std::vector<bool> smallest_overloaded() const;
 
  private:
   static constexpr uint32_t none = UINT32_MAX;

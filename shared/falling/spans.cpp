@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <map>
 #include <numeric>
 
@@ -47,14 +48,16 @@ constexpr double pressed_share = 1.25;
 
 class Spans {
  public:
-  Spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed)
-      : bodies_(field, palette, changed, span_parts_max) {
+  Spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+        const SpanForce* force, size_t parts_max)
+      : bodies_(field, palette, changed, parts_max) {
     found_.bricks_read = bodies_.bricks_read();
     frame_ = join_spans(bodies_, field.source().voxel_size_m);
     found_.bodies = frame_.loads.size();
     found_.joints = frame_.joints.size();
     states_.resize(frame_.joints.size());
     find_loose();
+    if (force != nullptr) strike(*force);
   }
 
   SpansFound run() {
@@ -115,6 +118,21 @@ class Spans {
       if (held[root_of(body)]) continue;
       frame_.loads[body] = {};
       loose_.push_back({SpringFrame::fixed, body, glm::dvec3(0.0), glm::dvec3(0.0), {1, 1, 1, 1, 1, 1}});
+    }
+  }
+
+  /// Loads the body on which the force falls, unless that holds or nothing holds it.
+  void strike(const SpanForce& force) {
+    const BrickCoord brick = brick_of(force.on);
+    const VoxelCoord at = force.on - first_voxel(brick);
+    for (const SpanPart& part : bodies_.parts()) {
+      if (!(part.brick == brick) || !part.bits.has(at)) continue;
+      if (part.body >= frame_.loads.size() || frame_.loads[part.body] == Six{}) return;
+      const glm::dvec3 moment = glm::cross(force.at - bodies_.bodies()[part.body].centre, force.newtons);
+      for (int k = 0; k < 3; ++k) {
+        frame_.loads[part.body][static_cast<size_t>(k)] += force.newtons[k];
+        frame_.loads[part.body][static_cast<size_t>(k) + 3] += moment[k];
+      }
     }
   }
 
@@ -318,8 +336,9 @@ class Spans {
 
 }  // namespace
 
-SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed) {
-  return Spans(field, palette, changed).run();
+SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                      const SpanForce* force, size_t parts_max) {
+  return Spans(field, palette, changed, force, parts_max).run();
 }
 
 }  // namespace scree

@@ -14,6 +14,7 @@
 #pragma once
 
 #include <cstddef>
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -32,10 +33,20 @@ struct SpansFound {
   double strain = 0.0;  ///< greatest tension of the elastic state over what its section bears
 };
 
-/// What connects to these bricks, or to bricks beside them.
-SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed);
+/// A force besides weight, at a place, and a voxel of rock on which it falls.
+struct SpanForce {
+  VoxelCoord on;
+  glm::dvec3 at{0.0};
+  glm::dvec3 newtons{0.0};
+};
 
 /// Parts of one frame: farther ones hold. A plate of 12 × 12 bricks, or a beam of 150.
 inline constexpr size_t span_parts_max = 160;
+/// The same under a blow, which is to cost less: a plate of 6 × 6 bricks.
+inline constexpr size_t struck_parts_max = 40;
+
+/// What connects to these bricks, or to bricks beside them. `force`: null where weight is all.
+SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                      const SpanForce* force = nullptr, size_t parts_max = span_parts_max);
 
 }  // namespace scree

@@ -19,6 +19,10 @@ struct BrickBits {
     for (const uint64_t word : words) all |= word;
     return all != 0;
   }
+  /// `at`: relative to the brick's first voxel.
+  bool has(VoxelCoord at) const {
+    return ((words[static_cast<size_t>(at.x)] >> (at.y * brick_size + at.z)) & 1U) != 0;
+  }
   int count() const {
     int sum = 0;
     for (const uint64_t word : words) sum += std::popcount(word);

@@ -1,0 +1,125 @@
+#include "server/bodies/terrain_blows.h"
+
+#include <BulletCollision/BroadphaseCollision/btDispatcher.h>
+#include <algorithm>
+
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+/// How fast a point of the body moved at the step's start.
+btVector3 speed_at(const Body& body, const btVector3& arm) {
+  return body.speed_before + body.spin_before.cross(arm);
+}
+
+/// What the contact's impulse changed of the body's speed there, by a unit of it.
+float give_of(const btRigidBody& rigid, const btVector3& arm, const btVector3& normal) {
+  const btVector3 turned = rigid.getInvInertiaTensorWorld() * arm.cross(normal);
+  return rigid.getInvMass() + turned.cross(arm).dot(normal);
+}
+
+TerrainBlow blow_of(PieceId id, const Body& body) {
+  TerrainBlow blow;
+  blow.id = id;
+  btVector3 point(0.0F, 0.0F, 0.0F), normal(0.0F, 0.0F, 0.0F);
+  for (int i = 0; i < body.ground->getNumContacts(); ++i) {
+    const btManifoldPoint& contact = body.ground->getContactPoint(i);
+    const float impulse = contact.m_appliedImpulse;
+    if (!(impulse > 0.0F)) continue;
+    blow.impulse_n_s += impulse;
+    point += contact.m_positionWorldOnB * impulse;
+    normal += contact.m_normalWorldOnB * impulse;
+  }
+  if (blow.impulse_n_s <= 0.0F || normal.length2() <= 0.0F) return blow;
+  point /= blow.impulse_n_s;
+  normal.normalize();
+  const btRigidBody& rigid = *body.rigid;
+  const btVector3 arm = point - rigid.getWorldTransform().getOrigin();
+  const float give = give_of(rigid, arm, normal);
+  const float own_m_s = std::max(-speed_at(body, arm).dot(normal), 0.0F);
+  blow.point_m = from_bullet(point);
+  blow.normal = from_bullet(normal);
+  blow.speed_m_s = blow.impulse_n_s * give;
+  blow.own_n_s = std::min(blow.impulse_n_s, own_m_s / give);
+  return blow;
+}
+
+std::vector<glm::vec3> points_of(const btPersistentManifold& manifold) {
+  std::vector<glm::vec3> points;
+  for (int i = 0; i < manifold.getNumContacts(); ++i) {
+    const btManifoldPoint& contact = manifold.getContactPoint(i);
+    if (contact.m_appliedImpulse > 0.0F) points.push_back(from_bullet(contact.m_positionWorldOnB));
+  }
+  return points;
+}
+
+/// How fast each body nears another one that strikes it, or that it strikes.
+std::map<PieceId, float> nearing_others(const std::map<PieceId, Body>& bodies,
+                                        const btDispatcher& dispatcher) {
+  std::map<PieceId, float> fastest;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold =
+        *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i);
+    const btRigidBody* first = btRigidBody::upcast(manifold.getBody0());
+    const btRigidBody* second = btRigidBody::upcast(manifold.getBody1());
+    if (first == nullptr || second == nullptr) continue;
+    const auto a = bodies.find(id_of(first)), b = bodies.find(id_of(second));
+    if (a == bodies.end() || b == bodies.end() || a->second.rigid.get() != first ||
+        b->second.rigid.get() != second)
+      continue;  // the terrain's object has no body
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& contact = manifold.getContactPoint(k);
+      if (!(contact.m_appliedImpulse > 0.0F)) continue;
+      const btVector3 at = contact.m_positionWorldOnB;
+      const btVector3 apart = speed_at(a->second, at - first->getWorldTransform().getOrigin()) -
+                              speed_at(b->second, at - second->getWorldTransform().getOrigin());
+      const float nears = -apart.dot(contact.m_normalWorldOnB);
+      for (const auto& one : {a, b}) {
+        float& most = fastest[one->first];
+        most = std::max(most, nears);
+      }
+    }
+  }
+  return fastest;
+}
+
+}  // namespace
+
+std::vector<TerrainBlow> list_terrain_blows(const std::map<PieceId, Body>& bodies,
+                                            const btDispatcher& dispatcher, float speed_min_m_s) {
+  CHECK(speed_min_m_s > 0.0F);
+  std::vector<TerrainBlow> blows;
+  for (const auto& [id, body] : bodies) {
+    if (body.ground == nullptr || body.ground->getNumContacts() == 0 || !body.rigid->isActive()) continue;
+    TerrainBlow blow = blow_of(id, body);
+    if (blow.speed_m_s < speed_min_m_s) continue;
+    blow.points_m = points_of(*body.ground);
+    blows.push_back(std::move(blow));
+  }
+  if (blows.empty()) return blows;
+  // A light body between a heavy one and the ground hands on the heavy one's impulse. No contact takes more
+  // speed than the bodies had: else there would be more energy than they had.
+  const std::map<PieceId, float> others = nearing_others(bodies, dispatcher);
+  for (TerrainBlow& blow : blows) {
+    const float own_m_s = blow.speed_m_s * blow.own_n_s / blow.impulse_n_s;
+    const auto other = others.find(blow.id);
+    blow.speed_m_s =
+        std::min(blow.speed_m_s, std::max(own_m_s, other == others.end() ? 0.0F : other->second));
+  }
+  std::erase_if(blows, [&](const TerrainBlow& blow) { return blow.speed_m_s < speed_min_m_s; });
+  return blows;
+}
+
+void keep_strongest(std::vector<TerrainBlow>& kept, const std::vector<TerrainBlow>& more) {
+  for (const TerrainBlow& blow : more) {
+    const auto place = std::ranges::lower_bound(kept, blow.id, {}, &TerrainBlow::id);
+    if (place == kept.end() || place->id != blow.id)
+      kept.insert(place, blow);
+    else if (place->energy_j() < blow.energy_j())
+      *place = blow;
+  }
+}
+
+}  // namespace scree
