@@ -106,7 +106,9 @@ std::optional<float> search(World::State& state, const Strike& strike, TickDelta
 
 float force_of_blow(float energy_j, float hardness_pa) {
   constexpr float by_cap = 2.44F;  // 15/16 π r² of a cap of the volume 1.325 r³
-  return by_cap * cube_root(hardness_pa) * cube_root(energy_j) * cube_root(energy_j);
+  // Steel is harder, and blows are stronger, than what cube_root() takes.
+  const auto root = [](float of) { return 100.0F * cube_root(1e-6F * of); };
+  return by_cap * root(hardness_pa) * root(energy_j) * root(energy_j);
 }
 
 std::map<PieceId, float> break_terrain(World::State& state, TickDelta& delta) {

@@ -24,8 +24,9 @@ namespace {
 /// An impact, compared with the piece's strength.
 struct Blow {
   BodyImpact impact;
-  float speed_m_s = 0.0F;  ///< which the piece would lose in a flat blow of as much energy
-  float excess = 0.0F;     ///< that speed over strength_m_s(); up to 1 the piece holds
+  float centre_m_s = 0.0F;  ///< change of the speed of the piece's centre of mass
+  float speed_m_s = 0.0F;   ///< which it would lose in a flat blow of as much energy
+  float excess = 0.0F;      ///< that speed over strength_m_s(); up to 1 the piece holds
   bool broke_terrain = false;
 };
 
@@ -66,6 +67,7 @@ void lessen(std::vector<Blow>& blows, const std::map<PieceId, float>& borne) {
     if (part == borne.end() || blow.impact.other) continue;
     blow.broke_terrain = true;
     blow.impact.impulse_n_s *= part->second;
+    blow.centre_m_s *= part->second;
     blow.speed_m_s *= part->second;
     blow.excess *= part->second;
   }
@@ -75,8 +77,9 @@ void lessen(std::vector<Blow>& blows, const std::map<PieceId, float>& borne) {
 std::vector<Blow> blows_of(const World::State& state) {
   std::vector<Blow> blows;
   for (const BodyImpact& impact : state.bodies.impacts(limits::impact_speed_min_m_s)) {
-    const float speed = std::sqrt(impact.impulse_n_s * impact.give_m_s / state.bodies.mass_kg(impact.id));
-    blows.push_back({impact, speed, speed / strength_m_s(state, impact)});
+    const float centre_m_s = impact.impulse_n_s / state.bodies.mass_kg(impact.id);
+    const float speed_m_s = std::sqrt(centre_m_s * impact.give_m_s);
+    blows.push_back({impact, centre_m_s, speed_m_s, speed_m_s / strength_m_s(state, impact)});
   }
   sort(blows);
   return blows;
@@ -241,7 +244,7 @@ class Ejecta {
       squares += mass_kg(state, volume) * glm::dot(direction(volume), direction(volume));
     }
     const float impulse = blow.impact.impulse_n_s;
-    const float by_energy = std::sqrt(limits::dent_energy_share * impulse * blow.impact.give_m_s / squares);
+    const float by_energy = std::sqrt(limits::dent_energy_share * impulse * blow.centre_m_s / squares);
     speed_m_s_ = std::min({limits::dent_throw * blow.speed_m_s, by_energy, impulse / mass});
   }
 
@@ -266,7 +269,7 @@ class Ejecta {
 
 /// The blow's, and what earlier ones left at its place.
 float energy_at(World::State& state, const Blow& blow) {
-  const float energy_j = 0.5F * blow.impact.impulse_n_s * blow.impact.give_m_s;
+  const float energy_j = 0.5F * blow.impact.impulse_n_s * blow.centre_m_s;
   if (state.config.rules < rules::blows) return energy_j;
   const glm::vec3 at = blow.impact.point_m / state.config.terrain.voxel_size_m + 0.5F;
   const VoxelCoord voxel{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};

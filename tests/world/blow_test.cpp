@@ -114,6 +114,12 @@ TEST(Blows, the_force_grows_with_energy_and_hardness_alone) {
               5e7 * 15.0 / 16.0 * 3.14159 * radius_m * radius_m, 1e-2 * 5e7 * radius_m * radius_m);
 }
 
+TEST(Blows, the_hardest_on_the_hardest_have_a_force) {
+  const float newtons = force_of_blow(1e14F, 1e11F);
+  EXPECT_GT(newtons, force_of_blow(1e13F, 1e11F));
+  EXPECT_TRUE(std::isfinite(newtons));
+}
+
 TEST(StruckPlaces, add_up_by_place_and_are_forgotten_where_terrain_changes) {
   StruckPlaces places;
   EXPECT_EQ(places.add({1, 2, 3}, 5.0F, 1), 5.0F);
