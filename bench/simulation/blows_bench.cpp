@@ -26,15 +26,15 @@ void play(const BlowScene& scene, const BenchOptions& options, BenchReport& repo
     report.metric(name + "_voxels_gone_before", static_cast<double>(before.voxels));
     report.metric(name + "_energy_left_kj", now.energy_left_j / 1000.0);
     report.metric(name + "_worst_stage_ms", now.worst_ms);
-    grows = grows && now.gone >= least;
+    grows = grows && 10 * now.gone >= 9 * least;
     // One that is slower sinks a little more on its way, and strikes lower.
     first_grows = first_grows && 10 * now.first >= 9 * least_first;
     least = now.gone;
     least_first = now.first;
   }
   report.check(scene.name + "_first_break_monotone", first_grows, "a harder blow breaks no less at once");
-  // A slow ball stops in its hole, falls on the hole's rim, and may bring down the wall.
-  if (scene.name != "ball") report.check(scene.name + "_monotone", grows, "a harder blow breaks no less");
+  // Where debris falls afterwards differs by a few hundredths.
+  report.check(scene.name + "_monotone", grows, "a harder blow breaks no less");
   report.check(scene.name + "_breaks", least > 0,
                fmt::format("the hardest blow: {} of {} places gone", least, scene.places_m.size()));
 }

@@ -117,7 +117,7 @@ int64_t target_voxels(const Field& field, const BlowScene& scene) {
   return voxels;
 }
 
-/// Of all bodies' motion, but for their spin.
+/// The energy of all bodies' motion, but for their spin.
 double energy_of(const WorldMoment& moment) {
   double energy_j = 0.0;
   for (size_t i = 0; i < moment.pieces.size(); ++i) {

@@ -188,9 +188,9 @@ class BlowSearch {
     return found;
   }
 
-  /// Of forces that do not depend on the blow's, the least that breaks a span: from the one on at which the
-  /// first section would crack if all were elastic. The greatest tension grows with the force, ever faster,
-  /// so that a line to it from the tension without force reaches no farther.
+  /// Looks for the least force that breaks a span, among some that do not depend on the blow's: from the one
+  /// on at which the first section would crack if all were elastic. The greatest tension grows with the
+  /// force, ever faster, so that a line to it from the tension without force reaches no farther.
   void try_spans() {
     const double most_n = (best_ ? best_->share : 1.0) * newtons_;
     double greatest_n = 1.0;

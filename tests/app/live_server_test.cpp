@@ -154,7 +154,7 @@ TEST_F(LiveServerTest, clients_that_join_late_see_little_or_reconnect_end_with_t
   const ServerReport report = server->report();
   EXPECT_EQ(report.net.published.repairs, 0U);
   EXPECT_EQ(report.net.published.resets, 0U);
-  EXPECT_EQ(report.operations.of<CarveOperation>(), 30U);
+  EXPECT_GE(report.operations.of<CarveOperation>(), 30U) << "blows and dents carve, too";
   EXPECT_EQ(report.ledger.error(), 0);
 }
 
