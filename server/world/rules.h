@@ -1,6 +1,6 @@
-// By which rules a world goes: in which order it serves the work that its parties caused, what its merges make, what
-// its search for support finds, and how its pieces break and fly. A recording says by which rules it was made, and is
-// verified by these. A world of an older file is played on by the newest.
+// By which rules a world goes: in which order it serves the work that its parties caused, what its merges
+// make, what its search for support finds, and how its pieces break and fly. A recording says by which rules
+// it was made, and is verified by these. A world of an older file is played on by the newest.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,10 @@ inline constexpr uint32_t spans = 4;
 /// Also, what is random in blasts and breaks goes by place and not by ids of pieces, blasts push to the open
 /// side, a carve in stages keeps the gradient of its pattern, and even rock breaks into natural sizes.
 inline constexpr uint32_t by_place = 5;
+/// Also, rubble and loose ground that lies steeper than its angle of repose slides (slide_stage.h).
+inline constexpr uint32_t slides = 7;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = by_place;
+inline constexpr uint32_t newest = slides;
 }  // namespace rules
 
 }  // namespace scree

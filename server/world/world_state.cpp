@@ -9,6 +9,7 @@
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "server/world/shared_brick.h"
+#include "server/world/slide_stage.h"
 #include "server/world/state_hash.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
@@ -53,6 +54,7 @@ Loose left_by(const Operation& operation) {
                         [](const ShatterOperation&) { return Loose::nothing; },
                         [](const IslandOperation&) { return Loose::specks; },
                         [](const PaintOperation&) { return Loose::nothing; },
+                        [](const SlideOperation&) { return Loose::islands; },
                     },
                     operation);
 }
@@ -117,7 +119,11 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
   if (config.methods.support) add(strained, party, applied.changed);
   if (loose == Loose::specks) add(unswept, party, applied.changed);
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
-  if (applied.terrain_gain > 0) gained.push_back(box_of(applied.changed));
+  if (config.rules >= rules::slides)
+    for (const BrickCoord brick : applied.changed) slopes[party].insert(slope_of(brick));
+  const bool slid = std::holds_alternative<SlideOperation>(operation);
+  if (applied.terrain_gain > 0 || (slid && !applied.changed.empty()))
+    gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   CHECK(materials.enter(applied.flows));
   for (const PieceId ended : pieces_ended_by(operation)) {
