@@ -69,27 +69,27 @@ std::set<Material> sliding_rows(const Field& field, const Palette& palette, Bric
   return rows;
 }
 
-/// A slide of one of the rows there, if one is due.
-std::optional<SlideOperation> due_slide(World::State& state, BrickCoord place) {
+/// Slides of the rows there that lie too steep, in order.
+std::vector<SlideOperation> due_slides(World::State& state, BrickCoord place) {
   const Field& field = state.field;
+  const float dx = state.config.terrain.voxel_size_m;
+  std::vector<SlideOperation> due;
   state.work.spend(limits::slide_glance_cost_us);
   const std::set<Material> rows = sliding_rows(field, *state.palette, place);
-  if (rows.empty()) return std::nullopt;
+  if (rows.empty()) return due;
   state.work.spend(limits::slide_look_cost_us);
-  const uint8_t cell = slide_cell(state.config.terrain.voxel_size_m);
+  const uint8_t cell = slide_cell(dx);
   const VoxelBox box = box_around(field, place, cell);
   const Window codes = gather(field, slide_window(box));
   const MaterialReader materials(field, codes.box);
   for (const Material row : rows) {
     const SlideOperation operation{box, row, *repose_of(state.palette->row(row)), cell};
-    if (!validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m))
-      continue;  // world's edge
-    if (SlideColumns(materials, codes, terms_of(operation)).steepest() <=
+    if (!validate(Operation(operation), state.pieces, dx)) continue;  // at the world's edge
+    if (SlideColumns(materials, codes, terms_of(operation)).steepest() >
         operation.tangent + limits::slide_excess)
-      continue;
-    if (slide(materials, field.rubble(), codes, terms_of(operation))) return operation;
+      due.push_back(operation);
   }
-  return std::nullopt;
+  return due;
 }
 
 /// Looks at the first place of the party, and lets it slide if it is too steep.
@@ -98,10 +98,10 @@ void look_at_first(World::State& state, uint64_t party, TickDelta& delta) {
   const BrickCoord place = *waiting->second.begin();
   waiting->second.erase(waiting->second.begin());
   if (waiting->second.empty()) state.slopes.erase(waiting);
-  const auto operation = due_slide(state, place);
-  if (!operation) return;
-  state.apply_and_record(*operation, party, delta);
-  state.work.spend(slide_price_us(operation->box));
+  for (const SlideOperation& operation : due_slides(state, place)) {
+    state.work.spend(slide_price_us(operation.box));
+    if (!state.apply_and_record(operation, party, delta).changed.empty()) return;
+  }
 }
 
 }  // namespace

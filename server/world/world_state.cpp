@@ -107,6 +107,8 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
                                        const PreparedStamp* prepared) {
   const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);
   Applied applied = apply(operation, field, pieces, prepared);
+  const bool slid = std::holds_alternative<SlideOperation>(operation);
+  if (slid && applied.changed.empty()) return applied;  // nothing happened, so there is nothing to tell
   CHECK_DEBUG(std::ranges::adjacent_find(applied.changed, std::ranges::greater_equal{}) ==
               applied.changed.end());
   delta.operations.push_back(describe(operation, reads, applied));
@@ -121,9 +123,7 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   if (config.rules >= rules::slides)
     for (const BrickCoord brick : applied.changed) slopes[party].insert(slope_of(brick));
-  const bool slid = std::holds_alternative<SlideOperation>(operation);
-  if (applied.terrain_gain > 0 || (slid && !applied.changed.empty()))
-    gained.push_back(box_of(applied.changed));
+  if (applied.terrain_gain > 0 || slid) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   CHECK(materials.enter(applied.flows));
   for (const PieceId ended : pieces_ended_by(operation)) {

@@ -18,7 +18,7 @@ inline constexpr float stamp_voxel_cost_us = 0.02F;
 inline constexpr float lift_cost_us = 400.0F;
 inline constexpr float lift_voxel_cost_us = 0.09F;
 
-/// A slide of rubble, and a voxel of its window: it is planned, and applied.
+/// A slide of rubble, and a voxel of its window.
 inline constexpr float slide_cost_us = 100.0F;
 inline constexpr float slide_voxel_cost_us = 0.05F;
 

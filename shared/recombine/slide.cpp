@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include <cstdio>
+#include <cstdlib>
 #include "shared/base/check.h"
+#define SAY(...) if (getenv("SAY")) fprintf(stderr, __VA_ARGS__)
 #include "shared/field/material_changes.h"
 #include "shared/field/redistance.h"
 #include "shared/recombine/slide_mass.h"
@@ -22,7 +25,32 @@ constexpr int face_code = 22;
 constexpr int reach = 3;
 
 /// Times that the volume is corrected before its mass is met.
-constexpr int corrections = 3;
+constexpr int corrections = 8;
+
+/// By how much more must be raised than is lowered for the mass to stay: what lies half in a face that goes is no
+/// height. False position, from the volume of the mass that is missing.
+class Correction {
+ public:
+  /// So much height weighs so much.
+  Correction(int64_t height, MassUnits weighs) : height_(height), weighs_(weighs) {}
+
+  int64_t more() const { return more_; }
+  /// What was gained by the last.
+  void heed(MassUnits gain) {
+    const int64_t last = more_, step = more_ - before_;
+    const MassUnits gained = gain - gain_before_;
+    const bool is_known = step != 0 && (gained > 0) == (step > 0) && gained != 0;
+    more_ -= is_known ? gain * step / gained : gain * height_ / weighs_;
+    before_ = last;
+    gain_before_ = gain;
+  }
+
+ private:
+  int64_t height_;
+  MassUnits weighs_;
+  int64_t more_ = 0, before_ = 0;
+  MassUnits gain_before_ = 0;
+};
 
 /// The rubble's surface moves, and the distances above and below with it.
 void shift_codes(const Window& before, const SlideColumns& columns, Window& after) {
@@ -140,24 +168,26 @@ AddedMaterials added_by(const MaterialReader& were, const SlideMass& mass) {
 std::optional<Slid> slide(const MaterialReader& were, const RubbleRows& rows, const Window& before,
                           const SlideTerms& terms) {
   SlideColumns columns(were, before, terms);
-  if (!columns.run()) return std::nullopt;
+  if (!columns.run()) { SAY("no run\n"); return std::nullopt; }
   const std::vector<uint8_t> near = near_columns(columns);
   SlideMass mass(were, rows, before, terms.material, near);
+  const MassUnits unit = int64_t{units_per_voxel} * rows.fill[row_number(terms.material)];
+  Correction correction(slide_steps * fill_solid, unit);
   Window after;
-  int64_t more = 0;
   for (int round = 0; round < corrections; ++round) {
-    if (round > 0 && !columns.share_out(more)) return std::nullopt;
+    if (round > 0 && !columns.share_out(correction.more())) { SAY("no share %ld\n", (long)correction.more()); return std::nullopt; }
     after = before;
     shift_codes(before, columns, after);
     bare_faces(before, columns, after);
     settle(near, after);
     mass.assign(after);
+    SAY("round %d gain %ld reach %ld more %ld\n", round, (long)mass.gain_of_rubble(), (long)mass.reach_of_rubble(), (long)correction.more());
     if (std::abs(mass.gain_of_rubble()) <= mass.reach_of_rubble()) break;
-    const int fill = rows.fill[row_number(terms.material)];
-    more -= mass.gain_of_rubble() * slide_steps * fill_solid / (units_per_voxel * fill);
+    correction.heed(mass.gain_of_rubble());
   }
-  if (!mass.meet(after)) return std::nullopt;
+  if (!mass.meet(after)) { SAY("not met\n"); return std::nullopt; }
   make_distances(before, near, after);
+  SAY("met %d lifted %ld\n", mass.is_met(after), (long)mass.lifted(after));
   if (!mass.is_met(after) || mass.lifted(after) > -sink_min) return std::nullopt;
   return Slid{std::move(after), added_by(were, mass)};
 }

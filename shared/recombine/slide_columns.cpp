@@ -16,7 +16,13 @@ constexpr int sweeps = 12;
 constexpr int flow_min = 2;
 
 /// A rise of less than this on ground of another kind would be a film.
-constexpr int film_max = slide_steps / 4;
+constexpr int film_max = slide_steps / 8;
+
+/// A step is one of a stone up to the height by which a cell may fall to the next, and this.
+constexpr int step_more = slide_steps / 2;
+
+/// By so much more is it high enough to start sliding.
+constexpr int step_excess = slide_steps / 2;
 
 /// Whether a voxel says that it is of that row: undisturbed ground, which has stood for long, says nothing.
 bool is_said(const MaterialReader& materials, VoxelCoord v, Material material) {
@@ -46,6 +52,7 @@ void SlideColumns::read_column(const MaterialReader& materials, const Window& co
   column.open = true;
   column.top = top;
   column.height = top * slide_steps + slide_steps * -at(top) / (at(top + 1) - at(top));
+  column.now = column.height;
   int last = top + 1;
   const auto is_rubble = [&](int y) {
     return at(y) < 0 && is_said(materials, foot + VoxelCoord{0, y, 0}, terms_.material);
@@ -65,7 +72,7 @@ void SlideColumns::make_cells() {
   const int side = terms_.cell, count = side * side;
   cells_x_ = box.size().x / side;
   cells_z_ = box.size().z / side;
-  cells_.resize(static_cast<size_t>(cells_x_) * static_cast<size_t>(cells_z_));
+  cells_.assign(static_cast<size_t>(cells_x_) * static_cast<size_t>(cells_z_), Cell{});
   for (int cx = 0; cx < cells_x_; ++cx)
     for (int cz = 0; cz < cells_z_; ++cz) {
       Cell& made = cell(cx, cz);
@@ -76,8 +83,8 @@ void SlideColumns::make_cells() {
         for (int z = z0; z < z0 + side; ++z) {
           const SlideColumn& column = at(x, z);
           made.open = made.open && column.open;
-          made.height += column.height;
-          made.available += column.height - column.floor;
+          made.height += column.now;
+          made.available += column.now - column.floor;
           made.sill = std::max(made.sill, column.floor);
         }
       made.height /= count;
@@ -90,8 +97,63 @@ int SlideColumns::threshold(const Pair& pair) const {
   return terms_.tangent * (slide_steps / 64) * terms_.cell * pair.distance / 128;
 }
 
-int SlideColumns::steepest() const {
+int SlideColumns::step_threshold(int distance) const {
+  return (terms_.tangent * (slide_steps / 64) * terms_.cell + step_more) * distance / 128;
+}
+
+/// f(the places of two columns next to each other, and their distance) of those that may move.
+template <typename F>
+void SlideColumns::for_each_step(bool backward, F&& f) const {
+  const int side = terms_.cell;
+  const int x0 = terms_.box.lo.x - window_.lo.x + side, z0 = terms_.box.lo.z - window_.lo.z + side;
+  const int nx = terms_.box.size().x - 2 * side, nz = terms_.box.size().z - 2 * side;
+  if (nx <= 0 || nz <= 0) return;
+  for (int i = 0; i < nx * nz; ++i) {
+    const int at = backward ? nx * nz - 1 - i : i, x = at / nz, z = at % nz;
+    for (const Pair& pair : pairs) {
+      const int other_x = x + pair.dx, other_z = z + pair.dz;
+      if (other_x >= nx || other_z < 0 || other_z >= nz) continue;
+      f(index(x0 + x, z0 + z), index(x0 + other_x, z0 + other_z), pair.distance);
+    }
+  }
+}
+
+bool SlideColumns::flow_columns(SlideColumn& a, SlideColumn& b, int distance) {
+  if (!a.open || !b.open) return false;
+  const bool falls = a.now > b.now;
+  SlideColumn &from = falls ? a : b, &to = falls ? b : a;
+  const int moved = std::min((from.now - to.now - step_threshold(distance)) / 2, from.now - from.floor);
+  if (moved < flow_min) return false;
+  from.now -= moved;
+  to.now += moved;
+  return true;
+}
+
+bool SlideColumns::sweep_columns(bool backward) {
+  bool moved = false;
+  for_each_step(backward, [&](size_t a, size_t b, int distance) {
+    moved |= flow_columns(columns_[a], columns_[b], distance);
+  });
+  return moved;
+}
+
+/// By how much the highest step of rubble is too high.
+int SlideColumns::highest_step() const {
   int most = 0;
+  for_each_step(false, [&](size_t a, size_t b, int distance) {
+    const SlideColumn &one = columns_[a], &other = columns_[b];
+    if (!one.open || !other.open) return;
+    const bool falls = one.height > other.height;
+    const SlideColumn &from = falls ? one : other, &to = falls ? other : one;
+    const int drop = from.height - to.height - step_threshold(distance);
+    most = std::max(most, std::min(drop, 2 * (from.height - from.floor)));
+  });
+  return most;
+}
+
+int SlideColumns::steepest() const {
+  const int step = highest_step();
+  int most = step > step_excess ? terms_.tangent + step * 64 / slide_steps : 0;
   for (int x = 0; x < cells_x_; ++x)
     for (int z = 0; z < cells_z_; ++z)
       for (const Pair& pair : pairs) {
@@ -159,10 +221,9 @@ int SlideColumns::shift_at(int x, int z) const {
 
 bool SlideColumns::run() {
   bool moved = false;
-  for (int i = 0; i < sweeps; ++i) {
-    if (!sweep(i % 2 != 0)) break;
-    moved = true;
-  }
+  for (int i = 0; i < sweeps && sweep_columns(i % 2 != 0); ++i) moved = true;
+  make_cells();
+  for (int i = 0; i < sweeps && sweep(i % 2 != 0); ++i) moved = true;
   if (!moved) return false;
   wanted_.assign(columns_.size(), 0);
   const int first_x = terms_.box.lo.x - window_.lo.x, first_z = terms_.box.lo.z - window_.lo.z;
@@ -172,7 +233,7 @@ bool SlideColumns::run() {
       const size_t i = index(first_x + x, first_z + z);
       const SlideColumn& column = columns_[i];
       if (!column.open) continue;
-      int shift = shift_at(x, z);
+      int shift = column.now - column.height + shift_at(x, z);
       shift = std::clamp(shift, column.floor - column.height, std::max(0, highest - column.height));
       const Cell& own = cell(x / terms_.cell, z / terms_.cell);
       const bool bare = column.floor == column.height;
@@ -188,7 +249,7 @@ bool SlideColumns::share_out(int64_t more) {
   int64_t lowered = 0, raised = 0;
   for (const int wanted : wanted_) (wanted < 0 ? lowered : raised) += std::abs(wanted);
   const int64_t lower = std::min(lowered, raised), raise = lower + more;
-  if (lower < slide_steps || raise <= 0 || raise > 2 * raised) return false;
+  if (lower < slide_steps || raise <= 0 || raise > 3 * raised) return false;
   for (size_t i = 0; i < columns_.size(); ++i) {
     const int64_t wanted = wanted_[i];
     columns_[i].shift = static_cast<int>(wanted < 0 ? wanted * lower / lowered : wanted * raise / raised);

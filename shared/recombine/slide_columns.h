@@ -4,7 +4,7 @@
 //
 // Slopes are those of cells of several columns, about half a metre wide: stones stick out of a heap, and
 // stand steeper for their own length. All columns of a cell sink or rise alike, so that the stones keep their
-// looks.
+// looks. A step between two columns that is higher than a stone slides by itself first.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +28,7 @@ struct SlideColumn {
   int floor = 0;      ///< of what lies below the rubble on top of it; its height where none does
   int top = 0;        ///< its topmost solid voxel, from the window's lowest
   int last = 0;       ///< the lowest voxel of the rubble; top + 1 where there is none
+  int now = 0;        ///< height after steps slid
   bool open = false;  ///< its surface lies in the window, away from bottom and top
   int shift = 0;      ///< by which the surface moves
 };
@@ -74,6 +75,11 @@ class SlideColumns {
 
   size_t index(int x, int z) const { return static_cast<size_t>(x) * static_cast<size_t>(size_.z) + z; }
   void read_column(const MaterialReader& materials, const Window& codes, int x, int z);
+  bool flow_columns(SlideColumn& a, SlideColumn& b, int distance);
+  bool sweep_columns(bool backward);
+  int highest_step() const;
+  template <typename F>
+  void for_each_step(bool backward, F&& f) const;
   void make_cells();
   bool flow(Cell& a, Cell& b, const Pair& pair);
   bool sweep(bool backward);
@@ -81,6 +87,8 @@ class SlideColumns {
   Cell& cell(int x, int z) { return cells_[static_cast<size_t>(x * cells_z_ + z)]; }
   const Cell& cell(int x, int z) const { return cells_[static_cast<size_t>(x * cells_z_ + z)]; }
   int threshold(const Pair& pair) const;
+  /// What a step between two columns at that distance, in 128ths, may have.
+  int step_threshold(int distance) const;
 
   VoxelBox window_;
   VoxelCoord size_;
