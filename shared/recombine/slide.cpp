@@ -1,11 +1,9 @@
 #include "shared/recombine/slide.h"
 
 #include <algorithm>
-
-#include <cstdio>
 #include <cstdlib>
+
 #include "shared/base/check.h"
-#define SAY(...) if (getenv("SAY")) fprintf(stderr, __VA_ARGS__)
 #include "shared/field/material_changes.h"
 #include "shared/field/redistance.h"
 #include "shared/recombine/slide_mass.h"
@@ -14,9 +12,9 @@ namespace scree {
 
 namespace {
 
-/// Mass times height by which a slide must sink: a voxel of rock by a voxel. The mass of a world is finite,
+/// Mass times height by which a slide must sink: four voxels of rock by a voxel. The mass of a world is finite,
 /// and has a lowest place.
-constexpr int64_t sink_min = units_per_voxel;
+constexpr int64_t sink_min = int64_t{4} * units_per_voxel;
 
 /// Codes just beyond the ends of the ramp: a face halfway between a full voxel and an empty one.
 constexpr int face_code = 22;
@@ -27,8 +25,8 @@ constexpr int reach = 3;
 /// Times that the volume is corrected before its mass is met.
 constexpr int corrections = 8;
 
-/// By how much more must be raised than is lowered for the mass to stay: what lies half in a face that goes is no
-/// height. False position, from the volume of the mass that is missing.
+/// By how much more must be raised than is lowered for the mass to stay: what lies half in a face that goes
+/// is no height. False position, from the volume of the mass that is missing.
 class Correction {
  public:
   /// So much height weighs so much.
@@ -168,26 +166,24 @@ AddedMaterials added_by(const MaterialReader& were, const SlideMass& mass) {
 std::optional<Slid> slide(const MaterialReader& were, const RubbleRows& rows, const Window& before,
                           const SlideTerms& terms) {
   SlideColumns columns(were, before, terms);
-  if (!columns.run()) { SAY("no run\n"); return std::nullopt; }
+  if (!columns.run()) return std::nullopt;
   const std::vector<uint8_t> near = near_columns(columns);
   SlideMass mass(were, rows, before, terms.material, near);
   const MassUnits unit = int64_t{units_per_voxel} * rows.fill[row_number(terms.material)];
   Correction correction(slide_steps * fill_solid, unit);
   Window after;
   for (int round = 0; round < corrections; ++round) {
-    if (round > 0 && !columns.share_out(correction.more())) { SAY("no share %ld\n", (long)correction.more()); return std::nullopt; }
+    if (round > 0 && !columns.share_out(correction.more())) return std::nullopt;
     after = before;
     shift_codes(before, columns, after);
     bare_faces(before, columns, after);
     settle(near, after);
     mass.assign(after);
-    SAY("round %d gain %ld reach %ld more %ld\n", round, (long)mass.gain_of_rubble(), (long)mass.reach_of_rubble(), (long)correction.more());
     if (std::abs(mass.gain_of_rubble()) <= mass.reach_of_rubble()) break;
     correction.heed(mass.gain_of_rubble());
   }
-  if (!mass.meet(after)) { SAY("not met\n"); return std::nullopt; }
+  if (!mass.meet(after)) return std::nullopt;
   make_distances(before, near, after);
-  SAY("met %d lifted %ld\n", mass.is_met(after), (long)mass.lifted(after));
   if (!mass.is_met(after) || mass.lifted(after) > -sink_min) return std::nullopt;
   return Slid{std::move(after), added_by(were, mass)};
 }

@@ -10,7 +10,7 @@ namespace scree {
 namespace {
 
 /// Passes over all pairs of cells: a slide is one stage of many, and what is still too steep slides again.
-constexpr int sweeps = 12;
+constexpr int sweeps = 6;
 
 /// Flows of less than this are none.
 constexpr int flow_min = 2;
