@@ -12,12 +12,15 @@ namespace scree {
 
 namespace {
 
-/// Mass times height by which a slide must sink: four voxels of rock by a voxel. The mass of a world is finite,
-/// and has a lowest place.
+/// Mass times height by which a slide must sink: four voxels of rock by a voxel. The mass of a world is
+/// finite, and has a lowest place.
 constexpr int64_t sink_min = int64_t{4} * units_per_voxel;
 
 /// Codes just beyond the ends of the ramp: a face halfway between a full voxel and an empty one.
 constexpr int face_code = 22;
+
+/// Voxels above a surface in which the distance is to it.
+constexpr int above = 5;
 
 /// Columns around those that move in which distances change.
 constexpr int reach = 3;
@@ -64,7 +67,9 @@ void shift_codes(const Window& before, const SlideColumns& columns, Window& afte
         if (y < lowest) return code_solid;
         return before.codes[foot + static_cast<size_t>(std::min(y, size.y - 1) * step)];
       };
-      for (int y = column.last; y < size.y; ++y) {
+      // Beyond the band above it, distances are to something else. The outermost layer stays.
+      const int end = (column.height + std::max(column.shift, 0)) / slide_steps + above;
+      for (int y = column.last; y < std::min(end, size.y - 1); ++y) {
         const int from = y * slide_steps - column.shift;
         const int below = from >= 0 ? from / slide_steps : -((slide_steps - 1 - from) / slide_steps);
         const int part = from - below * slide_steps;

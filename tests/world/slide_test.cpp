@@ -39,6 +39,7 @@ struct Followed {
     }
     EXPECT_EQ(delta->field_hash, field.hash());
     EXPECT_EQ(delta->ledger.error(), 0);
+    EXPECT_EQ(world.measure_terrain(), delta->ledger.terrain) << "tick " << delta->tick;
     last = delta;
     return slides_of(*delta);
   }
