@@ -15,7 +15,7 @@ constexpr const char* materials[] = {"rock", "concrete", "brick"};
 constexpr float voxels_m[] = {0.15F, 0.25F, 0.5F};
 
 /// The ball of stones that is dropped at once, and how high above the heap.
-constexpr float ball_m = 1.2F, ball_voxels = 5.0F, height_m = 1.5F;
+constexpr float ball_m = 1.2F, ball_voxels = 5.0F, height_m = 0.5F;
 constexpr uint32_t stones_max = 40;
 constexpr double stone_voxels = 14.0;
 
@@ -130,7 +130,7 @@ void tell(BenchReport& report, const std::string& name, const Heap& heap) {
 
 BenchReport run_heaps_bench(const BenchOptions& options) {
   BenchReport report;
-  const uint32_t drops = options.quick ? 3 : 14;
+  const uint32_t drops = options.quick ? 3 : 20;
   double done = 0.0;
   for (const char* material : materials)
     for (const float voxel_m : voxels_m) {

@@ -32,7 +32,7 @@ class HeapShape {
       for (int z = 1; z + 1 < nz_; ++z) most = std::max(most, slope_deg(x, z));
     return most;
   }
-  /// Mean angle of the flanks: of what is no ground, no foot and no top.
+  /// Mean angle of the flanks: of what is no ground, no foot, to which falling stones roll, and no top.
   double flank_deg(double ground_m) const {
     const double top_m = *std::max_element(heights_m_.begin(), heights_m_.end()) - ground_m;
     double sum = 0.0;
@@ -40,7 +40,7 @@ class HeapShape {
     for (int x = 1; x + 1 < nx_; ++x)
       for (int z = 1; z + 1 < nz_; ++z) {
         const double part = (of(x, z) - ground_m) / top_m;
-        if (part < 0.25 || part > 0.75) continue;
+        if (part < 0.4 || part > 0.85) continue;
         sum += slope_deg(x, z);
         ++count;
       }
@@ -65,7 +65,7 @@ class HeapShape {
     const double below = codes.at(x, y, z), above = codes.at(x, y + 1, z);
     return (y + (below < 0 ? -below / (above - below) : 0.0)) * voxel_m_;
   }
-  /// Of a plane through the eight squares around one.
+  /// That of a plane through the eight squares around one.
   double slope_deg(int x, int z) const {
     double along_x = 0.0, along_z = 0.0;
     for (int i = -1; i <= 1; ++i) {

@@ -54,7 +54,7 @@ inline constexpr float span_product_cost_us = 0.3F;
 /// for one place, with its slide.
 inline constexpr float slide_glance_cost_us = 5.0F;
 inline constexpr float slide_look_cost_us = 150.0F;
-inline constexpr float slide_least_us = 2500.0F;
+inline constexpr float slide_least_us = 4000.0F;
 
 /// Where the tick's budget never has that, a place is looked at every so many seconds.
 inline constexpr float slide_rest_s = 0.2F;

@@ -61,10 +61,7 @@ void SlideColumns::read_column(const MaterialReader& materials, const Window& co
   column.last = last;
   column.floor = column.height;
   if (last > top) return;
-  // What lies over a gap keeps its lowest voxel.
-  const int under =
-      at(last - 1) < 0 ? last * slide_steps - slide_steps / 2 : last * slide_steps + slide_steps / 2;
-  column.floor = std::min(under, column.height);
+  column.floor = std::min(last * slide_steps - slide_steps / 2, column.height);
 }
 
 void SlideColumns::make_cells() {
