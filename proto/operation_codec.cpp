@@ -9,6 +9,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
+#include "shared/operation/limits.h"
 #include "shared/recombine/stamp_method.h"
 
 namespace scree {
@@ -23,10 +24,10 @@ constexpr unsigned kind_bits = 3;
 constexpr uint64_t kind_mask = (1U << kind_bits) - 1;
 constexpr size_t kinds = std::variant_size_v<Operation>;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | kind_mask;
-/// The kind of a fill of a material and of paint by voxels; a byte after the head says which.
+/// The kind of a fill of a material, of paint by voxels, and of slides; a byte after the head says which.
 constexpr uint64_t kind_with_material = 7;
-enum WithMaterial : uint8_t { fill_of_material = 0, paint_of_voxels = 1 };
-static_assert(kinds == kind_with_material);
+enum WithMaterial : uint8_t { fill_of_material = 0, paint_of_voxels = 1, slide_of_material = 2 };
+static_assert(kinds == kind_with_material + 1);
 
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
 /// takes no byte of its own.
@@ -94,6 +95,7 @@ PieceId head_id(const Operation& operation) {
                         [](const ShatterOperation& op) { return op.first_piece; },
                         [](const IslandOperation& op) { return op.piece; },
                         [](const PaintOperation&) { return PieceId{0}; },
+                        [](const SlideOperation&) { return PieceId{0}; },
                     },
                     operation);
 }
@@ -145,6 +147,14 @@ struct Writing {
     if (!paint.whole_bricks) writer.u8(paint_of_voxels);
     write_shape(writer, paint.shape);
     writer.u8(static_cast<uint8_t>(paint.material));
+  }
+  void operator()(const SlideOperation& slide) const {
+    writer.u8(slide_of_material);
+    const VoxelCoord size = slide.box.size();
+    for (const int32_t low : {slide.box.lo.x, slide.box.lo.y, slide.box.lo.z}) writer.zigzag(low);
+    for (const int32_t side : {size.x, size.y, size.z}) writer.varint(static_cast<uint64_t>(side));
+    for (const uint8_t one : {static_cast<uint8_t>(slide.material), slide.tangent, slide.cell})
+      writer.u8(one);
   }
   void operator()(const IslandOperation& island) const {
     const VoxelCoord size = island.box.size(), start = island.start - island.box.lo;
@@ -250,9 +260,26 @@ void read(ByteReader& reader, PieceId id, PaintOperation& paint) {
   paint.whole_bricks = true;
 }
 
+void read(ByteReader& reader, PieceId, SlideOperation& slide) {
+  const auto side = [&](int most) {
+    return static_cast<int32_t>(reader.varint("side of a slide", static_cast<uint64_t>(most)));
+  };
+  slide.box.lo = read_coord(reader, VoxelCoord{}, limits::voxel_coordinate_max, "place of a slide");
+  const int32_t x = side(limits::slide_side_max_voxels), y = side(limits::slide_height_max_voxels);
+  slide.box.hi = slide.box.lo + VoxelCoord{x, y, side(limits::slide_side_max_voxels)};
+  slide.material = read_material(reader);
+  slide.tangent = reader.u8("tangent of a slide", limits::slide_tangent_max);
+  slide.cell = reader.u8("cell of a slide", limits::slide_cell_max_voxels);
+}
+
 Operation read_with_material(ByteReader& reader, PieceId id) {
-  if (id != 0) reader.refuse("a fill or paint with a piece id");
-  const uint8_t which = reader.u8("kind of an operation with a material", paint_of_voxels);
+  if (id != 0) reader.refuse("a fill, paint or slide with a piece id");
+  const uint8_t which = reader.u8("kind of an operation with a material", slide_of_material);
+  if (which == slide_of_material) {
+    SlideOperation slide;
+    read(reader, id, slide);
+    return slide;
+  }
   const Shape shape = read_shape(reader);
   const Material material = read_material(reader);
   if (which == fill_of_material) return FillOperation{shape, material};
@@ -269,15 +296,17 @@ Operation read_as(ByteReader& reader, PieceId id) {
 using Reading = Operation (*)(ByteReader& reader, PieceId id);
 
 template <size_t... kind>
-constexpr std::array<Reading, kinds> readings_of(std::index_sequence<kind...>) {
+constexpr std::array<Reading, kind_with_material> readings_of(std::index_sequence<kind...>) {
   return {read_as<std::variant_alternative_t<kind, Operation>>...};
 }
-constexpr std::array<Reading, kinds> readings = readings_of(std::make_index_sequence<kinds>{});
+constexpr std::array<Reading, kind_with_material> readings =
+    readings_of(std::make_index_sequence<kind_with_material>{});
 
 bool has_form_with_material(const Operation& operation) {
   const auto* fill = std::get_if<FillOperation>(&operation);
   const auto* paint = std::get_if<PaintOperation>(&operation);
-  return (fill != nullptr && fill->material) || (paint != nullptr && !paint->whole_bricks);
+  return std::holds_alternative<SlideOperation>(operation) || (fill != nullptr && fill->material) ||
+         (paint != nullptr && !paint->whole_bricks);
 }
 
 Operation read_operation(ByteReader& reader) {

@@ -34,6 +34,8 @@ std::vector<Bench> benches_to_k() {
        run_fanout_bench},
       {"fights", "four fights far apart on one, two and four threads: throughput, the same hashes",
        run_fights_bench},
+      {"heaps", "stones of three materials that fall into heaps and merge: pores, swell, angle at rest",
+       run_heaps_bench},
       {"islands", "the search for loose rock: towers and arches, in 64 m and 1,024 m of edited terrain",
        run_islands_bench},
       {"join", "joining a world with 10,000 carves, and coming back with a cache: bytes and seconds",

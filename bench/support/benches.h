@@ -15,6 +15,7 @@ BenchReport run_cutters_bench(const BenchOptions& options);
 BenchReport run_draw_bench(const BenchOptions& options);
 BenchReport run_fanout_bench(const BenchOptions& options);
 BenchReport run_fights_bench(const BenchOptions& options);
+BenchReport run_heaps_bench(const BenchOptions& options);
 BenchReport run_islands_bench(const BenchOptions& options);
 BenchReport run_join_bench(const BenchOptions& options);
 BenchReport run_latency_bench(const BenchOptions& options);

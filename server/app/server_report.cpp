@@ -60,6 +60,7 @@ Json json_of(const WorkReport& work) {
           {"supports_put_off_most", work.supports_put_off_most},
           {"supports_given_up", work.supports_given_up},
           {"islands_put_off_most", work.islands_put_off_most},
+          {"slides_put_off_most", work.slides_put_off_most},
           {"islands_too_large", work.islands_too_large},
           {"memory_mb", work.memory_mb}};
 }
@@ -155,6 +156,7 @@ void WorkReport::add(Tick tick, const TickWork& work) {
   supports_put_off_most = std::max(supports_put_off_most, work.supports_put_off);
   supports_given_up += work.supports_given_up;
   islands_put_off_most = std::max(islands_put_off_most, work.islands_put_off);
+  slides_put_off_most = std::max(slides_put_off_most, work.slides_put_off);
   islands_too_large += work.islands_too_large;
 }
 

@@ -32,6 +32,7 @@ struct WorkReport {
   uint32_t supports_put_off_most = 0;
   uint64_t supports_given_up = 0;
   uint32_t islands_put_off_most = 0;
+  uint32_t slides_put_off_most = 0;
   uint64_t islands_too_large = 0;
   uint32_t memory_mb = 0;  ///< in the last tick
 

@@ -211,6 +211,7 @@ void write(kept::Moment& to, const WorldMoment& from) {
   }
   to.set_cut(write(*to.mutable_cut_shares(), from.loosened_bricks));
   to.set_strained(write(*to.mutable_strained_shares(), from.strained));
+  to.set_slopes(write(*to.mutable_slope_shares(), from.slopes));
   to.set_gained(pack_boxes(from.gained));
   to.set_buried(pack_ids(from.buried));
   to.set_sunk(pack_ids(from.sunk));
@@ -261,6 +262,7 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
                               search.restarts(), search.party()});
   moment.loosened_bricks = read(from.cut_shares(), from.cut(), "cut bricks", check);
   moment.strained = read(from.strained_shares(), from.strained(), "strained bricks", check);
+  moment.slopes = read(from.slope_shares(), from.slopes(), "slopes", check);
   moment.gained = check.value_or_refuse(unpack_boxes(from.gained(), "gained terrain"));
   moment.buried = check.value_or_refuse(unpack_piece_ids(from.buried(), "buried pieces"));
   moment.sunk = check.value_or_refuse(unpack_piece_ids(from.sunk(), "sunk pieces"));

@@ -216,6 +216,7 @@ struct WorldMoment {
   std::vector<LooseningEdit> islands;        ///< searches, in order
   std::vector<PartyBricks> loosened_bricks;  ///< await a search for islands; by party, as `strained`
   std::vector<PartyBricks> strained;         ///< await a search for support
+  std::vector<PartyBricks> slopes;           ///< places whose rubble may lie too steep
   std::vector<VoxelBox> gained;              ///< around terrain that gained rock
   std::vector<PieceId> buried;               ///< ordered, as `sunk`; may be gone
   std::vector<PieceId> sunk;

@@ -57,6 +57,7 @@ class Telling {
   // Bursts of merges are the tick's as a whole; what leaves the world is nobody's to see.
   std::optional<Event> operator()(const StampOperation&) const { return std::nullopt; }
   std::optional<Event> operator()(const DiscardOperation&) const { return std::nullopt; }
+  std::optional<Event> operator()(const SlideOperation&) const { return std::nullopt; }
 
  private:
   Event at(EventKind kind, glm::vec3 place_m) const {
@@ -102,6 +103,7 @@ std::optional<glm::vec3> place_of(const AppliedOperation& applied, const TickDel
                  [&](const PaintOperation& paint) { return of_shape(paint); },
                  [&](const ShatterOperation&) { return place_of_pieces(applied.created, delta); },
                  [&](const IslandOperation& island) -> Place { return middle_of(island.box, voxel_size_m); },
+                 [&](const SlideOperation& slide) -> Place { return middle_of(slide.box, voxel_size_m); },
                  [](const StampOperation& stamp) -> Place { return dequantise(stamp.pose).position_m; },
                  [](const DiscardOperation&) -> Place { return std::nullopt; }},
       applied.operation);

@@ -53,6 +53,15 @@ inline constexpr float span_brick_cost_us = 1.3F;
 inline constexpr float span_joint_cost_us = 36.0F;
 inline constexpr float span_product_cost_us = 0.3F;
 
+/// A place whose rubble may lie too steep: whether there is any, and how steep it is; and what a tick must have left
+/// for one place, with its slide.
+inline constexpr float slide_glance_cost_us = 5.0F;
+inline constexpr float slide_look_cost_us = 150.0F;
+inline constexpr float slide_least_us = 4000.0F;
+
+/// Where the tick's budget never has that, a place is looked at every so many seconds.
+inline constexpr float slide_rest_s = 0.2F;
+
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.
 inline constexpr float first_fracture_us = 5000.0F;

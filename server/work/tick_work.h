@@ -20,10 +20,12 @@ struct TickWork {
   uint32_t supports_given_up = 0;    ///< searches for support that ended without a result
   uint32_t islands_put_off = 0;      ///< islands, or blocks of islands, that wait to fall
   uint32_t islands_too_large = 0;    ///< components so large that they were taken for ground
+  uint32_t slides_put_off = 0;       ///< places whose slopes wait to be looked at
 
   bool has_leftovers() const {
     return requests_waiting + refractures_put_off + merges_put_off + breaks_left_out + dents_left_out +
-               blows_left_out + supports_put_off + supports_given_up + islands_put_off + islands_too_large >
+               blows_left_out + supports_put_off + supports_given_up + islands_put_off + islands_too_large +
+               slides_put_off >
            0;
   }
 };

@@ -23,8 +23,10 @@ inline constexpr uint32_t spans = 4;
 inline constexpr uint32_t by_place = 5;
 /// Also, blows break terrain off (blow_stage.h), and dents at one place add up.
 inline constexpr uint32_t blows = 6;
+/// Also, rubble and loose ground that lies steeper than its angle of repose slides (slide_stage.h).
+inline constexpr uint32_t slides = 7;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = blows;
+inline constexpr uint32_t newest = slides;
 }  // namespace rules
 
 }  // namespace scree

@@ -23,6 +23,7 @@ enum class TickStage : uint8_t {
   rest,        ///< rest detection
   recombine,   ///< planning and applying stamps
   buried,      ///< merges of pieces that were enclosed in rock
+  slides,      ///< rubble that lies too steep runs down
   islands,     ///< search for what hangs loose, and its fall
   support,     ///< search for what is too heavy for what holds it
   specks,      ///< crumbs that merges and islands left
@@ -55,6 +56,8 @@ constexpr TickStageRow row_of(TickStage stage) {
       return {stage, "recombine", true};
     case TickStage::buried:
       return {stage, "buried", true};
+    case TickStage::slides:
+      return {stage, "slides", true};
     case TickStage::islands:
       return {stage, "islands", false};
     case TickStage::support:

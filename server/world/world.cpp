@@ -9,6 +9,7 @@
 #include "server/world/refracture_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/settings.h"
+#include "server/world/slide_stage.h"
 #include "server/world/support_stage.h"
 #include "server/world/world_state.h"
 #include "shared/base/check.h"
@@ -92,6 +93,8 @@ StageRun run_of(TickStage stage) {
       return merge;
     case TickStage::buried:
       return merge_buried;
+    case TickStage::slides:
+      return slide_slopes;
     case TickStage::islands:
       return drop_islands;
     case TickStage::support:

@@ -50,6 +50,7 @@ WorldMoment World::moment() const {
   m.islands = s.islands.value();
   m.loosened_bricks = value_of(s.loosened_bricks);
   m.strained = value_of(s.strained);
+  m.slopes = value_of(s.slopes);
   m.gained = s.gained;
   m.struck = s.struck.value();
   m.buried = {s.buried.begin(), s.buried.end()};
@@ -80,7 +81,7 @@ uint64_t first_free_session(const WorldMoment& moment) {
   for (const TurnsValue::Turn& turn : moment.requests.turns.turns) last = std::max(last, turn.who);
   for (const LooseningEdit& search : moment.islands) last = std::max(last, search.party);
   for (const PendingRefracture& pending : moment.refractures) last = std::max(last, pending.party);
-  for (const auto* parties : {&moment.loosened_bricks, &moment.strained})
+  for (const auto* parties : {&moment.loosened_bricks, &moment.strained, &moment.slopes})
     for (const PartyBricks& one : *parties) last = std::max(last, one.party);
   return last + 1;
 }

@@ -188,7 +188,7 @@ class Restoring {
   }
 
   Result<void> places() {
-    for (const auto* parties : {&m_.loosened_bricks, &m_.strained})
+    for (const auto* parties : {&m_.loosened_bricks, &m_.strained, &m_.slopes})
       for (const PartyBricks& one : *parties)
         if (!std::ranges::all_of(one.bricks, [&](BrickCoord brick) { return in_world(brick); }))
           return fail("a changed brick lies outside the world");
@@ -200,6 +200,8 @@ class Restoring {
     for (const auto& [party, bricks] : m_.loosened_bricks) s_.loosen(party, bricks);
     for (const auto& [party, bricks] : m_.strained)
       if (!bricks.empty()) s_.strained[s_.charged(party)].insert(bricks.begin(), bricks.end());
+    for (const auto& [party, bricks] : m_.slopes)
+      if (!bricks.empty()) s_.slopes[s_.charged(party)].insert(bricks.begin(), bricks.end());
     s_.gained = m_.gained;
     return struck();
   }

@@ -9,6 +9,7 @@
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "server/world/shared_brick.h"
+#include "server/world/slide_stage.h"
 #include "server/world/state_hash.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
@@ -53,6 +54,7 @@ Loose left_by(const Operation& operation) {
                         [](const ShatterOperation&) { return Loose::nothing; },
                         [](const IslandOperation&) { return Loose::specks; },
                         [](const PaintOperation&) { return Loose::nothing; },
+                        [](const SlideOperation&) { return Loose::islands; },
                     },
                     operation);
 }
@@ -105,6 +107,8 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
                                        const PreparedStamp* prepared) {
   const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);
   Applied applied = apply(operation, field, pieces, prepared);
+  const bool slid = std::holds_alternative<SlideOperation>(operation);
+  if (slid && applied.changed.empty()) return applied;  // nothing happened, so there is nothing to tell
   CHECK_DEBUG(std::ranges::adjacent_find(applied.changed, std::ranges::greater_equal{}) ==
               applied.changed.end());
   delta.operations.push_back(describe(operation, reads, applied));
@@ -118,7 +122,9 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
   if (loose == Loose::specks) add(unswept, party, applied.changed);
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   struck.forget(applied.changed);
-  if (applied.terrain_gain > 0) gained.push_back(box_of(applied.changed));
+  if (config.rules >= rules::slides)
+    for (const BrickCoord brick : applied.changed) slopes[party].insert(slope_of(brick));
+  if (applied.terrain_gain > 0 || slid) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   CHECK(materials.enter(applied.flows));
   for (const PieceId ended : pieces_ended_by(operation)) {

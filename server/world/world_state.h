@@ -52,7 +52,7 @@ struct WaitingWork {
 /// are empty between stages.
 struct StageTurns {
   TurnQueue<WaitingPiece> merges, buried;
-  TurnQueue<WaitingWork> blows, supports;
+  TurnQueue<WaitingWork> blows, supports, slides;
 };
 
 struct World::State {
@@ -97,6 +97,7 @@ struct World::State {
   std::set<BrickCoord> changed;   ///< in this tick
   BricksByParty loosened_bricks;  ///< changed bricks that await a search for islands
   BricksByParty strained;         ///< changed bricks that await a search for support
+  BricksByParty slopes;           ///< places (slope_of) whose rubble may lie too steep
   BricksByParty unswept;          ///< changed by merges and falling islands: specks may lie there
   StruckPlaces struck;            ///< by blows that made no dent yet
   std::vector<VoxelBox> gained;   ///< around terrain that gained rock since merge_buried() looked last

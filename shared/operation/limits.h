@@ -18,4 +18,15 @@ inline constexpr float stamp_voxel_cost_us = 0.02F;
 inline constexpr float lift_cost_us = 400.0F;
 inline constexpr float lift_voxel_cost_us = 0.09F;
 
+/// A slide of rubble, and a voxel of its window.
+inline constexpr float slide_cost_us = 100.0F;
+inline constexpr float slide_voxel_cost_us = 0.05F;
+
+/// Sides of a slide's box along x and z, along y, and of a cell, voxels; and the tangent of its angle, in
+/// 64ths: up to 63°. Above: refused.
+inline constexpr int slide_side_max_voxels = 80;
+inline constexpr int slide_height_max_voxels = 128;
+inline constexpr int slide_cell_max_voxels = 8;
+inline constexpr int slide_tangent_max = 127;
+
 }  // namespace scree::limits

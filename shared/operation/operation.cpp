@@ -15,6 +15,7 @@
 #include "shared/fracture/seeds.h"
 #include "shared/fracture/shatter.h"
 #include "shared/operation/prepared_stamp.h"
+#include "shared/operation/slide_operation.h"
 #include "shared/recombine/stamp_materials.h"
 
 namespace scree {
@@ -365,6 +366,7 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
                           return op.whole_bricks ? paint_box(in_voxels(op.shape, voxel_size_m))
                                                  : around(op.shape);
                         },
+                        [](const SlideOperation& op) { return slide_window(op.box); },
                     },
                     operation);
 }
@@ -378,6 +380,7 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
                         [&](const ShatterOperation& op) { return apply_shatter(op, pieces); },
                         [&](const IslandOperation& op) { return apply_island(op, field, pieces); },
                         [&](const PaintOperation& op) { return apply_paint(op, field); },
+                        [&](const SlideOperation& op) { return apply_slide(op, field); },
                     },
                     operation);
 }

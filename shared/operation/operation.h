@@ -115,10 +115,23 @@ struct PaintOperation {
   bool operator==(const PaintOperation&) const = default;
 };
 
+/// Rubble, or loose ground, of one material that lies steeper than its angle of repose runs down within a box
+/// of voxels, which are exact (shared/recombine/slide.h). It changes nothing where all is at rest, or where
+/// the mass of each material cannot be kept to the unit.
+struct SlideOperation {
+  static constexpr std::string_view plural = "slides";
+  VoxelBox box;  ///< its sides along x and z are whole cells
+  Material material{};
+  uint8_t tangent = 48;  ///< of the angle, in 64ths
+  uint8_t cell = 1;      ///< slopes are those of squares of so many voxels a side
+
+  bool operator==(const SlideOperation&) const = default;
+};
+
 /// The place in this list is an operation's number on the wire and in recordings: new ones come last. Each
 /// says by `plural` how reports call it.
 using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation,
-                               ShatterOperation, IslandOperation, PaintOperation>;
+                               ShatterOperation, IslandOperation, PaintOperation, SlideOperation>;
 
 /// The pieces that the operation takes out of the table.
 std::vector<PieceId> pieces_ended_by(const Operation& operation);

@@ -18,6 +18,7 @@ std::vector<PieceId> pieces_ended_by(const Operation& operation) {
                         [](const ShatterOperation& op) { return Ids{op.piece}; },
                         [](const IslandOperation&) { return Ids{}; },
                         [](const PaintOperation&) { return Ids{}; },
+                        [](const SlideOperation&) { return Ids{}; },
                     },
                     operation);
 }
@@ -31,6 +32,7 @@ size_t pieces_merged_by(const Operation& operation) {
                         [](const ShatterOperation&) { return size_t{0}; },
                         [](const IslandOperation&) { return size_t{0}; },
                         [](const PaintOperation&) { return size_t{0}; },
+                        [](const SlideOperation&) { return size_t{0}; },
                     },
                     operation);
 }
@@ -50,6 +52,7 @@ PieceIds ids_made_by(const Operation& operation) {
                           return PieceIds{op.piece, 1};
                         },
                         [](const PaintOperation&) { return PieceIds{}; },
+                        [](const SlideOperation&) { return PieceIds{}; },
                     },
                     operation);
 }
@@ -64,6 +67,7 @@ std::optional<PieceId> parent_of(const Operation& operation) {
                         [](const ShatterOperation& op) { return Parent(op.piece); },
                         [](const IslandOperation&) { return Parent(); },
                         [](const PaintOperation&) { return Parent(); },
+                        [](const SlideOperation&) { return Parent(); },
                     },
                     operation);
 }

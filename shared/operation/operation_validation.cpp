@@ -5,6 +5,7 @@
 #include <string>
 
 #include "shared/base/limits.h"
+#include "shared/operation/limits.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
@@ -90,6 +91,13 @@ Result<void> validate_material(Material material) {
               std::to_string(materials_max - 1));
 }
 
+Result<void> validate_place(const VoxelBox& box, const std::string& what) {
+  constexpr auto far = static_cast<int>(limits::world_half_width_m / limits::voxel_size_min_m);
+  const VoxelBox world{{-far, -far, -far}, {far, far, far}};
+  if (world.holds(box.lo) && world.holds(box.hi)) return {};
+  return fail("the " + what + " is outside the world (limits.world_half_width_m)");
+}
+
 struct Validator {
   const PieceTable& pieces;
   float voxel_size_m;
@@ -128,16 +136,31 @@ struct Validator {
     return validate_seeds(op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const IslandOperation& op) const {
-    constexpr auto far = static_cast<int>(limits::world_half_width_m / limits::voxel_size_min_m);
-    const VoxelBox world{{-far, -far, -far}, {far, far, far}};
-    if (!world.holds(op.box.lo) || !world.holds(op.box.hi))
-      return fail("the island is outside the world (limits.world_half_width_m)");
+    TRY(validate_place(op.box, "island"));
     const VoxelCoord size = op.box.size();
     if (std::max({size.x, size.y, size.z}) > limits::island_side_max_bricks * brick_size)
       return fail("the island is longer than " + std::to_string(limits::island_side_max_bricks) +
                   " bricks (limits.island_side_max_bricks)");
     if (!op.box.holds(op.start)) return fail("the island's start is outside its box");
     if (op.piece == UINT32_MAX) return fail("the piece ids are used up");
+    return {};
+  }
+  Result<void> operator()(const SlideOperation& op) const {
+    TRY(validate_material(op.material));
+    TRY(validate_place(op.box, "slide"));
+    const VoxelCoord size = op.box.size();
+    if (std::max(size.x, size.z) > limits::slide_side_max_voxels || size.y > limits::slide_height_max_voxels)
+      return fail("the slide is larger than " + std::to_string(limits::slide_side_max_voxels) +
+                  " voxels a side, or higher than " + std::to_string(limits::slide_height_max_voxels) +
+                  " (limits.slide_side_max_voxels)");
+    if (op.cell < 1 || op.cell > limits::slide_cell_max_voxels)
+      return fail("a slide's cell has 1 to " + std::to_string(limits::slide_cell_max_voxels) +
+                  " voxels a side");
+    if (op.box.empty() || size.x % op.cell != 0 || size.z % op.cell != 0)
+      return fail("the slide's box is not one of whole cells");
+    if (op.tangent < 1 || op.tangent > limits::slide_tangent_max)
+      return fail("the tangent of a slide's angle is 1 to " + std::to_string(limits::slide_tangent_max) +
+                  " 64ths");
     return {};
   }
 };

@@ -4,6 +4,7 @@
 #include "shared/falling/island.h"
 #include "shared/field/edit.h"
 #include "shared/operation/limits.h"
+#include "shared/recombine/slide.h"
 
 namespace scree {
 
@@ -43,6 +44,7 @@ struct OperationPricing {
     return cut_price_us(shatter.cutter, voxels_of_piece(shatter.piece), shatter.seeds);
   }
   float operator()(const IslandOperation& island) const { return lift_price_us(island.box); }
+  float operator()(const SlideOperation& slide) const { return slide_price_us(slide.box); }
 };
 
 }  // namespace
@@ -71,6 +73,10 @@ float merge_price_us(StampMethod method, float voxels) {
 
 float lift_price_us(const VoxelBox& box) {
   return limits::lift_cost_us + limits::lift_voxel_cost_us * voxels_of(lift_box(box));
+}
+
+float slide_price_us(const VoxelBox& box) {
+  return limits::slide_cost_us + limits::slide_voxel_cost_us * voxels_of(slide_window(box));
 }
 
 float price_us(const Operation& operation, const Field& field, const PieceTable& pieces) {

@@ -23,6 +23,9 @@ float merge_price_us(StampMethod method, float voxels);
 /// Lifting an island of that box, with its hulls and body.
 float lift_price_us(const VoxelBox& box);
 
+/// Letting rubble slide in that box.
+float slide_price_us(const VoxelBox& box);
+
 /// Applying a valid operation to this field and these pieces.
 float price_us(const Operation& operation, const Field& field, const PieceTable& pieces);
 

@@ -302,6 +302,25 @@ void print_islands() {
   digest.print("islands");
 }
 
+/// A cliff of gravel at the foot of a hill, as far as it slides.
+void print_slides() {
+  const TerrainSource source{TerrainKind::noise, 5, 0.25F};
+  MapField field(source);
+  PieceTable pieces;
+  const glm::vec3 foot(3.0F, ground_height_m(source, 3.0F, 2.0F), 2.0F);
+  constexpr Material gravel{7};
+  apply(FillOperation{box(foot + glm::vec3(0.0F, 1.0F, 0.0F), {1.3F, 2.1F, 1.7F}), gravel}, field, pieces);
+  const VoxelCoord middle{12, static_cast<int>(foot.y / 0.25F), 8};
+  const SlideOperation slide{
+      {middle - VoxelCoord{16, 20, 16}, middle + VoxelCoord{16, 28, 16}}, gravel, 48, 2};
+  GoldenHash digest;
+  for (int i = 0; i < 12; ++i) {
+    digest.add(static_cast<uint64_t>(apply(slide, field, pieces).changed.size()));
+    digest.add(field.hash());
+  }
+  digest.print("slides");
+}
+
 /// Carves, fills, and stamps or discards what was carved, through apply() alone, as a session does: one of
 /// before voxels had materials, whose recordings must stay what they are.
 void print_session(TerrainKind kind) {
@@ -361,6 +380,7 @@ int main() {
   scree::print_shatter(scree::Cutter::conform, "shatter_conform");
   for (const scree::Cutter cutter : scree::all_kinds<scree::Cutter>) scree::print_natural(cutter);
   scree::print_islands();
+  scree::print_slides();
   for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
     scree::print_session(kind);
   scree::print_materials();

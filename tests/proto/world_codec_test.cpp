@@ -53,7 +53,7 @@ TEST(KeptCodec, a_chunk_says_what_its_ground_weighs_within_what_rock_does) {
 WorldMoment moment_with(const std::vector<PartyBricks>& bricks) {
   WorldMoment moment;
   moment.config.rules = 1;
-  moment.loosened_bricks = moment.strained = bricks;
+  moment.loosened_bricks = moment.strained = moment.slopes = bricks;
   moment.islands = {{{{1, 2, 3}}, 2, 8}};
   moment.refractures = {{.piece = 4, .pieces = 9, .impact_m = {1.0F, 2.0F, 3.0F}, .party = 6}};
   return moment;
@@ -66,6 +66,7 @@ TEST(KeptCodec, work_that_waits_keeps_its_party) {
   EXPECT_EQ(decoded->config.rules, 1U);
   EXPECT_EQ(decoded->loosened_bricks, bricks);
   EXPECT_EQ(decoded->strained, bricks);
+  EXPECT_EQ(decoded->slopes, bricks);
   EXPECT_EQ(decoded->islands, moment_with({}).islands);
   ASSERT_EQ(decoded->refractures.size(), 1U);
   EXPECT_EQ(decoded->refractures[0].party, 6U);

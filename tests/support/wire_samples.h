@@ -77,7 +77,8 @@ inline FrameMessage frame() {
       DiscardOperation{77791},
       ShatterOperation{77792, SeedPattern::uniform, 5, 0x1234U, {-3.5F, 0.25F, 8.0F}, 80000, Cutter::slice},
       IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005},
-      PaintOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), material::ice}};
+      PaintOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), material::ice},
+      SlideOperation{{{-12, 8, 400}, {12, 40, 436}}, material::soil, 46, 3}};
   frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2), all_of(material::soil)}};
   frame.dropped_chunks = {{1, -2, 3}, {-100, 0, 100}};
   frame.removed_pieces = {9, 4000000000U, 12};

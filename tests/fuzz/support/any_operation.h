@@ -85,7 +85,7 @@ inline StampOperation any_stamp(FuzzInput& input) {
 }
 
 inline Operation any_operation(FuzzInput& input) {
-  switch (input.below(8)) {
+  switch (input.below(9)) {
     case 0:
       return FillOperation{known(any_shape(input)), any_fill_of_palette(input)};
     case 1:
@@ -104,6 +104,16 @@ inline Operation any_operation(FuzzInput& input) {
     }
     case 5:
       return PaintOperation{known(any_shape(input)), any_material(input), input.flag()};
+    case 8: {
+      const VoxelCoord lo = any_voxel(input);
+      const auto cell = static_cast<uint8_t>(input.below(9));
+      const auto side = [&] { return static_cast<int>(cell * input.below(8) + input.below(8) / 7); };
+      const int x = side(), z = side();
+      return SlideOperation{{lo, lo + VoxelCoord{x, static_cast<int>(input.below(130)), z}},
+                            any_material(input),
+                            static_cast<uint8_t>(input.below(129)),
+                            cell};
+    }
     default:
       return any_carve_operation(input);
   }

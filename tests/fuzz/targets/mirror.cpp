@@ -85,7 +85,8 @@ class Ids {
                             shatter.piece = known(shatter.piece);
                             shatter.first_piece = fresh(shatter.seeds);
                           },
-                          [&](IslandOperation& island) { island.piece = fresh(1); }, [](PaintOperation&) {}},
+                          [&](IslandOperation& island) { island.piece = fresh(1); }, [](PaintOperation&) {},
+                          [](SlideOperation&) {}},
                operation);
   }
 

@@ -1,0 +1,145 @@
+#include "server/world/slide_stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "server/work/limits.h"
+#include "server/world/limits.h"
+#include "shared/operation/price.h"
+#include "shared/operation/slide_operation.h"
+
+namespace scree {
+
+namespace {
+
+constexpr int place_bricks = 2;
+
+/// The highest brick of a column of bricks that holds rock, from that one down; the lowest of all where none
+/// does.
+int surface_brick(const Field& field, BrickCoord from) {
+  const int lowest = from.y - limits::slide_depth_bricks;
+  for (; from.y > lowest; --from.y)
+    if (std::ranges::any_of(field.brick(from).codes, [](Code code) { return code < 0; })) break;
+  return from.y;
+}
+
+int floor_to(int value, int step) {
+  const int rest = value % step;
+  return value - (rest < 0 ? rest + step : rest);
+}
+
+/// The voxels around a place whose slopes are looked at: with the ground below them that rubble runs down to.
+VoxelBox box_around(const Field& field, BrickCoord place, int cell) {
+  const int margin = limits::slide_margin_cells * cell;
+  const VoxelCoord first = first_voxel(place);
+  VoxelBox box{first - VoxelCoord{margin, 0, margin},
+               first + VoxelCoord{place_bricks * brick_size + margin, 0, place_bricks * brick_size + margin}};
+  box.lo.x = floor_to(box.lo.x, cell);
+  box.lo.z = floor_to(box.lo.z, cell);
+  box.hi.x = floor_to(box.hi.x + cell - 1, cell);
+  box.hi.z = floor_to(box.hi.z + cell - 1, cell);
+  const BrickCoord lo = brick_of(box.lo), hi = brick_of(box.hi - VoxelCoord{1, 1, 1});
+  const int top = place.y + place_bricks;
+  int lowest = top;
+  for (int x = lo.x; x <= hi.x; ++x)
+    for (int z = lo.z; z <= hi.z; ++z) lowest = std::min(lowest, surface_brick(field, {x, top, z}));
+  box.lo.y = lowest * brick_size;
+  box.hi.y = (top + 1) * brick_size;
+  return box;
+}
+
+/// The rows that voxels in and around a place say they are of, and that slide; in order.
+std::set<Material> sliding_rows(const Field& field, const Palette& palette, BrickCoord place) {
+  std::set<Material> rows;
+  const auto enter = [&](VoxelMaterial said) {
+    if (said == ground_own) return;
+    const Material material = material_of(said);
+    if (palette.has(material) && repose_of(palette.row(material))) rows.insert(material);
+  };
+  for (int x = place.x - 1; x <= place.x + place_bricks; ++x)
+    for (int y = place.y - 1; y <= place.y + place_bricks; ++y)
+      for (int z = place.z - 1; z <= place.z + place_bricks; ++z) {
+        const BrickMaterials materials = field.materials({x, y, z});
+        if (materials.is_uniform())
+          enter(materials.uniform());
+        else
+          std::ranges::for_each(materials.list(), enter);
+      }
+  return rows;
+}
+
+/// Slides of the rows there that lie too steep, in order.
+std::vector<SlideOperation> due_slides(World::State& state, BrickCoord place) {
+  const Field& field = state.field;
+  const float dx = state.config.terrain.voxel_size_m;
+  std::vector<SlideOperation> due;
+  state.work.spend(limits::slide_glance_cost_us);
+  const std::set<Material> rows = sliding_rows(field, *state.palette, place);
+  if (rows.empty()) return due;
+  state.work.spend(limits::slide_look_cost_us);
+  const uint8_t cell = slide_cell(dx);
+  const VoxelBox box = box_around(field, place, cell);
+  const Window codes = gather(field, slide_window(box));
+  const MaterialReader materials(field, codes.box);
+  for (const Material row : rows) {
+    const SlideOperation operation{box, row, *repose_of(state.palette->row(row)), cell};
+    if (!validate(Operation(operation), state.pieces, dx)) continue;  // at the world's edge
+    if (SlideColumns(materials, codes, terms_of(operation)).steepest() >
+        operation.tangent + limits::slide_excess)
+      due.push_back(operation);
+  }
+  return due;
+}
+
+/// Looks at the first place of the party, and lets it slide if it is too steep.
+void look_at_first(World::State& state, uint64_t party, TickDelta& delta) {
+  const auto waiting = state.slopes.find(party);
+  const BrickCoord place = *waiting->second.begin();
+  waiting->second.erase(waiting->second.begin());
+  if (waiting->second.empty()) state.slopes.erase(waiting);
+  for (const SlideOperation& operation : due_slides(state, place)) {
+    state.work.spend(slide_price_us(operation.box));
+    if (!state.apply_and_record(operation, party, delta).changed.empty()) return;
+  }
+}
+
+}  // namespace
+
+std::optional<uint8_t> repose_of(const MaterialRow& row) {
+  if (!row.rubble && !(row.loose && row.bearing.hanging_pa <= limits::slide_hanging_max_pa))
+    return std::nullopt;
+  const long tangent = std::lround(64.0F * limits::slide_tangent_share * row.friction);
+  return static_cast<uint8_t>(std::clamp<long>(tangent, 1, limits::slide_tangent_max));
+}
+
+uint8_t slide_cell(float voxel_size_m) {
+  const long columns = std::lround(limits::slide_cell_m / voxel_size_m);
+  return static_cast<uint8_t>(std::clamp<long>(columns, 1, limits::slide_cell_max_voxels));
+}
+
+void slide_slopes(World::State& state, TickDelta& delta) {
+  if (state.slopes.empty()) return;
+  const auto rest = std::max<Tick>(
+      1, static_cast<Tick>(limits::slide_rest_s * static_cast<float>(state.config.tick_rate_hz)));
+  bool in_any_case = state.tick % rest == 0;
+  TurnQueue<WaitingWork>& turns = state.turns.slides;
+  for (const auto& [party, places] : state.slopes) turns.push(party, {});
+  turns.begin_tick();
+  for (size_t looks = 0; looks < limits::slide_looks_per_tick && !turns.empty(); ++looks) {
+    if (!std::exchange(in_any_case, false) && !state.work.affords(limits::slide_least_us)) break;
+    const uint64_t party = turns.whose();
+    const float left_us = state.work.left_us();
+    look_at_first(state, party, delta);
+    const float spent_us = left_us - state.work.left_us();
+    if (state.slopes.contains(party))
+      turns.go_on(spent_us, 0.0F);
+    else
+      turns.pop(spent_us);
+  }
+  turns.clear();
+  for (const auto& [party, places] : state.slopes)
+    delta.work.slides_put_off += static_cast<uint32_t>(places.size());
+}
+
+}  // namespace scree
