@@ -67,18 +67,8 @@ std::vector<Strike> strikes_of(const World::State& state) {
   return strikes;
 }
 
-/// Price of the chunks around the strike whose terrain may have to be generated.
-float chunks_us(const World::State& state, const Strike& strike) {
-  VoxelBox box;
-  for (const VoxelCoord voxel : strike.load.on) box = hull_of(box, {voxel, voxel + VoxelCoord{1, 1, 1}});
-  int unedited = 0;
-  for_each_chunk(box.grown(limits::blow_reach_bricks * brick_size),
-                 [&](ChunkCoord chunk) { unedited += state.field.has_edits(chunk) ? 0 : 1; });
-  return limits::chunk_cost_us * static_cast<float>(unedited);
-}
-
-void charge(World::State& state, const Strike& strike, const BlowFound& found) {
-  state.work.spend(chunks_us(state, strike) + limits::blow_part_cost_us * static_cast<float>(found.parts) +
+void charge(World::State& state, const BlowFound& found) {
+  state.work.spend(limits::blow_part_cost_us * static_cast<float>(found.parts) +
                    limits::span_brick_cost_us * static_cast<float>(found.span_bricks) +
                    limits::span_joint_cost_us * static_cast<float>(found.span_joints) +
                    limits::span_product_cost_us * static_cast<float>(found.span_products));
@@ -102,7 +92,7 @@ float break_off(World::State& state, const TerrainBlow& blow, const BlowFound& f
 /// Nothing where the terrain holds.
 std::optional<float> search(World::State& state, const Strike& strike, TickDelta& delta) {
   const BlowFound found = find_break(state.field, *state.palette, strike.load, limits::blow_reach_bricks);
-  charge(state, strike, found);
+  charge(state, found);
   if (!found.overload) return std::nullopt;
   const size_t pieces = state.pieces.size() + found.overload->necks.size() * limits::neck_seeds_max;
   if (pieces > state.config.pieces_max) {
@@ -135,8 +125,7 @@ std::map<PieceId, float> break_terrain(World::State& state, TickDelta& delta) {
   while (!turns.empty()) {
     const Strike& strike = strikes[turns.next().index];
     const float left_us = state.work.left_us();
-    if (searches < limits::blows_per_tick_max &&
-        state.work.affords(limits::blow_cost_us + chunks_us(state, strike))) {
+    if (searches < limits::blows_per_tick_max && state.work.affords(limits::blow_cost_us)) {
       ++searches;
       if (const auto part = search(state, strike, delta)) borne[strike.blow->id] = *part;
     } else {
