@@ -35,12 +35,6 @@ ContactBlow blow_of(const btPersistentManifold& manifold) {
   return blow;
 }
 
-/// How much a push at a place and along a unit normal changes the speed there.
-float give_m_s(const btRigidBody& body, const ContactBlow& blow) {
-  const btVector3 lever = (blow.point - body.getCenterOfMassPosition()).cross(blow.normal);
-  return blow.impulse_n_s * (body.getInvMass() + lever.dot(body.getInvInertiaTensorWorld() * lever));
-}
-
 /// Null for the terrain.
 const btRigidBody* body_of(const btCollisionObject* object) {
   return btRigidBody::upcast(object);
@@ -51,6 +45,11 @@ bool is_active(const btRigidBody* body) {
 }
 
 }  // namespace
+
+float give_of(const btRigidBody& body, const btVector3& arm, const btVector3& normal) {
+  const btVector3 lever = arm.cross(normal);
+  return body.getInvMass() + lever.dot(body.getInvInertiaTensorWorld() * lever);
+}
 
 std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCollisionObject& terrain,
                                      float speed_min_m_s) {
@@ -67,8 +66,12 @@ std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCol
     const auto note = [&](const btRigidBody* body, const btRigidBody* other, float sign) {
       if (body == nullptr || blow.impulse_n_s * body->getInvMass() < speed_min_m_s) return;
       BodyImpact impact{
-          id_of(body),      std::nullopt,         from_bullet(blow.point), from_bullet(blow.normal * sign),
-          blow.impulse_n_s, give_m_s(*body, blow)};
+          id_of(body),
+          std::nullopt,
+          from_bullet(blow.point),
+          from_bullet(blow.normal * sign),
+          blow.impulse_n_s,
+          blow.impulse_n_s * give_of(*body, blow.point - body->getCenterOfMassPosition(), blow.normal)};
       CHECK_DEBUG(impact.impulse_n_s > 0.0F && is_unit(impact.normal) && is_sound(impact.point_m));
       if (other != nullptr) impact.other = id_of(other);
       impacts.push_back(impact);

@@ -3,11 +3,16 @@
 
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <vector>
 
 #include "server/bodies/bodies.h"
 
 namespace scree {
+
+/// How much a push of one newton second at `arm` from the centre of mass, along a unit normal, changes the
+/// body's speed there along the normal, by its mass and inertia.
+float give_of(const btRigidBody& body, const btVector3& arm, const btVector3& normal);
 
 /// The strongest contact of each body, if it changed the body's speed by at least `speed_min_m_s`, which is
 /// positive; ordered by id. A contact's impulse is the sum over its points; its place is their mean, weighted

@@ -3,6 +3,7 @@
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <algorithm>
 
+#include "server/bodies/impact_list.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -12,12 +13,6 @@ namespace {
 /// How fast a point of the body moved at the step's start.
 btVector3 speed_at(const Body& body, const btVector3& arm) {
   return body.speed_before + body.spin_before.cross(arm);
-}
-
-/// What the contact's impulse changed of the body's speed there, by a unit of it.
-float give_of(const btRigidBody& rigid, const btVector3& arm, const btVector3& normal) {
-  const btVector3 turned = rigid.getInvInertiaTensorWorld() * arm.cross(normal);
-  return rigid.getInvMass() + turned.cross(arm).dot(normal);
 }
 
 TerrainBlow blow_of(PieceId id, const Body& body) {

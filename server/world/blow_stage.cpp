@@ -91,7 +91,7 @@ float break_off(World::State& state, const TerrainBlow& blow, const BlowFound& f
 
 /// Nothing where the terrain holds.
 std::optional<float> search(World::State& state, const Strike& strike, TickDelta& delta) {
-  const BlowFound found = find_break(state.field, *state.palette, strike.load, limits::support_reach_bricks);
+  const BlowFound found = find_break(state.field, *state.palette, strike.load, limits::blow_reach_bricks);
   charge(state, found);
   if (!found.overload) return std::nullopt;
   const size_t pieces = state.pieces.size() + found.overload->necks.size() * limits::neck_seeds_max;

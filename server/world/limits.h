@@ -80,13 +80,16 @@ inline constexpr float impact_speed_min_m_s = 3.0F;
 inline constexpr uint32_t breaks_per_tick_max = 4;
 inline constexpr uint32_t dents_per_tick_max = 2;
 
-/// Blows that are searched for what they break off, in one tick: about 1 ms each. Above: the weaker ones do
+/// Blows that are searched for what they break off, in one tick: 3 ms, spans more. Above: the weaker ones do
 /// not break terrain.
-inline constexpr uint32_t blows_per_tick_max = 4;
+inline constexpr uint32_t blows_per_tick_max = 1;
 
-/// Least force of a blow that may break terrain, newtons: of a stone of 20 kg that falls by a metre. Below:
-/// nothing is looked for.
-inline constexpr float blow_min_n = 3.0e4F;
+/// Bricks around a blow that its search reads: terrain that reaches farther is held.
+inline constexpr int blow_reach_bricks = 4;
+
+/// Least force of a blow that may break terrain, newtons: on rock, that of a stone of 600 kg that falls by a
+/// metre. Below: nothing is looked for. Ten times less made each blast search the walls of its own hole.
+inline constexpr float blow_min_n = 3.0e5F;
 
 /// Places whose blows were too weak for a dent. Above: the one that was struck least lately is forgotten.
 inline constexpr size_t struck_places_max = 256;

@@ -178,12 +178,11 @@ class BlowSearch {
     if (one.overload.voxels >= overload_voxels_min && !one.overload.necks.empty()) enter(std::move(one));
   }
 
-  SpansFound spans_under(double share) {
+  SpansFound spans_under(SpanSearch& spans, double share) {
     const SpanForce force{load_.on.front(), load_.at, load_.newtons * share};
-    SpansFound found =
-        find_spans(field_, palette_, bricks_, share > 0.0 ? &force : nullptr, struck_parts_max);
-    found_.span_bricks += found.bricks_read;
-    found_.span_joints += found.joints;
+    SpansFound found = spans.run(share > 0.0 ? &force : nullptr);
+    found_.span_bricks = found.bricks_read;
+    found_.span_joints = found.joints;
     found_.span_products += found.products;
     return found;
   }
@@ -195,16 +194,17 @@ class BlowSearch {
     const double most_n = (best_ ? best_->share : 1.0) * newtons_;
     double greatest_n = 1.0;
     while (greatest_n * span_step <= most_n) greatest_n *= span_step;
-    SpansFound found = spans_under(greatest_n / newtons_);
+    SpanSearch spans(field_, palette_, bricks_, struck_parts_max);
+    SpansFound found = spans_under(spans, greatest_n / newtons_);
     if (found.overloads.empty()) return;
-    const double weight = spans_under(0.0).strain;
+    const double weight = spans_under(spans, 0.0).strain;
     if (weight >= 1.0) return;  // it has stood so far: nobody knows by what
     const double cracks_n = greatest_n * (1.0 - weight) / std::max(found.strain - weight, 1e-6);
     double tried_n = 1.0;
     while (tried_n < cracks_n) tried_n *= span_step;
     for (int i = 0; i < span_tries && tried_n <= greatest_n; ++i, tried_n *= span_step) {
       if (found_.span_products > span_products_max) return;
-      SpansFound part = spans_under(tried_n / newtons_);
+      SpansFound part = spans_under(spans, tried_n / newtons_);
       if (part.overloads.empty()) continue;
       enter({std::move(part.overloads.front()), tried_n / newtons_});
       return;

@@ -46,21 +46,19 @@ constexpr double moved_share = 2.0;
 /// A cracked joint counts on no more than this part of the pressure that it had when it was whole.
 constexpr double pressed_share = 1.25;
 
-class Spans {
+}  // namespace
+
+class SpanSearch::Frame {
  public:
-  Spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-        const SpanForce* force, size_t parts_max)
-      : bodies_(field, palette, changed, parts_max) {
-    found_.bricks_read = bodies_.bricks_read();
-    frame_ = join_spans(bodies_, field.source().voxel_size_m);
-    found_.bodies = frame_.loads.size();
-    found_.joints = frame_.joints.size();
-    states_.resize(frame_.joints.size());
+  Frame(const Field& field, const Palette& palette, std::span<const BrickCoord> changed, size_t parts_max)
+      : bodies_(field, palette, changed, parts_max),
+        frame_(join_spans(bodies_, field.source().voxel_size_m)) {
     find_loose();
-    if (force != nullptr) strike(*force);
+    weight_ = frame_.loads;
   }
 
-  SpansFound run() {
+  SpansFound run(const SpanForce* force) {
+    begin(force);
     if (frame_.loads.empty()) return found_;
     double before = 1e30, most = 0.0;
     int idle = 0, settled = 0;  // states since the ratio fell, and since a section cracked
@@ -97,6 +95,16 @@ class Spans {
     double opening = 0.0;
     double pressed = 0.0;  ///< force across the elastic joint
   };
+
+  void begin(const SpanForce* force) {
+    found_ = {};
+    found_.bricks_read = bodies_.bricks_read();
+    found_.bodies = frame_.loads.size();
+    found_.joints = frame_.joints.size();
+    states_.assign(frame_.joints.size(), {});
+    frame_.loads = weight_;
+    if (force != nullptr) strike(*force);
+  }
 
   /// Bodies that nothing holds: islands, or what only its edges connect. They are left out.
   void find_loose() {
@@ -326,6 +334,7 @@ class Spans {
 
   SpanBodies bodies_;
   SpanJoints frame_;
+  std::vector<Six> weight_;  ///< loads without a force
   SpansFound found_;
   std::vector<SpringFrame::Spring> loose_;  ///< hold bodies that nothing else holds
   std::vector<State> states_;               ///< by joint, as the following
@@ -334,11 +343,18 @@ class Spans {
   std::vector<Six> moves_, elastic_moves_;  ///< by body that does not hold
 };
 
-}  // namespace
+SpanSearch::SpanSearch(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                       size_t parts_max)
+    : frame_(std::make_unique<Frame>(field, palette, changed, parts_max)) {}
 
-SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                      const SpanForce* force, size_t parts_max) {
-  return Spans(field, palette, changed, force, parts_max).run();
+SpanSearch::~SpanSearch() = default;
+
+SpansFound SpanSearch::run(const SpanForce* force) {
+  return frame_->run(force);
+}
+
+SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed) {
+  return SpanSearch(field, palette, changed, span_parts_max).run(nullptr);
 }
 
 }  // namespace scree

@@ -15,6 +15,7 @@
 
 #include <cstddef>
 #include <glm/vec3.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -45,8 +46,26 @@ inline constexpr size_t span_parts_max = 160;
 /// The same under a blow, which is to cost less: a plate of 6 × 6 bricks.
 inline constexpr size_t struck_parts_max = 40;
 
-/// What connects to these bricks, or to bricks beside them. `force`: null where weight is all.
-SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                      const SpanForce* force = nullptr, size_t parts_max = span_parts_max);
+/// One frame, on which several forces may be tried: to make it costs as much as some of them. Not
+/// thread-safe.
+class SpanSearch {
+ public:
+  /// What connects to these bricks, or to bricks beside them. `field` and `palette` must outlive this.
+  SpanSearch(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+             size_t parts_max);
+  ~SpanSearch();
+  SpanSearch(const SpanSearch&) = delete;
+  SpanSearch& operator=(const SpanSearch&) = delete;
+
+  /// `force`: null where weight is all. Independent of what was tried before.
+  SpansFound run(const SpanForce* force);
+
+ private:
+  class Frame;
+  std::unique_ptr<Frame> frame_;
+};
+
+/// By weight alone.
+SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed);
 
 }  // namespace scree

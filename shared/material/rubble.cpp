@@ -105,11 +105,6 @@ RubbleRows rubble_rows(const Palette& palette) {
   return rows;
 }
 
-const std::shared_ptr<const RubbleRows>& no_rubble() {
-  static const auto none = std::make_shared<const RubbleRows>();
-  return none;
-}
-
 void add_rubble(Palette& palette) {
   const size_t given = palette.rows.size();
   for (size_t i = 0; i < given && palette.rows.size() < materials_max; ++i) {

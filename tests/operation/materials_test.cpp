@@ -23,12 +23,6 @@ void build_wall(LedgerGround& ground) {
   ground.act(FillOperation{box({0.0F, 3.5F, 0.0F}, {2.0F, 0.5F, 0.5F}), concrete});
 }
 
-QuantisedPose some_pose(glm::vec3 around_m, Random& random) {
-  const auto off = [&] { return random.unit() * 2.0F - 1.0F; };
-  const float x = off(), y = off(), z = off(), w = off();
-  return quantise({around_m + glm::vec3(off(), off(), off()) * 0.5F, glm::normalize(glm::quat(w, x, y, z))});
-}
-
 TEST(materials, planes_of_any_number_of_values_are_what_they_were_made_of) {
   Random random(3);
   for (const uint32_t values : {1U, 2U, 3U, 4U, 5U, 16U, 17U, 256U}) {

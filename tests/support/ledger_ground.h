@@ -1,9 +1,11 @@
 // A field with its pieces and both ledgers, which each operation is checked against, as in a world.
 #pragma once
 
+#include <glm/gtc/quaternion.hpp>
 #include <gtest/gtest.h>
 #include <map>
 
+#include "shared/base/random.h"
 #include "shared/operation/ledger.h"
 #include "shared/operation/operation.h"
 #include "tests/support/flat_terrain.h"
@@ -64,6 +66,12 @@ inline CarveOperation carve_ball(glm::vec3 at_m, float radius_m, uint32_t seeds,
           .impact_m = at_m,
           .first_piece = first,
           .cutter = cutter};
+}
+
+inline QuantisedPose some_pose(glm::vec3 around_m, Random& random) {
+  const auto off = [&] { return random.unit() * 2.0F - 1.0F; };
+  const float x = off(), y = off(), z = off(), w = off();
+  return quantise({around_m + glm::vec3(off(), off(), off()) * 0.5F, glm::normalize(glm::quat(w, x, y, z))});
 }
 
 }  // namespace scree
