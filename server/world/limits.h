@@ -131,10 +131,6 @@ inline constexpr int slide_depth_bricks = 12;
 /// do.
 inline constexpr float slide_hanging_max_pa = 1.0e4F;
 
-/// The tangent at which slopes come to rest, as a share of the friction: they are compared along eight
-/// directions, and between those up to 1.08 as steep.
-inline constexpr float slide_tangent_share = 0.96F;
-
 /// How much steeper a slope starts to slide, in 64ths of the tangent: about two degrees.
 inline constexpr int slide_excess = 2;
 

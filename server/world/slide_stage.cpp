@@ -109,7 +109,7 @@ void look_at_first(World::State& state, uint64_t party, TickDelta& delta) {
 std::optional<uint8_t> repose_of(const MaterialRow& row) {
   if (!row.rubble && !(row.loose && row.bearing.hanging_pa <= limits::slide_hanging_max_pa))
     return std::nullopt;
-  const long tangent = std::lround(64.0F * limits::slide_tangent_share * row.friction);
+  const long tangent = std::lround(64.0F * row.friction);
   return static_cast<uint8_t>(std::clamp<long>(tangent, 1, limits::slide_tangent_max));
 }
 
