@@ -122,7 +122,7 @@ inline constexpr size_t slide_looks_per_tick = 64;
 inline constexpr float slide_cell_m = 0.5F;
 
 /// Cells around a place in which its rubble may run; the outermost stay.
-inline constexpr int slide_margin_cells = 3;
+inline constexpr int slide_margin_cells = 2;
 
 /// How far below a place the ground is looked for, bricks: 24 m at 0.25 m. Deeper: rubble stays at the edge.
 inline constexpr int slide_depth_bricks = 12;
