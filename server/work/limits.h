@@ -54,10 +54,13 @@ inline constexpr float span_joint_cost_us = 36.0F;
 inline constexpr float span_product_cost_us = 0.3F;
 
 /// A place whose rubble may lie too steep: whether there is any, and how steep it is; and what a tick must have left
-/// for one place, with its slide.
+/// for a place.
 inline constexpr float slide_glance_cost_us = 5.0F;
 inline constexpr float slide_look_cost_us = 150.0F;
-inline constexpr float slide_least_us = 4000.0F;
+inline constexpr float slide_least_us = 1000.0F;
+
+/// Share of the budget that slides leave to falls and support, which come after them.
+inline constexpr float slide_reserve_share = 0.25F;
 
 /// Where the tick's budget never has that, a place is looked at every so many seconds.
 inline constexpr float slide_rest_s = 0.2F;

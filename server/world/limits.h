@@ -140,7 +140,7 @@ inline constexpr size_t slide_looks_per_tick = 64;
 inline constexpr float slide_cell_m = 0.5F;
 
 /// Cells around a place in which its rubble may run; the outermost stay.
-inline constexpr int slide_margin_cells = 3;
+inline constexpr int slide_margin_cells = 2;
 
 /// How far below a place the ground is looked for, bricks: 24 m at 0.25 m. Deeper: rubble stays at the edge.
 inline constexpr int slide_depth_bricks = 12;
@@ -148,10 +148,6 @@ inline constexpr int slide_depth_bricks = 12;
 /// Tension that loose ground bears, Pa, above which it does not slide: it holds together, as soil and clay
 /// do.
 inline constexpr float slide_hanging_max_pa = 1.0e4F;
-
-/// The tangent at which slopes come to rest, as a share of the friction: they are compared along eight
-/// directions, and between those up to 1.08 as steep.
-inline constexpr float slide_tangent_share = 0.96F;
 
 /// How much steeper a slope starts to slide, in 64ths of the tangent: about two degrees.
 inline constexpr int slide_excess = 2;

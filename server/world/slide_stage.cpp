@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "server/work/limits.h"
 #include "server/world/limits.h"
@@ -92,16 +93,28 @@ std::vector<SlideOperation> due_slides(World::State& state, BrickCoord place) {
   return due;
 }
 
-/// Looks at the first place of the party, and lets it slide if it is too steep.
-void look_at_first(World::State& state, uint64_t party, TickDelta& delta) {
+/// Whether the tick has room for a slide, and leaves some to what comes after.
+bool has_room(const World::State& state, float price_us) {
+  return state.work.affords(price_us + limits::slide_reserve_share * state.work.budget_us());
+}
+
+/// Looks at the first place of the party, and lets it slide if it is too steep. False, and it waits on, where
+/// the tick has no room for the slide; unless it slides in any case.
+bool look_at_first(World::State& state, uint64_t party, bool in_any_case, TickDelta& delta) {
   const auto waiting = state.slopes.find(party);
   const BrickCoord place = *waiting->second.begin();
   waiting->second.erase(waiting->second.begin());
   if (waiting->second.empty()) state.slopes.erase(waiting);
   for (const SlideOperation& operation : due_slides(state, place)) {
-    state.work.spend(slide_price_us(operation.box));
-    if (!state.apply_and_record(operation, party, delta).changed.empty()) return;
+    const float price_us = slide_price_us(operation.box);
+    if (!in_any_case && !has_room(state, price_us)) {
+      state.slopes[party].insert(place);
+      return false;
+    }
+    state.work.spend(price_us);
+    if (!state.apply_and_record(operation, party, delta).changed.empty()) break;
   }
+  return true;
 }
 
 }  // namespace
@@ -109,7 +122,7 @@ void look_at_first(World::State& state, uint64_t party, TickDelta& delta) {
 std::optional<uint8_t> repose_of(const MaterialRow& row) {
   if (!row.rubble && !(row.loose && row.bearing.hanging_pa <= limits::slide_hanging_max_pa))
     return std::nullopt;
-  const long tangent = std::lround(64.0F * limits::slide_tangent_share * row.friction);
+  const long tangent = std::lround(64.0F * row.friction);
   return static_cast<uint8_t>(std::clamp<long>(tangent, 1, limits::slide_tangent_max));
 }
 
@@ -127,10 +140,11 @@ void slide_slopes(World::State& state, TickDelta& delta) {
   for (const auto& [party, places] : state.slopes) turns.push(party, {});
   turns.begin_tick();
   for (size_t looks = 0; looks < limits::slide_looks_per_tick && !turns.empty(); ++looks) {
-    if (!std::exchange(in_any_case, false) && !state.work.affords(limits::slide_least_us)) break;
+    const bool any_case = std::exchange(in_any_case, false);
+    if (!any_case && !has_room(state, limits::slide_least_us)) break;
     const uint64_t party = turns.whose();
     const float left_us = state.work.left_us();
-    look_at_first(state, party, delta);
+    if (!look_at_first(state, party, any_case, delta)) break;
     const float spent_us = left_us - state.work.left_us();
     if (state.slopes.contains(party))
       turns.go_on(spent_us, 0.0F);

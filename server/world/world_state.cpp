@@ -42,7 +42,8 @@ VoxelBox box_of(const std::vector<BrickCoord>& bricks) {
 }
 
 /// What may hang loose after an operation: islands or specks. Terrain around a fallen island was not
-/// connected to it; a stamp may leave flakes, for which the merge looks itself (merge_stage.cpp).
+/// connected to it; a stamp may leave flakes, for which the merge looks itself (merge_stage.cpp). A slide
+/// takes nothing from under anything, and near it may lie what fell, and must not fall again.
 enum class Loose { nothing, islands, specks };
 
 Loose left_by(const Operation& operation) {
@@ -54,7 +55,7 @@ Loose left_by(const Operation& operation) {
                         [](const ShatterOperation&) { return Loose::nothing; },
                         [](const IslandOperation&) { return Loose::specks; },
                         [](const PaintOperation&) { return Loose::nothing; },
-                        [](const SlideOperation&) { return Loose::islands; },
+                        [](const SlideOperation&) { return Loose::specks; },
                     },
                     operation);
 }

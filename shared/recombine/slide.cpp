@@ -109,6 +109,58 @@ void bare_faces(const Window& before, const SlideColumns& columns, Window& after
     }
 }
 
+/// Which solid voxels hang together with those of the outermost layers, as far as a slide goes down. One byte
+/// each.
+std::vector<uint8_t> held(const Window& window, int lowest) {
+  const VoxelCoord size = window.box.size();
+  const ptrdiff_t step_y = size.z, step_x = step_y * size.y;
+  std::vector<uint8_t> is_held(window.codes.size(), 0);
+  std::vector<VoxelCoord> found;
+  const auto enter = [&](int x, int y, int z) {
+    const auto at = static_cast<size_t>(x * step_x + y * step_y + z);
+    if (window.codes[at] >= 0 || is_held[at] != 0) return;
+    is_held[at] = 1;
+    found.push_back({x, y, z});
+  };
+  for (int x = 0; x < size.x; ++x)
+    for (int z = 0; z < size.z; ++z) {
+      const bool rim = x == 0 || z == 0 || x + 1 == size.x || z + 1 == size.z;
+      for (int y = lowest; y < size.y; ++y)
+        if (rim || y == lowest || y + 1 == size.y) enter(x, y, z);
+    }
+  while (!found.empty()) {
+    const VoxelCoord v = found.back();
+    found.pop_back();
+    if (v.x > 0) enter(v.x - 1, v.y, v.z);
+    if (v.x + 1 < size.x) enter(v.x + 1, v.y, v.z);
+    if (v.y > lowest) enter(v.x, v.y - 1, v.z);
+    if (v.y + 1 < size.y) enter(v.x, v.y + 1, v.z);
+    if (v.z > 0) enter(v.x, v.y, v.z - 1);
+    if (v.z + 1 < size.z) enter(v.x, v.y, v.z + 1);
+  }
+  return is_held;
+}
+
+/// Crumbs of the rubble that nothing holds any more run down with the rest.
+void drop_crumbs(const SlideColumns& columns, Window& after) {
+  const VoxelCoord size = after.box.size();
+  int lowest = size.y - 1;
+  for (int x = 0; x < size.x; ++x)
+    for (int z = 0; z < size.z; ++z)
+      if (columns.at(x, z).shift != 0) lowest = std::min(lowest, columns.at(x, z).last);
+  lowest = std::max(1, lowest - 2);
+  const std::vector<uint8_t> is_held = held(after, lowest);
+  for (int x = 0; x < size.x; ++x)
+    for (int z = 0; z < size.z; ++z) {
+      const SlideColumn& column = columns.at(x, z);
+      if (column.shift == 0) continue;
+      for (int y = std::max(column.last, lowest); y + 1 < size.y; ++y) {
+        const size_t at = after.index(after.box.lo.x + x, after.box.lo.y + y, after.box.lo.z + z);
+        if (after.codes[at] < 0 && is_held[at] == 0) after.codes[at] = face_code;
+      }
+    }
+}
+
 /// A byte for each column: whether one moves within `reach`.
 std::vector<uint8_t> near_columns(const SlideColumns& columns) {
   const int nx = columns.size_x(), nz = columns.size_z();
@@ -182,6 +234,7 @@ std::optional<Slid> slide(const MaterialReader& were, const RubbleRows& rows, co
     after = before;
     shift_codes(before, columns, after);
     bare_faces(before, columns, after);
+    drop_crumbs(columns, after);
     settle(near, after);
     mass.assign(after);
     if (std::abs(mass.gain_of_rubble()) <= mass.reach_of_rubble()) break;
