@@ -62,6 +62,14 @@ inline constexpr size_t concave_samples_max = 128;
 inline constexpr int compound_side_min_voxels = 16;
 inline constexpr size_t compound_parts_max = 64;
 
+/// Seconds since the last fall up to which pieces that lean on hanging terrain do not become terrain: the search for a
+/// large island takes one. Above: falls wait for room that only merges make.
+inline constexpr Tick lean_s_max = 5;
+
+/// Height of an island over its width, both with the voxels at the surface, from which on it counts as a
+/// post: it stands no better than a pencil, and topples.
+inline constexpr float post_slenderness = 12.0F;
+
 /// Parts of a component, one for each brick as a rule, that a search follows: half a million m³ at 0.25 m. A
 /// larger component counts as ground, and is counted.
 inline constexpr size_t island_parts_max = 65536;

@@ -9,6 +9,7 @@
 #include "server/work/price.h"
 #include "server/world/blast.h"
 #include "server/world/buried_stage.h"
+#include "server/world/fill_joints.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
 #include "server/world/refracture_stage.h"
@@ -199,9 +200,12 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
 
 Outcome fill(World::State& state, const FillRequest& request, uint64_t party, TickDelta& delta) {
   const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
-  const Applied applied =
-      state.apply_and_record(FillOperation{request.shape, request.material}, party, delta);
-  state.ledger.poured += applied.terrain_gain;
+  std::vector<Shape> shapes;
+  if (state.config.rules >= rules::joints) shapes = fill_joints(request.shape, state.field);
+  shapes.push_back(request.shape);
+  for (const Shape& shape : shapes)
+    state.ledger.poured +=
+        state.apply_and_record(FillOperation{shape, request.material}, party, delta).terrain_gain;
   return enclosed;
 }
 

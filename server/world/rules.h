@@ -1,6 +1,6 @@
-// By which rules a world goes: in which order it serves the work that its parties caused, what its merges make, what
-// its search for support finds, and how its pieces break and fly. A recording says by which rules it was made, and is
-// verified by these. A world of an older file is played on by the newest.
+// By which rules a world goes: in which order it serves the work that its parties caused, what its merges
+// make, what its search for support finds, and how its pieces break and fly. A recording says by which rules
+// it was made, and is verified by these. A world of an older file is played on by the newest.
 #pragma once
 
 #include <cstdint>
@@ -21,8 +21,11 @@ inline constexpr uint32_t spans = 4;
 /// Also, what is random in blasts and breaks goes by place and not by ids of pieces, blasts push to the open
 /// side, a carve in stages keeps the gradient of its pattern, and even rock breaks into natural sizes.
 inline constexpr uint32_t by_place = 5;
+/// Also, a fill that lies exactly on a face of the terrain joins it, and what falls from a large island
+/// becomes terrain again when all of it has fallen. Posts that were cut off topple.
+inline constexpr uint32_t joints = 8;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = by_place;
+inline constexpr uint32_t newest = joints;
 }  // namespace rules
 
 }  // namespace scree
