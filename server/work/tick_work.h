@@ -8,7 +8,7 @@ namespace scree {
 
 /// What the price of the bodies' step is made of (work.h).
 struct BodyCounts {
-  size_t awake = 0, ground_points = 0, contact_points = 0, pairs = 0, overlaps = 0;
+  size_t pieces = 0, awake = 0, ground_points = 0, contact_points = 0, pairs = 0, overlaps = 0;
   int steps = 0;
 };
 

@@ -9,8 +9,8 @@ namespace scree {
 namespace {
 
 BodyCounts counts_of(const Bodies& bodies) {
-  return {bodies.awake(), bodies.ground_points(), bodies.contact_points(),
-          bodies.pairs(), bodies.overlaps(),      bodies.steps_a_tick()};
+  return {bodies.size(),  bodies.awake(),    bodies.ground_points(), bodies.contact_points(),
+          bodies.pairs(), bodies.overlaps(), bodies.steps_a_tick()};
 }
 
 float cost_of(const BodyCounts& bodies) {
@@ -19,7 +19,8 @@ float cost_of(const BodyCounts& bodies) {
                        limits::contact_cost_us * static_cast<float>(bodies.contact_points) +
                        limits::pair_cost_us * static_cast<float>(bodies.pairs) +
                        limits::overlap_cost_us * static_cast<float>(bodies.overlaps);
-  return a_step * static_cast<float>(bodies.steps);
+  return limits::piece_cost_us * static_cast<float>(bodies.pieces) +
+         a_step * static_cast<float>(bodies.steps);
 }
 
 }  // namespace

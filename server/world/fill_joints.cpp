@@ -62,11 +62,8 @@ Shape slab_about(const VoxelBox& voxels, const Shape& in_field, int axis, float 
   return box(0.5F * (lo + hi) * voxel_size_m, 0.5F * (hi - lo) * voxel_size_m);
 }
 
-}  // namespace
-
-std::vector<Shape> fill_joints(const Shape& shape, Field& field) {
+std::vector<Shape> joints_of(const Shape& shape, Field& field) {
   std::vector<Shape> joints;
-  if (shape.kind != ShapeKind::box) return joints;
   const float dx = field.source().voxel_size_m;
   const Shape in_field = in_voxels(shape, dx);
   for (int axis = 0; axis < 3; ++axis)
@@ -80,6 +77,16 @@ std::vector<Shape> fill_joints(const Shape& shape, Field& field) {
       if (validate(Operation(FillOperation{joint}), {}, dx)) joints.push_back(joint);
     }
   return joints;
+}
+
+}  // namespace
+
+std::vector<Shape> with_joints(const Shape& shape, World::State& state) {
+  std::vector<Shape> shapes;
+  if (shape.kind == ShapeKind::box && state.config.rules >= rules::joints)
+    shapes = joints_of(shape, state.field);
+  shapes.push_back(shape);
+  return shapes;
 }
 
 }  // namespace scree

@@ -6,13 +6,13 @@
 
 #include <vector>
 
-#include "shared/field/field.h"
+#include "server/world/world_state.h"
 #include "shared/field/shape.h"
 
 namespace scree {
 
-/// The joints that a fill of the shape needs, before the fill; one for each face of a box that touches so,
-/// none for other shapes. Those that are too small for a fill are left out.
-std::vector<Shape> fill_joints(const Shape& shape, Field& field);
+/// The shape, which is to be filled, and before it the joints that it needs by rules::joints: one for each
+/// face of a box that touches so. Those that are too small for a fill are left out.
+std::vector<Shape> with_joints(const Shape& shape, World::State& state);
 
 }  // namespace scree

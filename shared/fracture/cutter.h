@@ -67,7 +67,7 @@ struct CutterRow {
 };
 
 constexpr CutterRow row_of(Cutter cutter) {
-  constexpr CutPrice of_codes{.volume_us = 100.0F, .voxel_us = 0.07F, .piece_us = 25.0F};
+  constexpr CutPrice of_codes{.volume_us = 100.0F, .voxel_us = 0.04F, .piece_us = 25.0F};
   constexpr CutPrice of_polygons{.volume_us = 6000.0F, .voxel_us = 0.9F, .piece_us = 350.0F};
   switch (cutter) {
     case Cutter::field:
