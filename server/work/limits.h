@@ -21,13 +21,14 @@ inline constexpr float crowded_share = 0.5F;
 /// surface that is compared with the ground, a point of contact, and a pair of bodies whose bounds meet, in a
 /// step. Fitted to the storm and to crowds of small and of large carves, whose pieces have 15, 35 and 45
 /// points: within 5 % of each other's medians. Cells that still lie packed have 11 pairs each, rubble has 4.
-/// A piece that is alive, moving or not, in a tick: its rest, its place in what is published, the look
-/// whether it is buried.
-inline constexpr float piece_cost_us = 1.3F;
 inline constexpr float body_cost_us = 0.2F;
 inline constexpr float ground_point_cost_us = 0.125F;
 inline constexpr float contact_cost_us = 0.9F;
 inline constexpr float pair_cost_us = 0.27F;
+
+/// A piece that is alive, moving or not, in a tick: its rest, its place in what is published, the look
+/// whether it is buried. It is no part of the load by bodies: frozen pieces are no crowd.
+inline constexpr float piece_cost_us = 1.3F;
 
 /// A pair of hulls that overlap, whose depth is sought: as profiled, the fit alone cannot tell it from pieces
 /// that are large.
@@ -55,7 +56,7 @@ inline constexpr float span_product_cost_us = 0.3F;
 
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.
-inline constexpr float first_fracture_us = 5000.0F;
+inline constexpr float first_fracture_us = 3300.0F;
 
 /// Waiting pieces are cut while the tick's budget has room; where it never has, one every so many seconds.
 inline constexpr float refracture_rest_s = 0.1F;

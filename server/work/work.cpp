@@ -19,8 +19,7 @@ float cost_of(const BodyCounts& bodies) {
                        limits::contact_cost_us * static_cast<float>(bodies.contact_points) +
                        limits::pair_cost_us * static_cast<float>(bodies.pairs) +
                        limits::overlap_cost_us * static_cast<float>(bodies.overlaps);
-  return limits::piece_cost_us * static_cast<float>(bodies.pieces) +
-         a_step * static_cast<float>(bodies.steps);
+  return a_step * static_cast<float>(bodies.steps);
 }
 
 }  // namespace
@@ -39,7 +38,7 @@ void WorkBudget::allow(uint32_t percent) {
 void WorkBudget::begin(const Bodies& bodies) {
   counts_ = counts_of(bodies);
   bodies_us_ = cost_of(counts_);
-  spent_us_ = bodies_us_;
+  spent_us_ = bodies_us_ + limits::piece_cost_us * static_cast<float>(counts_.pieces);
   const float payback_us = std::max(left_us(), limits::payback_share * budget_us_);
   debt_us_ = std::max(debt_us_ - payback_us, 0.0F);
 }
