@@ -56,7 +56,7 @@ inline constexpr float span_product_cost_us = 0.3F;
 
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.
-inline constexpr float first_fracture_us = 3300.0F;
+inline constexpr float first_fracture_us = 4000.0F;
 
 /// Waiting pieces are cut while the tick's budget has room; where it never has, one every so many seconds.
 inline constexpr float refracture_rest_s = 0.1F;
@@ -78,8 +78,8 @@ inline constexpr float carve_at_once_us = 12000.0F;
 
 /// Price of a volume, cut by a cutter of polygons into two, above which `field` makes the first cut: in a
 /// carve or a break, and in the cuts of later ticks, which are many.
-inline constexpr float polygons_at_once_us = 20000.0F;
-inline constexpr float polygons_later_us = 9000.0F;
+inline constexpr float polygons_at_once_us = 12000.0F;
+inline constexpr float polygons_later_us = 5200.0F;
 
 /// Load by bodies, as a share of the budget, above which requests wait until they fit; one every
 /// `request_rest_s` does not.
