@@ -24,6 +24,7 @@ BenchReport run_link_bench(const BenchOptions& options);
 BenchReport run_loose_bench(const BenchOptions& options);
 BenchReport run_memory_bench(const BenchOptions& options);
 BenchReport run_mesh_bench(const BenchOptions& options);
+BenchReport run_model_bench(const BenchOptions& options);
 BenchReport run_prices_bench(const BenchOptions& options);
 BenchReport run_quality_bench(const BenchOptions& options);
 BenchReport run_rates_bench(const BenchOptions& options);

@@ -26,6 +26,10 @@ inline constexpr float ground_point_cost_us = 0.125F;
 inline constexpr float contact_cost_us = 0.9F;
 inline constexpr float pair_cost_us = 0.27F;
 
+/// A piece that is alive, moving or not, in a tick: its rest, its place in what is published, the look
+/// whether it is buried. It is no part of the load by bodies: frozen pieces are no crowd.
+inline constexpr float piece_cost_us = 1.3F;
+
 /// A pair of hulls that overlap, whose depth is sought: as profiled, the fit alone cannot tell it from pieces
 /// that are large.
 inline constexpr float overlap_cost_us = 3.0F;
@@ -67,7 +71,7 @@ inline constexpr float slide_rest_s = 0.2F;
 
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.
-inline constexpr float first_fracture_us = 5000.0F;
+inline constexpr float first_fracture_us = 4000.0F;
 
 /// Waiting pieces are cut while the tick's budget has room; where it never has, one every so many seconds.
 inline constexpr float refracture_rest_s = 0.1F;
@@ -89,8 +93,8 @@ inline constexpr float carve_at_once_us = 12000.0F;
 
 /// Price of a volume, cut by a cutter of polygons into two, above which `field` makes the first cut: in a
 /// carve or a break, and in the cuts of later ticks, which are many.
-inline constexpr float polygons_at_once_us = 20000.0F;
-inline constexpr float polygons_later_us = 9000.0F;
+inline constexpr float polygons_at_once_us = 12000.0F;
+inline constexpr float polygons_later_us = 5200.0F;
 
 /// Load by bodies, as a share of the budget, above which requests wait until they fit; one every
 /// `request_rest_s` does not.

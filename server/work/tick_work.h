@@ -1,14 +1,22 @@
 // What a tick's work was estimated at, and how much of it was put off or left out. Published with every tick.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace scree {
 
+/// What the price of the bodies' step is made of (work.h).
+struct BodyCounts {
+  size_t pieces = 0, awake = 0, ground_points = 0, contact_points = 0, pairs = 0, overlaps = 0;
+  int steps = 0;
+};
+
 /// A tick's work by the model of server/work/work.h, and the counts of work that was put off or left out.
 struct TickWork {
   uint32_t budget_us = 0;
-  uint32_t estimate_us = 0;          ///< at the tick's end; over the budget when the minimum of work was more
+  uint32_t estimate_us = 0;  ///< at the tick's end; over the budget when the minimum of work was more
+  BodyCounts bodies;
   uint32_t requests_waiting = 0;     ///< put off to a later tick
   uint32_t refractures_put_off = 0;  ///< pieces that are still to be cut into smaller ones
   uint32_t merges_put_off = 0;       ///< pieces that are at rest and wait their turn

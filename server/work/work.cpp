@@ -8,13 +8,18 @@ namespace scree {
 
 namespace {
 
-float cost_of(const Bodies& bodies) {
-  const float a_step = limits::body_cost_us * static_cast<float>(bodies.awake()) +
-                       limits::ground_point_cost_us * static_cast<float>(bodies.ground_points()) +
-                       limits::contact_cost_us * static_cast<float>(bodies.contact_points()) +
-                       limits::pair_cost_us * static_cast<float>(bodies.pairs()) +
-                       limits::overlap_cost_us * static_cast<float>(bodies.overlaps());
-  return a_step * static_cast<float>(bodies.steps_a_tick());
+BodyCounts counts_of(const Bodies& bodies) {
+  return {bodies.size(),  bodies.awake(),    bodies.ground_points(), bodies.contact_points(),
+          bodies.pairs(), bodies.overlaps(), bodies.steps_a_tick()};
+}
+
+float cost_of(const BodyCounts& bodies) {
+  const float a_step = limits::body_cost_us * static_cast<float>(bodies.awake) +
+                       limits::ground_point_cost_us * static_cast<float>(bodies.ground_points) +
+                       limits::contact_cost_us * static_cast<float>(bodies.contact_points) +
+                       limits::pair_cost_us * static_cast<float>(bodies.pairs) +
+                       limits::overlap_cost_us * static_cast<float>(bodies.overlaps);
+  return a_step * static_cast<float>(bodies.steps);
 }
 
 }  // namespace
@@ -31,8 +36,9 @@ void WorkBudget::allow(uint32_t percent) {
 }
 
 void WorkBudget::begin(const Bodies& bodies) {
-  bodies_us_ = cost_of(bodies);
-  spent_us_ = bodies_us_;
+  counts_ = counts_of(bodies);
+  bodies_us_ = cost_of(counts_);
+  spent_us_ = bodies_us_ + limits::piece_cost_us * static_cast<float>(counts_.pieces);
   const float payback_us = std::max(left_us(), limits::payback_share * budget_us_);
   debt_us_ = std::max(debt_us_ - payback_us, 0.0F);
 }
@@ -46,7 +52,8 @@ void WorkBudget::spend_on_request(float cost_us) {
 
 void WorkBudget::stepped(const Bodies& bodies) {
   const float before_us = bodies_us_;
-  bodies_us_ = cost_of(bodies);
+  counts_ = counts_of(bodies);
+  bodies_us_ = cost_of(counts_);
   spent_us_ += bodies_us_ - before_us;
   CHECK(spent_us_ >= 0.0F);
 }
@@ -58,6 +65,7 @@ bool WorkBudget::crowded() const {
 void WorkBudget::report(TickWork& work) const {
   work.budget_us = static_cast<uint32_t>(budget_us_);
   work.estimate_us = static_cast<uint32_t>(spent_us_);
+  work.bodies = counts_;
 }
 
 }  // namespace scree

@@ -43,6 +43,7 @@ class WorkBudget {
   /// Whether earlier requests cost more than their ticks had: until that is paid back, requests wait.
   bool in_debt() const { return debt_us_ > 0.0F; }
   float left_us() const { return budget_us_ - spent_us_; }
+  float spent_us() const { return spent_us_; }
   float budget_us() const { return budget_us_; }
   /// Estimated cost of the bodies' step as a share of the budget.
   float bodies_load() const { return bodies_us_ / budget_us_; }
@@ -57,6 +58,7 @@ class WorkBudget {
   float budget_us_ = 0.0F;
   float spent_us_ = 0.0F;
   float bodies_us_ = 0.0F;
+  BodyCounts counts_;
   float debt_us_ = 0.0F;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <iterator>
 #include <map>
 #include <string>
@@ -13,6 +14,7 @@
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
 #include "shared/falling/island.h"
+#include "shared/falling/overload.h"
 #include "shared/recombine/specks.h"
 
 namespace scree {
@@ -25,6 +27,25 @@ bool still_there(Field& field, const Island& island) {
   return field.brick(brick_of(v)).codes[static_cast<size_t>(Brick::index(v.x & 7, v.y & 7, v.z & 7))] < 0;
 }
 
+/// A post that was cut off stands on a foot that is small for its height. Nothing in the world is as quiet as
+/// that: it sets out to topple, with a few times the energy that lifts it over the edge of its foot, to a side that
+/// its place says. Nothing for other islands.
+BodyState toppling(const VoxelBox& box, float voxel_size_m) {
+  BodyState body;
+  const glm::vec3 size = glm::vec3(box.size().x, box.size().y, box.size().z) * voxel_size_m;
+  const float width = std::max(size.x, size.z);
+  if (size.y < limits::post_slenderness * width) return body;
+  const uint64_t place = mixed_bits(box.lo);
+  const auto part = [](uint64_t bits) { return static_cast<float>(bits & 0xFFU) / 127.5F - 1.0F; };
+  const glm::vec2 wanted(part(place) + 0.002F, part(place >> 8U));
+  const glm::vec2 side = wanted / std::sqrt(glm::dot(wanted, wanted));
+  const float arm = 0.5F * size.y;
+  const float speed = width / std::sqrt(arm / standard_gravity);
+  body.velocity_m_s = speed * glm::vec3(side.x, 0.0F, side.y);
+  body.spin_rad_s = speed / arm * glm::vec3(side.y, 0.0F, -side.x);
+  return body;
+}
+
 void drop(World::State& state, const Island& island, uint64_t party, TickDelta& delta) {
   if (!still_there(state.field, island)) return;
   const Applied applied =
@@ -34,6 +55,7 @@ void drop(World::State& state, const Island& island, uint64_t party, TickDelta& 
   const float dx = state.config.terrain.voxel_size_m;
   const auto at_rest = [&](PieceId, const Volume& volume) {
     Newborn born;
+    if (state.config.rules >= rules::joints) born.body = toppling(island.box, dx);
     born.body.pose.position_m = volume.centre_voxels * dx;
     born.may_be_concave = true;
     born.traits.fell = true;
@@ -49,6 +71,21 @@ constexpr SearchLimits search_limits{
 
 bool has_seen(const IslandSearch& search, std::span<const BrickCoord> bricks) {
   return std::ranges::any_of(bricks, [&](BrickCoord brick) { return search.visited(brick); });
+}
+
+bool meet(const VoxelBox& a, const VoxelBox& b) {
+  return !common(a, b).empty();
+}
+
+/// Whether a brick holds a voxel of an island's box, or one beside it.
+bool touches_one(std::span<const Island> islands, std::span<const BrickCoord> bricks) {
+  return std::ranges::any_of(islands, [&](const Island& island) {
+    const VoxelBox around = island.box.grown(1);
+    return std::ranges::any_of(bricks, [&](BrickCoord brick) {
+      const VoxelCoord lo = first_voxel(brick);
+      return meet(around, {lo, lo + VoxelCoord{brick_size, brick_size, brick_size}});
+    });
+  });
 }
 
 /// What the tick has room for, within bounds.
@@ -85,8 +122,8 @@ bool may_fall(const World::State& state, uint64_t party) {
 
 }  // namespace
 
-void IslandQueue::push(uint64_t party, std::vector<BrickCoord> loosened) {
-  if (!loosened.empty()) waiting_.push(party, {std::move(loosened), nullptr, 0});
+void IslandQueue::push(uint64_t party, std::vector<BrickCoord> loosened, std::vector<VoxelBox> hung) {
+  if (!loosened.empty()) waiting_.push(party, {std::move(loosened), nullptr, 0, 0.0F, std::move(hung)});
 }
 
 void IslandQueue::begin_tick() {
@@ -98,6 +135,12 @@ std::vector<BrickCoord> IslandQueue::Falling::starts() const {
   std::vector<BrickCoord> starts;
   for (const Island& island : islands) starts.push_back(brick_of(island.start));
   return starts;
+}
+
+std::vector<VoxelBox> IslandQueue::Falling::boxes() const {
+  std::vector<VoxelBox> boxes;
+  for (const Island& island : islands) boxes.push_back(island.box);
+  return boxes;
 }
 
 IslandQueue::Backlog IslandQueue::backlog(uint64_t party) const {
@@ -154,20 +197,32 @@ void IslandQueue::fell(std::span<const BrickCoord> bricks) {
     }
 }
 
-void IslandQueue::changed(std::span<const BrickCoord> bricks) {
+void IslandQueue::changed(std::span<const BrickCoord> bricks, uint32_t rules) {
   fell(bricks);
   for (auto& [party, line] : falling_.lines())
     for (Falling& falling : line.items) {
-      falling.stale = has_seen(*falling.search, bricks);
-      if (falling.stale) push(party, falling.starts());
+      falling.stale = has_seen(*falling.search, bricks) &&
+                      (rules < rules::joints || touches_one(falling.islands, bricks));
+      if (falling.stale) push(party, falling.starts(), falling.boxes());
     }
   falling_.erase_if([](const Falling& falling) { return falling.stale; });
 }
 
-bool IslandQueue::search(Field& field, SearchAllowance& allowance) {
+bool IslandQueue::is_known(uint64_t party, std::span<const BrickCoord> loosened) const {
+  const auto line = falling_.lines().find(party);
+  return line != falling_.lines().end() &&
+         std::ranges::any_of(line->second.items,
+                             [&](const Falling& falling) { return falling.search->knows(loosened); });
+}
+
+bool IslandQueue::search(Field& field, SearchAllowance& allowance, uint32_t rules) {
   if (waiting_.empty() || allowance.bricks == 0) return false;
   const uint64_t party = waiting_.whose();
   Waiting& first = waiting_.next();
+  if (rules >= rules::joints && first.search == nullptr && is_known(party, first.loosened)) {
+    waiting_.pop(0.0F);
+    return true;
+  }
   const size_t read_before = allowance.read;
   if (first.search == nullptr) {
     first.search = std::make_unique<IslandSearch>(field, first.loosened, search_limits);
@@ -216,6 +271,17 @@ size_t IslandQueue::falling() const {
   return count;
 }
 
+bool IslandQueue::hangs_at(const VoxelBox& box) const {
+  const auto touches = [&](const VoxelBox& island) { return meet(island.grown(1), box); };
+  for (const auto& [party, line] : falling_.lines())
+    for (const Falling& falling : line.items)
+      if (std::ranges::any_of(falling.islands, touches, &Island::box)) return true;
+  for (const auto& [party, line] : waiting_.lines())
+    for (const Waiting& waiting : line.items)
+      if (std::ranges::any_of(waiting.hung, touches)) return true;
+  return false;
+}
+
 Result<void> may_cause_falls(const World::State& state, uint64_t party) {
   party = state.charged(party);
   if (party == 0 || !state.config.methods.islands || state.islands.idle(party)) return {};
@@ -253,6 +319,10 @@ void fall_in_turn(World::State& state, TickDelta& delta) {
       state.islands.pass_over();
       continue;
     }
+    if (state.config.rules >= rules::joints && !still_there(state.field, island)) {
+      state.islands.pop(0.0F);
+      continue;
+    }
     const float cost = lift_price_us(island.box);
     const bool fits = state.work.affords(cost) && !is_crowding(state, party);
     const Tick wait = wait_for_room(state, party, cost, rest);
@@ -272,12 +342,12 @@ void fall_in_turn(World::State& state, TickDelta& delta) {
 
 void drop_islands(World::State& state, TickDelta& delta) {
   const std::vector<BrickCoord> changed(state.changed.begin(), state.changed.end());
-  state.islands.changed(changed);
+  state.islands.changed(changed, state.config.rules);
   if (!state.config.methods.islands) return;
   begin_searches(state);
   state.islands.begin_tick();
   SearchAllowance allowance{.bricks = bricks_to_read(state.work)};
-  while (state.islands.search(state.field, allowance)) {
+  while (state.islands.search(state.field, allowance, state.config.rules)) {
   }
   delta.work.islands_too_large += allowance.too_large;
   state.work.spend(limits::island_brick_cost_us * static_cast<float>(allowance.read));

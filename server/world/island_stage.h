@@ -9,8 +9,9 @@
 //
 // The islands that a search found fall in the same tick, at least one, and more as far as the tick's budget
 // of work goes; the others wait, and fall by the parties' turns. A large island comes in blocks
-// (island_search.h), which fall one by one. Waiting islands are searched again when a brick that their search
-// read changed by anything but the fall of an island: they may have a support now.
+// (island_search.h), which fall one by one. Waiting islands are searched again when a brick that they touch
+// changed by anything but the fall of an island: they may have a support now. What fell from them and leans
+// on them is none: it becomes terrain when they have fallen, too (merge_stage.cpp).
 //
 // While Methods::islands is off, cuts and unfinished searches wait; when it is on again, they continue.
 #pragma once
@@ -21,6 +22,7 @@
 
 #include "server/formats/world_value.h"
 #include "server/work/turn_queue.h"
+#include "server/world/rules.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/falling/island_search.h"
@@ -36,17 +38,19 @@ struct SearchAllowance {
 
 class IslandQueue {
  public:
-  /// Adds a search around bricks that lost rock by this party's doing; none for an empty list.
-  void push(uint64_t party, std::vector<BrickCoord> loosened);
+  /// Adds a search around bricks that lost rock by this party's doing; none for an empty list. `hung`: boxes
+  /// of islands that waited there.
+  void push(uint64_t party, std::vector<BrickCoord> loosened, std::vector<VoxelBox> hung = {});
   /// Nobody is passed over any more.
   void begin_tick();
-  /// Restarts the searches, finished or not, that have read one of these changed bricks.
-  void changed(std::span<const BrickCoord> bricks);
+  /// Restarts the unfinished searches that have read one of these changed bricks, and the finished ones of
+  /// which an island that waits touches one; before rules::joints, also those that have read one.
+  void changed(std::span<const BrickCoord> bricks, uint32_t rules);
   /// The same for bricks that the fall of an island changed: finished searches stay valid.
   void fell(std::span<const BrickCoord> bricks);
   /// Continues the search whose turn it is, as far as `allowance` allows. True when it ended: its islands
   /// wait to fall. False when no bricks are left or there is no search.
-  bool search(Field& field, SearchAllowance& allowance);
+  bool search(Field& field, SearchAllowance& allowance, uint32_t rules = rules::newest);
   /// The next island that waits to fall, valid until pop(); null when none waits but of parties that were
   /// passed over.
   const Island* next() const { return falling_.empty() ? nullptr : &falling_.next().islands.back(); }
@@ -59,6 +63,8 @@ class IslandQueue {
 
   /// Number of islands that wait to fall.
   size_t falling() const;
+  /// Whether one of them, or one that is searched again, may touch what lies in the box.
+  bool hangs_at(const VoxelBox& box) const;
   /// Searches and islands that wait, of a party.
   struct Backlog {
     size_t searches = 0;
@@ -82,16 +88,21 @@ class IslandQueue {
   std::vector<BrickCoord> waiting() const;
 
  private:
+  /// Whether a finished search, whose islands still wait, found all that a search around these bricks would.
+  bool is_known(uint64_t party, std::span<const BrickCoord> loosened) const;
+
   struct Waiting {
     std::vector<BrickCoord> loosened;
     std::unique_ptr<IslandSearch> search;  ///< null until its turn
     uint32_t restarts = 0;
-    float cost_us = 0.0F;  ///< not known before
+    float cost_us = 0.0F;          ///< not known before
+    std::vector<VoxelBox> hung{};  ///< of islands that waited to fall before a brick beside them changed
   };
   /// The islands that a search found, the next to fall last; never empty.
   struct Falling {
     /// Bricks in which they begin: a search around these finds them again.
     std::vector<BrickCoord> starts() const;
+    std::vector<VoxelBox> boxes() const;
 
     std::vector<Island> islands;
     std::unique_ptr<IslandSearch> search;

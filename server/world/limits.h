@@ -62,6 +62,14 @@ inline constexpr size_t concave_samples_max = 128;
 inline constexpr int compound_side_min_voxels = 16;
 inline constexpr size_t compound_parts_max = 64;
 
+/// Seconds since the last fall up to which pieces that lean on hanging terrain do not become terrain: the
+/// search for a large island takes one. Above: falls wait for room that only merges make.
+inline constexpr uint32_t lean_s_max = 5;
+
+/// Height of an island over its width, both with the voxels at the surface, from which on it counts as a
+/// post: it stands no better than a pencil, and topples.
+inline constexpr float post_slenderness = 12.0F;
+
 /// Parts of a component, one for each brick as a rule, that a search follows: half a million m³ at 0.25 m. A
 /// larger component counts as ground, and is counted.
 inline constexpr size_t island_parts_max = 65536;
@@ -125,9 +133,9 @@ inline constexpr float dent_energy_share = 0.1F;
 /// lies more than a voxel farther out, which merges do not make. With 12 to a side it would still find room.
 inline constexpr int64_t rubble_voxels_max = 1000;
 
-/// Merges of a tick whose budget is used up may cost so much, microseconds: 16 of small pieces, which so many
+/// Merges of a tick whose budget is used up may cost so much, microseconds: 14 of small pieces, which so many
 /// fewer bodies save in a few ticks. One piece merges in any case.
-inline constexpr float merge_least_us = 1000.0F;
+inline constexpr float merge_least_us = 2500.0F;
 
 /// Share of its speed that a piece may lose to the air in a second, percent: all of it. Refused where a world
 /// is created.

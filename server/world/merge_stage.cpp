@@ -33,6 +33,16 @@ struct RestAllowance {
   float most_us = 0.0F;
 };
 
+/// Whether the piece touches terrain that is about to fall: as terrain it would hold that up. Where nothing
+/// fell for long, falls wait for room, which merges make.
+bool leans_on_a_fall(const World::State& state, PieceId id) {
+  if (state.config.rules < rules::joints || state.islands.size() == 0) return false;
+  if (state.tick - state.island_at > limits::lean_s_max * state.config.tick_rate_hz) return false;
+  const float dx = state.config.terrain.voxel_size_m;
+  const VoxelBox box = posed_bounds(*state.pieces.at(id), quantise(state.bodies.state(id).pose), dx);
+  return state.islands.hangs_at(box.grown(1));
+}
+
 /// The pieces that merge, or freeze, in this tick: as many as are allowed, one at least. They come layer by
 /// layer, from the ground up, and by the parties' turns within each. `layers`: of RestDetector.
 std::vector<PieceId> in_turn(World::State& state, const std::vector<PieceId>& ready,
@@ -43,7 +53,8 @@ std::vector<PieceId> in_turn(World::State& state, const std::vector<PieceId>& re
   for (size_t at = 0; at < ready.size() && now.size() == at;) {
     const uint32_t layer = layers[at];
     for (; at < ready.size() && layers[at] == layer; ++at)
-      turns.push(state.party_of(ready[at]), {ready[at], merge_cost_us(state, ready[at])});
+      if (!leans_on_a_fall(state, ready[at]))
+        turns.push(state.party_of(ready[at]), {ready[at], merge_cost_us(state, ready[at])});
     turns.begin_tick();
     while (!turns.empty() && now.size() < allowance.pieces) {
       const WaitingPiece next = turns.next();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "server/fracture/relaxed_seeds.h"
 #include "server/work/limits.h"
@@ -9,6 +10,7 @@
 #include "server/work/price.h"
 #include "server/world/blast.h"
 #include "server/world/buried_stage.h"
+#include "server/world/fill_joints.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
 #include "server/world/refracture_stage.h"
@@ -171,8 +173,8 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, 
   const float dx = state.config.terrain.voxel_size_m;
   if (grant.pieces == 0) return tl::unexpected(no_room(state, request.seeds, party, grant));
   CHECK(grant.pieces <= request.seeds);
-  const Cutter cutter =
-      cutter_for(state.config.methods.cutter, voxels_of(band_box(in_voxels(request.shape, dx))));
+  const float voxels = voxels_of(band_box(in_voxels(request.shape, dx)));
+  const Cutter cutter = cutter_for(state.config.methods.cutter, voxels);
   const uint32_t at_once = seeds_at_once(state, request, grant, cutter);
   CarveOperation operation = operation_of(state, request, at_once, cutter);
   if (at_once < grant.pieces) begin_in_stages(operation.pattern, operation.seeds, grant.pieces);
@@ -181,7 +183,11 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, 
   state.enter_removed(applied);
   const bool whole = at_once == 1 && grant.pieces > 1;  // what is cut later is thrown then
   throw_out(state, applied, whole ? at_rest(request) : request, party, delta);
-  if (at_once < grant.pieces) queue_refractures(state, applied, request, party, grant.pieces, whole);
+  if (at_once < grant.pieces) {
+    queue_refractures(state, applied, request, party, grant.pieces, whole);
+    state.cut_later_us = cut_price_us(cutter, voxels, grant.pieces);
+    if (!whole) state.cut_later_us -= cut_price_us(cutter, voxels, at_once);
+  }
   return static_cast<uint32_t>(applied.created.size());
 }
 
@@ -199,9 +205,9 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
 
 Outcome fill(World::State& state, const FillRequest& request, uint64_t party, TickDelta& delta) {
   const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
-  const Applied applied =
-      state.apply_and_record(FillOperation{request.shape, request.material}, party, delta);
-  state.ledger.poured += applied.terrain_gain;
+  for (const Shape& shape : with_joints(request.shape, state))
+    state.ledger.poured +=
+        state.apply_and_record(FillOperation{shape, request.material}, party, delta).terrain_gain;
   return enclosed;
 }
 
@@ -385,7 +391,7 @@ void carry_out(World::State& state, TickDelta& delta) {
     const Command command = next->command;
     state.requests.pop(cost);
     answer(command, execute(state, command, grant, delta), delta);
-    state.work.spend_on_request(cost);
+    state.work.spend_on_request(std::max(0.0F, cost - std::exchange(state.cut_later_us, 0.0F)));
   }
   delta.work.requests_waiting = static_cast<uint32_t>(state.requests.size());
 }

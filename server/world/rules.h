@@ -25,8 +25,11 @@ inline constexpr uint32_t by_place = 5;
 inline constexpr uint32_t blows = 6;
 /// Also, rubble and loose ground that lies steeper than its angle of repose slides (slide_stage.h).
 inline constexpr uint32_t slides = 7;
+/// Also, a fill that lies exactly on a face of the terrain joins it, and what falls from a large island
+/// becomes terrain again when all of it has fallen. Posts that were cut off topple.
+inline constexpr uint32_t joints = 8;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = slides;
+inline constexpr uint32_t newest = joints;
 }  // namespace rules
 
 }  // namespace scree

@@ -79,6 +79,8 @@ constexpr size_t index_of(TickStage stage) {
 /// Milliseconds that each stage of a tick took. Reported only; the simulation never reads them.
 struct StageTimes {
   std::array<double, tick_stages.size()> ms{};
+  std::array<double, tick_stages.size()>
+      model_ms{};                         ///< the same by the model of work; spawns are in other stages
   std::bitset<tick_stages.size()> acted;  ///< stages that changed something
 
   double& operator[](TickStage stage) { return ms[index_of(stage)]; }

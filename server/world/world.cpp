@@ -112,8 +112,10 @@ void run_stage(TickStage stage, World::State& state, TickDelta& delta) {
   const StageRun run = run_of(stage);
   if (run == nullptr) return;
   const size_t before = delta.operations.size();
+  const float spent_us = state.work.spent_us();
   state.stopwatch.switch_to(stage, delta.times);
   run(state, delta);
+  delta.times.model_ms[index_of(stage)] += 1e-3 * static_cast<double>(state.work.spent_us() - spent_us);
   if (delta.operations.size() > before) delta.times.acted.set(index_of(stage));
 }
 
@@ -140,6 +142,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   if (s.tick == 1) publish_settings(s, *delta);
   s.stopwatch.restart(TickStage::requests);
   s.work.begin(s.bodies);
+  delta->times.model_ms[index_of(TickStage::bodies)] = 1e-3 * static_cast<double>(s.work.spent_us());
   enqueue_commands(s, commands, *delta);
   for (const TickStageRow& row : tick_stages) run_stage(row.stage, s, *delta);
   s.stopwatch.switch_to(TickStage::requests, delta->times);

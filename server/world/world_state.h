@@ -108,6 +108,7 @@ struct World::State {
   Tick refractured_at = 0;  ///< tick in which one of them, or what they are parts of, was cut last
   Tick island_at = 0;       ///< tick in which an island fell last
   WorkBudget work;
+  float cut_later_us = 0.0F;     ///< part of a request's price that the ticks pay in which its pieces are cut
   RequestQueue requests;         ///< that wait for a tick with room for them
   Tick requested = 0;            ///< tick in which a request that costs time was carried out last
   PieceShares shares;            ///< of the clients in `pieces`, by PieceTraits::owner

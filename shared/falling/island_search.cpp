@@ -121,6 +121,23 @@ void IslandSearch::begin(std::span<const BrickCoord> changed) {
   }
 }
 
+bool IslandSearch::knows(std::span<const BrickCoord> bricks) const {
+  CHECK(open_.empty());
+  const auto is_claimed = [&](BrickCoord brick, const BrickBits& among) {
+    const auto found = sites_.find(brick);
+    return found != sites_.end() && !(among & found->second.solid & ~claimed_bits(found->second)).any();
+  };
+  return std::ranges::all_of(bricks, [&](BrickCoord brick) {
+    const auto here = sites_.find(brick);
+    if (here == sites_.end() || !is_claimed(brick, here->second.solid)) return false;
+    for (size_t face = 0; face < brick_faces.size(); ++face) {
+      const BrickBits bared = across(~here->second.solid, face);
+      if (bared.any() && !is_claimed(brick + brick_faces[face], bared)) return false;
+    }
+    return true;
+  });
+}
+
 bool IslandSearch::is_later(uint32_t a, uint32_t b) const {
   const auto key = [&](uint32_t part) {
     const BrickCoord& at = parts_[part].brick;

@@ -65,6 +65,8 @@ class IslandSearch {
 
   /// Whether the search has read this brick: if the brick changes, a new search must begin.
   bool visited(BrickCoord brick) const { return sites_.contains(brick); }
+  /// After the end: whether it has searched all that a search around these bricks would begin with.
+  bool knows(std::span<const BrickCoord> bricks) const;
   /// What was read since the beginning, in bricks.
   size_t read() const { return read_; }
 

@@ -67,8 +67,8 @@ struct CutterRow {
 };
 
 constexpr CutterRow row_of(Cutter cutter) {
-  constexpr CutPrice of_codes{.volume_us = 100.0F, .voxel_us = 0.07F, .piece_us = 25.0F};
-  constexpr CutPrice of_polygons{.volume_us = 6000.0F, .voxel_us = 0.9F, .piece_us = 350.0F};
+  constexpr CutPrice of_codes{.volume_us = 100.0F, .voxel_us = 0.04F, .piece_us = 25.0F};
+  constexpr CutPrice of_polygons{.volume_us = 3500.0F, .voxel_us = 0.5F, .piece_us = 200.0F};
   switch (cutter) {
     case Cutter::field:
       return {.name = "field", .price = of_codes, .cut = cut_by_field};

@@ -1,18 +1,19 @@
-// What operations cost by the model of work: microseconds as measured on one core of a 2023 server (benches
-// storm and worst). Server and client go by the same.
+// What operations cost by the model of work: microseconds as measured on one core of a 2023 server (bench
+// model). Server and client go by the same.
 #pragma once
 
 namespace scree::limits {
 
-/// An edit, and a voxel of its box; a chunk in it whose terrain may have to be generated.
-inline constexpr float edit_cost_us = 400.0F;
-inline constexpr float edit_voxel_cost_us = 0.05F;
-inline constexpr float chunk_cost_us = 300.0F;
+/// An edit, and a voxel of its box; a chunk in it that no edit has touched: as a rule its terrain was
+/// generated before (server/app/terrain_ahead.h); where it was not, that takes seven times as long.
+inline constexpr float edit_cost_us = 150.0F;
+inline constexpr float edit_voxel_cost_us = 0.015F;
+inline constexpr float chunk_cost_us = 40.0F;
 
 /// A voxel of a piece's window in a merge, whose other cost is the method's
 /// (shared/recombine/stamp_method.h): with the largest pieces, of 60,000 voxels, that is nearly all. A cut
 /// costs as its cutter says (shared/fracture/cutter.h).
-inline constexpr float stamp_voxel_cost_us = 0.02F;
+inline constexpr float stamp_voxel_cost_us = 0.05F;
 
 /// An island that is lifted, and a voxel of its box, both with hull, surface points and convex parts.
 inline constexpr float lift_cost_us = 400.0F;

@@ -52,7 +52,7 @@ constexpr StampMethodRow row_of(StampMethod method) {
               .price_us = 170.0F,
               .kernel = WholeStamp{stamp_sphere_box, stamp_sphere, plan_sphere}};
     case StampMethod::facets:
-      return {.name = "facets", .wire = 4, .wire_together = 5, .price_us = 55.0F, .kernel = laying_faceted};
+      return {.name = "facets", .wire = 4, .wire_together = 5, .price_us = 150.0F, .kernel = laying_faceted};
   }
   return {};
 }

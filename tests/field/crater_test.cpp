@@ -42,6 +42,26 @@ TEST(crater, lies_within_its_ball_and_takes_out_most_of_it) {
   }
 }
 
+/// The part of its ball that a crater of that radius takes out, over many places.
+double mean_share(float radius) {
+  double sum = 0.0;
+  constexpr int places = 60;
+  for (int i = 0; i < places; ++i) {
+    const glm::vec3 place(53.5F * static_cast<float>(i), -400.0F, 31.1F * static_cast<float>(i % 9));
+    const Window rough = crater_of(radius, place);
+    sum += static_cast<double>(mass_of(rough)) /
+           static_cast<double>(mass_of(codes_of(sphere(place, radius), rough.box)));
+  }
+  return sum / places;
+}
+
+TEST(crater, takes_out_the_part_of_its_ball_that_the_docs_say) {
+  for (const float radius : {6.0F, 8.0F, 16.0F, 32.0F}) EXPECT_NEAR(mean_share(radius), 0.62, 0.02) << radius;
+  EXPECT_NEAR(mean_share(5.0F), 0.54, 0.04);
+  EXPECT_NEAR(mean_share(4.0F), 0.46, 0.04);
+  EXPECT_NEAR(mean_share(2.0F), 0.38, 0.04);
+}
+
 TEST(crater, the_smallest_takes_something_out_wherever_it_is) {
   for (int i = 0; i < 200; ++i) {
     const auto at = static_cast<float>(i);

@@ -8,6 +8,7 @@
 
 #include "server/fracture/hull_corners.h"
 #include "server/fracture/point_spread.h"
+#include "shared/field/edit.h"
 #include "shared/field/window_sample.h"
 #include "tests/support/flat_terrain.h"
 
@@ -93,6 +94,21 @@ TEST(Hull, masses_and_inertias_are_sane) {
     EXPECT_GT(glm::determinant(hull.inertia_m2), 0.0F);
   }
   EXPECT_NEAR(size_m3, static_cast<float>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m, 0.01F);
+}
+
+TEST(Hull, boxes_that_lie_on_voxels_have_the_inertia_of_boxes) {
+  for (const float offset : {0.0F, 0.25F, 0.5F}) {
+    const glm::vec3 half(4.0F, 6.0F, 3.0F);
+    const Shape shape = box(glm::vec3(offset), half);
+    Volume volume;
+    volume.window = codes_of(shape, band_box(shape));
+    volume.mass = mass_of(volume.window);
+    volume.centre_voxels = shape.a;
+    const glm::mat3 inertia = make_hull(1, volume, 1.0F).inertia_m2;
+    EXPECT_NEAR(inertia[0][0], (half.y * half.y + half.z * half.z) / 3.0F, 0.03F * inertia[0][0]) << offset;
+    EXPECT_NEAR(inertia[1][1], (half.x * half.x + half.z * half.z) / 3.0F, 0.03F * inertia[1][1]) << offset;
+    EXPECT_NEAR(inertia[2][2], (half.x * half.x + half.y * half.y) / 3.0F, 0.03F * inertia[2][2]) << offset;
+  }
 }
 
 constexpr Simplifier simplifiers[] = {Simplifier::none, Simplifier::hull, Simplifier::merge};
