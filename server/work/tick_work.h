@@ -16,7 +16,7 @@ struct BodyCounts {
 struct TickWork {
   uint32_t budget_us = 0;
   uint32_t estimate_us = 0;  ///< at the tick's end; over the budget when the minimum of work was more
-  BodyCounts bodies;
+  BodyCounts bodies{};
   uint32_t requests_waiting = 0;     ///< put off to a later tick
   uint32_t refractures_put_off = 0;  ///< pieces that are still to be cut into smaller ones
   uint32_t merges_put_off = 0;       ///< pieces that are at rest and wait their turn
