@@ -50,7 +50,7 @@ inline constexpr float island_brick_cost_us = 1.0F;
 inline constexpr float support_part_cost_us = 0.7F;
 /// A part of the terrain in a search for what a blow breaks, and what such a search must find room for.
 inline constexpr float blow_part_cost_us = 1.0F;
-inline constexpr float blow_cost_us = 3000.0F;
+inline constexpr float blow_cost_us = 6000.0F;
 /// A brick and a joint of a search for spans, and a product of blocks in its solutions
 /// (shared/falling/spans.h).
 inline constexpr float span_brick_cost_us = 1.3F;
