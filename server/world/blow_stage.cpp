@@ -56,10 +56,12 @@ std::optional<Strike> strike_of(const World::State& state, const TerrainBlow& bl
   return strike;
 }
 
-std::vector<Strike> strikes_of(const World::State& state) {
+/// What was made in this tick strikes the hole that it was blown out of: that was the blast's to break.
+std::vector<Strike> strikes_of(const World::State& state, const TickDelta& delta) {
+  const PieceId first_new = delta.spawned.empty() ? state.next_piece : delta.spawned.front().id;
   std::vector<Strike> strikes;
   for (const TerrainBlow& blow : state.bodies.terrain_blows()) {
-    if (!state.pieces.contains(blow.id)) continue;
+    if (!state.pieces.contains(blow.id) || blow.id >= first_new) continue;
     if (auto strike = strike_of(state, blow)) strikes.push_back(std::move(*strike));
   }
   std::ranges::stable_sort(strikes, std::ranges::greater{},
@@ -115,7 +117,7 @@ std::map<PieceId, float> break_terrain(World::State& state, TickDelta& delta) {
   std::map<PieceId, float> borne;
   if (state.config.rules < rules::blows || !state.config.methods.dents || !state.config.methods.islands)
     return borne;
-  const std::vector<Strike> strikes = strikes_of(state);
+  const std::vector<Strike> strikes = strikes_of(state, delta);
   TurnQueue<WaitingWork>& turns = state.turns.blows;
   for (size_t i = 0; i < strikes.size(); ++i)
     if (!surely_holds(state.field, *state.palette, strikes[i].load))

@@ -45,13 +45,13 @@ std::string name_of_rubble(const Palette& palette, const std::string& stones) {
 constexpr Bearing interlocked{
     .pressed_pa = 1.8e6F, .hanging_pa = 2.0e4F, .sideways_pa = 5.0e4F, .bending_pa = 5.0e4F};
 
-/// Rubble of a row: its stones, lying loosely. It dents as gravel does, its angle of repose is 37°, and it
+/// Rubble of a row: its stones, lying loosely. It dents as gravel does, its angle of repose is 38°, and it
 /// looks like stones of that row.
 MaterialRow derived(const Palette& palette, Material stones) {
   MaterialRow row = palette.row(stones);
   row.name = name_of_rubble(palette, row.name);
   row.rubble = RubbleOf{.of = stones};
-  row.friction = 0.75F;
+  row.friction = 0.78F;
   row.restitution = 0.0F;
   row.strength_m_s = std::min(row.strength_m_s, 2.0F);
   row.strength_by_size = 0.0F;
