@@ -17,8 +17,8 @@ namespace scree {
 namespace {
 
 constexpr double factor_max = 1.15;
-constexpr double tick_min_ms =
-    1.0;  ///< shorter ticks endanger nothing, and a model does not see their fixed costs
+/// Shorter ticks endanger nothing, and a model does not see their fixed costs.
+constexpr double tick_min_ms = 1.0, fitted_min_ms = 4.0;
 
 struct TickCost {
   StageTimes times;
@@ -43,9 +43,9 @@ class Stand {
   void forget() { costs_.clear(); }
   const std::vector<TickCost>& costs() const { return costs_; }
   const TerrainSource& terrain() const { return world_.config().terrain; }
-  /// Ground that was looked at before: no tick generates it.
+  /// Ground that was looked at before, as far as a blow's search goes: no tick generates it.
   void generate(const Shape& shape) {
-    gather(world_.field(), band_box(in_voxels(shape, terrain().voxel_size_m)).grown(16));
+    gather(world_.field(), band_box(in_voxels(shape, terrain().voxel_size_m)).grown(64));
   }
 
  private:
@@ -214,7 +214,7 @@ Prices fitted(const std::vector<TickCost>& costs) {
     const bool only_looks = !times.acted[index_of(TickStage::buried)];
     const double us = 1e3 * (times[TickStage::bodies] + times[TickStage::rest] + times[TickStage::publish] +
                              (only_looks ? times[TickStage::buried] : 0.0));
-    if (us < 1e3 * tick_min_ms) continue;
+    if (us < 1e3 * fitted_min_ms) continue;
     const Prices counts = counts_of(cost.work.bodies);
     for (size_t i = 0; i < prices; ++i) {
       sums[i] += counts[i] / us;

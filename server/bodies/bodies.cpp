@@ -186,7 +186,7 @@ std::vector<PieceId> Bodies::near(glm::vec3 lo_m, glm::vec3 hi_m) const {
     return Bounds{to_bullet(lo_m) - by, to_bullet(hi_m) + by};
   };
   // The tree holds the bounds from before the last step.
-  const Bounds may_be = grown(limits::speed_max_m_s * state_->step_size.step_s);
+  const Bounds may_be = grown(state_->moved_m + limits::travel_max_voxels * state_->step_size.voxel_size_m);
   const Bounds is = grown(limits::travel_max_voxels * state_->step_size.voxel_size_m);
   Collector collector;
   state_->broadphase.aabbTest(may_be.lo, may_be.hi, collector);

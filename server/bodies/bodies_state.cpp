@@ -47,6 +47,15 @@ btTransform transform_of(const BodyMotion& motion) {
   return btTransform(btMatrix3x3(x.x, x.y, x.z, y.x, y.y, y.z, z.x, z.y, z.z), to_bullet(motion.origin_m));
 }
 
+/// How far the body's farthest points moved in the step, at most.
+float way_m(const Body& body) {
+  const btTransform& now = body.rigid->getWorldTransform();
+  float turned = 0.0F;
+  for (int axis = 0; axis < 3; ++axis)
+    turned += (now.getBasis().getColumn(axis) - body.last.getBasis().getColumn(axis)).length();
+  return (now.getOrigin() - body.last.getOrigin()).length() + turned * body.reach_m;
+}
+
 /// 1,000 Hz has one step a tick, as has 60 Hz; 10 Hz has six.
 int steps_in(float tick_s) {
   int steps = 1;
@@ -158,6 +167,8 @@ void Bodies::State::step() {
     }
   });
   run(moving);
+  moved_m = 0.0F;
+  for (const Body* body : loose) moved_m = std::max(moved_m, way_m(*body));
   if (frozen > 0) thaw_struck();
   for (auto& [id, body] : bodies)
     if (body.thawed) wake_around_thawed(body);
@@ -203,6 +214,7 @@ void Bodies::State::freeze(PieceId id, Body& body) {
   rigid.setAngularVelocity(btVector3(0.0F, 0.0F, 0.0F));
   rigid.setMassProps(0.0F, btVector3(0.0F, 0.0F, 0.0F));
   body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
+  body.speed_before = body.spin_before = btVector3(0.0F, 0.0F, 0.0F);
   body.frozen = BodyState{id, pose_of(body), glm::vec3(0.0F), glm::vec3(0.0F), true};
   body.thawed.reset();
   ++frozen;

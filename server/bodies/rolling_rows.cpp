@@ -36,6 +36,7 @@ RollingRow::RollingRow(btSolverBody& a, btSolverBody& b, int first, int count, c
 void RollingRow::solve(const btConstraintArray& contacts) {
   float pressed = 0.0F;
   for (int i = first_; i < first_ + count_; ++i) pressed += contacts[i].m_appliedImpulse;
+  if (pressed <= 0.0F && applied_.isZero()) return;
   const btVector3 spin = a_->m_angularVelocity + a_->internalGetDeltaAngularVelocity() -
                          b_->m_angularVelocity - b_->internalGetDeltaAngularVelocity();
   const btVector3 free = applied_ - mass_ * spin;

@@ -10,6 +10,35 @@ namespace scree {
 
 namespace {
 
+/// Contacts lie within this distance beyond a body's reach.
+constexpr float beyond_m = 0.25F;
+
+/// The greatest speed that a point of contact of the body had at the step's start.
+float greatest_speed_m_s(const Body& body) {
+  return body.speed_before.length() + body.spin_before.length() * (body.reach_m + beyond_m);
+}
+
+/// The bodies that may take part in a blow of that speed, ordered: those that had half of it, for of two that
+/// near each other one has, and what touches them. In a heap nearly all have not.
+std::vector<PieceId> that_may_strike(const std::map<PieceId, Body>& bodies, const btDispatcher& dispatcher,
+                                     float speed_min_m_s) {
+  std::vector<PieceId> fast;
+  for (const auto& [id, body] : bodies)
+    if (!body.frozen && 2.0F * greatest_speed_m_s(body) >= speed_min_m_s) fast.push_back(id);
+  if (fast.empty()) return fast;
+  std::vector<PieceId> all = fast;
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
+    const btPersistentManifold& manifold =
+        *const_cast<btDispatcher&>(dispatcher).getManifoldByIndexInternal(i);
+    const PieceId a = id_of(manifold.getBody0()), b = id_of(manifold.getBody1());
+    const bool is_a = std::ranges::binary_search(fast, a), is_b = std::ranges::binary_search(fast, b);
+    if (is_a != is_b) all.push_back(is_a ? b : a);
+  }
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
 /// How fast a point of the body moved at the step's start.
 btVector3 speed_at(const Body& body, const btVector3& arm) {
   return body.speed_before + body.spin_before.cross(arm);
@@ -86,7 +115,10 @@ std::vector<TerrainBlow> list_terrain_blows(const std::map<PieceId, Body>& bodie
                                             const btDispatcher& dispatcher, float speed_min_m_s) {
   CHECK(speed_min_m_s > 0.0F);
   std::vector<TerrainBlow> blows;
-  for (const auto& [id, body] : bodies) {
+  for (const PieceId id : that_may_strike(bodies, dispatcher, speed_min_m_s)) {
+    const auto found = bodies.find(id);
+    if (found == bodies.end()) continue;  // the terrain's object has no body
+    const Body& body = found->second;
     if (body.ground == nullptr || body.ground->getNumContacts() == 0 || !body.rigid->isActive()) continue;
     TerrainBlow blow = blow_of(id, body);
     if (blow.speed_m_s < speed_min_m_s) continue;

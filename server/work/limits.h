@@ -19,20 +19,22 @@ inline constexpr float crowded_share = 0.5F;
 
 /// The model (with shared/operation/limits.h), microseconds as measured: a body that is awake, a point of its
 /// surface that is compared with the ground, a point of contact, and a pair of bodies whose bounds meet, in a
-/// step. Fitted to the storm and to crowds of small and of large carves, whose pieces have 15, 35 and 45
-/// points: within 5 % of each other's medians. Cells that still lie packed have 11 pairs each, rubble has 4.
-inline constexpr float body_cost_us = 0.2F;
-inline constexpr float ground_point_cost_us = 0.125F;
-inline constexpr float contact_cost_us = 0.9F;
-inline constexpr float pair_cost_us = 0.27F;
+/// step. Fitted by `bench run model` to ticks of 4 ms and more, in crowds, heaps and large carves.
+inline constexpr float body_cost_us = 1.8F;
+inline constexpr float ground_point_cost_us = 0.03F;
+inline constexpr float contact_cost_us = 1.05F;
+inline constexpr float pair_cost_us = 0.45F;
 
 /// A piece that is alive, moving or not, in a tick: its rest, its place in what is published, the look
 /// whether it is buried. It is no part of the load by bodies: frozen pieces are no crowd.
 inline constexpr float piece_cost_us = 1.3F;
 
-/// A pair of hulls that overlap, whose depth is sought: as profiled, the fit alone cannot tell it from pieces
-/// that are large.
-inline constexpr float overlap_cost_us = 3.0F;
+/// A pair of hulls that overlap, whose depth is sought: as they do where rubble swells under a heap.
+inline constexpr float overlap_cost_us = 11.0F;
+
+/// A piece near terrain that gained rock: the look whether it is buried. And one that is, and waits frozen.
+inline constexpr float buried_look_cost_us = 2.5F;
+inline constexpr float buried_wait_cost_us = 12.0F;
 
 /// Relaxing the seeds of the pattern `even`: at least, and a seed (server/fracture/even_seeds.h).
 inline constexpr float relax_cost_us = 2200.0F;
@@ -60,7 +62,7 @@ inline constexpr float span_product_cost_us = 0.3F;
 /// A place whose rubble may lie too steep: whether there is any, and how steep it is; and what a tick must have left
 /// for a place.
 inline constexpr float slide_glance_cost_us = 5.0F;
-inline constexpr float slide_look_cost_us = 150.0F;
+inline constexpr float slide_look_cost_us = 45.0F;
 inline constexpr float slide_least_us = 1000.0F;
 
 /// Share of the budget that slides leave to falls and support, which come after them.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/work/limits.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
 #include "shared/field/window.h"
@@ -41,8 +42,15 @@ bool lies_within(const Volume& volume, const Pose& pose, float voxel_size_m, con
   return static_cast<float>(inside) >= limits::buried_share * static_cast<float>(solid);
 }
 
-glm::vec3 position_m(VoxelCoord voxel, float voxel_size_m) {
-  return glm::vec3(voxel.x, voxel.y, voxel.z) * voxel_size_m;
+bool lies_within(const World::State& state, PieceId id, const InRock& in_rock) {
+  return lies_within(*state.pieces.at(id), state.bodies.state(id).pose, state.config.terrain.voxel_size_m,
+                     in_rock);
+}
+
+std::vector<PieceId> pieces_near(const World::State& state, const VoxelBox& bounds) {
+  const float dx = state.config.terrain.voxel_size_m;
+  const auto position_m = [&](VoxelCoord v) { return glm::vec3(v.x, v.y, v.z) * dx; };
+  return state.bodies.near(position_m(bounds.lo), position_m(bounds.hi));
 }
 
 /// Places whose voxel has at most that code.
@@ -60,8 +68,12 @@ InRock codes_up_to(int code_max, Field& field) {
 void find_enclosed(World::State& state) {
   if (state.gained.empty()) return;
   const InRock in_rock = codes_up_to(limits::buried_code, state.field);
-  for (const VoxelBox& box : state.gained)
-    for (const PieceId id : pieces_within(state, box, in_rock)) state.buried.insert(id);
+  for (const VoxelBox& box : state.gained) {
+    const std::vector<PieceId> near = pieces_near(state, box);
+    state.work.spend(limits::buried_look_cost_us * static_cast<float>(near.size()));
+    for (const PieceId id : near)
+      if (lies_within(state, id, in_rock)) state.buried.insert(id);
+  }
   state.gained.clear();
 }
 
@@ -87,10 +99,8 @@ void find_stuck(World::State& state) {
 }  // namespace
 
 std::vector<PieceId> pieces_within(const World::State& state, const VoxelBox& bounds, const InRock& in_rock) {
-  const float dx = state.config.terrain.voxel_size_m;
-  std::vector<PieceId> found;
-  for (const PieceId id : state.bodies.near(position_m(bounds.lo, dx), position_m(bounds.hi, dx)))
-    if (lies_within(*state.pieces.at(id), state.bodies.state(id).pose, dx, in_rock)) found.push_back(id);
+  std::vector<PieceId> found = pieces_near(state, bounds);
+  std::erase_if(found, [&](PieceId id) { return !lies_within(state, id, in_rock); });
   return found;
 }
 
@@ -112,6 +122,7 @@ void merge_buried(World::State& state, TickDelta& delta) {
       now.push_back(id);
     } else if (!state.bodies.state(id).frozen) {
       state.bodies.freeze(id);
+      state.work.spend(limits::buried_wait_cost_us);
     }
   }
   merge_pieces(state, now, delta);
