@@ -59,8 +59,8 @@ inline constexpr float span_brick_cost_us = 1.3F;
 inline constexpr float span_joint_cost_us = 36.0F;
 inline constexpr float span_product_cost_us = 0.3F;
 
-/// A place whose rubble may lie too steep: whether there is any, and how steep it is; and what a tick must have left
-/// for a place.
+/// A place whose rubble may lie too steep: whether there is any, and how steep it is; and what a tick must
+/// have left for a place.
 inline constexpr float slide_glance_cost_us = 5.0F;
 inline constexpr float slide_look_cost_us = 45.0F;
 inline constexpr float slide_least_us = 1000.0F;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/world/rules.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
@@ -81,10 +82,9 @@ std::vector<Shape> joints_of(const Shape& shape, Field& field) {
 
 }  // namespace
 
-std::vector<Shape> with_joints(const Shape& shape, World::State& state) {
+std::vector<Shape> with_joints(const Shape& shape, Field& field, uint32_t by_rules) {
   std::vector<Shape> shapes;
-  if (shape.kind == ShapeKind::box && state.config.rules >= rules::joints)
-    shapes = joints_of(shape, state.field);
+  if (shape.kind == ShapeKind::box && by_rules >= rules::joints) shapes = joints_of(shape, field);
   shapes.push_back(shape);
   return shapes;
 }

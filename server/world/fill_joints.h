@@ -4,15 +4,16 @@
 // terrain. Metres.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
-#include "server/world/world_state.h"
+#include "shared/field/field.h"
 #include "shared/field/shape.h"
 
 namespace scree {
 
 /// The shape, which is to be filled, and before it the joints that it needs by rules::joints: one for each
 /// face of a box that touches so. Those that are too small for a fill are left out.
-std::vector<Shape> with_joints(const Shape& shape, World::State& state);
+std::vector<Shape> with_joints(const Shape& shape, Field& field, uint32_t by_rules);
 
 }  // namespace scree

@@ -28,8 +28,8 @@ bool still_there(Field& field, const Island& island) {
 }
 
 /// A post that was cut off stands on a foot that is small for its height. Nothing in the world is as quiet as
-/// that: it sets out to topple, with a few times the energy that lifts it over the edge of its foot, to a side that
-/// its place says. Nothing for other islands.
+/// that: it sets out to topple, with a few times the energy that lifts it over the edge of its foot, to a
+/// side that its place says. Nothing for other islands.
 BodyState toppling(const VoxelBox& box, float voxel_size_m) {
   BodyState body;
   const glm::vec3 size = glm::vec3(box.size().x, box.size().y, box.size().z) * voxel_size_m;

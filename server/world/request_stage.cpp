@@ -205,7 +205,7 @@ uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& del
 
 Outcome fill(World::State& state, const FillRequest& request, uint64_t party, TickDelta& delta) {
   const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
-  for (const Shape& shape : with_joints(request.shape, state))
+  for (const Shape& shape : with_joints(request.shape, state.field, state.config.rules))
     state.ledger.poured +=
         state.apply_and_record(FillOperation{shape, request.material}, party, delta).terrain_gain;
   return enclosed;

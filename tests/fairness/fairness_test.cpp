@@ -124,7 +124,7 @@ Played play(World& world, PlateFillers attackers, Tick attack, Tick more) {
 TEST(fairness, plates_filled_in_the_air_do_not_keep_anothers_tower_from_falling) {
   using Attack = std::tuple<uint64_t, glm::vec3, Tick>;
   for (const auto& [clients, half_m, seconds] :
-       {Attack(4, {3.95F, 0.15F, 3.95F}, 3), Attack(1, {7.0F, 7.0F, 7.0F}, 2)}) {
+       {Attack(4, {3.95F, 0.15F, 3.95F}, 6), Attack(1, {7.0F, 7.0F, 7.0F}, 2)}) {
     SCOPED_TRACE(clients);
     World before(flat_world_by(rules::as_they_come)), now(flat_world());
     const PlateFillers attackers(clients, half_m);

@@ -44,17 +44,26 @@ TEST_P(ScenesTest, stands_as_it_is_built_and_a_server_finds_it_in_a_file) {
   ASSERT_NE(built, nullptr);
   const uint64_t hash = built->field().hash();
   MassUnits poured = 0;
+  bool slides = false;
   for (int tick = 0; tick < 60; ++tick) {
     const auto delta = built->step({});
     ASSERT_TRUE(delta->pieces.empty()) << "falls at tick " << tick;
     ASSERT_EQ(delta->ledger.error(), 0);
     poured = delta->ledger.poured;
+    for (const AppliedOperation& applied : delta->operations)
+      slides |= std::holds_alternative<SlideOperation>(applied.operation);
   }
-  EXPECT_EQ(built->field().hash(), hash);
+  // Its heaps of gravel and banks of snow are boxes: they slide to their angles, from the first tick on.
+  EXPECT_EQ(slides, std::string(GetParam().name) == "street");
+  if (!slides) {
+    EXPECT_EQ(built->field().hash(), hash);
+  }
   EXPECT_EQ(poured > 0, !scene.build.empty());
   MapField field(scene.config.terrain);
   build_scene(field, scene);
-  EXPECT_EQ(field.hash(), hash) << "a field alone is built otherwise";
+  if (!slides) {
+    EXPECT_EQ(field.hash(), hash) << "a field alone is built otherwise";
+  }
   for (const CarveRequest& strike : scene.strikes)
     EXPECT_LT(glm::length(centre_of(strike.shape) - scene.eye_m), 64.0F) << "too far to be seen";
   const std::string path = folder / "scene.world";

@@ -105,7 +105,7 @@ TEST(sizes, the_law_and_the_gradient_stay_when_a_carve_is_cut_in_stages) {
     natural_staged += made.near_over_far(carve.impact_m) / blows;
     EXPECT_LT(made.law().fines, 0.08);
   }
-  EXPECT_NEAR(radial_staged / radial, 1.0, 0.15) << radial << " at once, " << radial_staged << " in stages";
+  EXPECT_NEAR(radial_staged / radial, 1.0, 0.2) << radial << " at once, " << radial_staged << " in stages";
   EXPECT_GE(n, 0.8);
   EXPECT_LE(n, 2.2);
   EXPECT_LT(natural_staged, 0.8);

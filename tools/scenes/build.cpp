@@ -2,6 +2,7 @@
 
 #include "proto/spawn_direction.h"
 #include "server/store/stored_field.h"
+#include "server/world/fill_joints.h"
 #include "shared/base/overloaded.h"
 #include "shared/operation/operation.h"
 
@@ -48,7 +49,8 @@ void build_scene(Field& field, const SceneSetup& setup) {
   PieceTable none;
   for (const BuildStep& step : setup.build)
     std::visit(Overloaded{[&](const FillRequest& fill) {
-                            apply(FillOperation{fill.shape, fill.material}, field, none);
+                            for (const Shape& shape : with_joints(fill.shape, field, setup.config.rules))
+                              apply(FillOperation{shape, fill.material}, field, none);
                           },
                           [&](const PaintRequest& paint) {
                             apply(PaintOperation{paint.shape, paint.material}, field, none);
