@@ -20,17 +20,17 @@ inline constexpr float crowded_share = 0.5F;
 /// The model (with shared/operation/limits.h), microseconds as measured: a body that is awake, a point of its
 /// surface that is compared with the ground, a point of contact, and a pair of bodies whose bounds meet, in a
 /// step. Fitted by `bench run model` to ticks of 4 ms and more, in crowds, heaps and large carves.
-inline constexpr float body_cost_us = 1.8F;
-inline constexpr float ground_point_cost_us = 0.03F;
-inline constexpr float contact_cost_us = 1.05F;
+inline constexpr float body_cost_us = 1.0F;
+inline constexpr float ground_point_cost_us = 0.02F;
+inline constexpr float contact_cost_us = 1.7F;
 inline constexpr float pair_cost_us = 0.45F;
 
 /// A piece that is alive, moving or not, in a tick: its rest, its place in what is published, the look
 /// whether it is buried. It is no part of the load by bodies: frozen pieces are no crowd.
-inline constexpr float piece_cost_us = 1.3F;
+inline constexpr float piece_cost_us = 1.0F;
 
 /// A pair of hulls that overlap, whose depth is sought: as they do where rubble swells under a heap.
-inline constexpr float overlap_cost_us = 11.0F;
+inline constexpr float overlap_cost_us = 13.0F;
 
 /// A piece near terrain that gained rock: the look whether it is buried. And one that is, and waits frozen.
 inline constexpr float buried_look_cost_us = 2.5F;
@@ -63,7 +63,7 @@ inline constexpr float span_product_cost_us = 0.3F;
 /// have left for a place.
 inline constexpr float slide_glance_cost_us = 5.0F;
 inline constexpr float slide_look_cost_us = 45.0F;
-inline constexpr float slide_least_us = 1000.0F;
+inline constexpr float slide_least_us = 1300.0F;
 
 /// Share of the budget that slides leave to falls and support, which come after them.
 inline constexpr float slide_reserve_share = 0.25F;
