@@ -68,11 +68,11 @@ const std::vector<OldFiles>& old_files() {
       {"format_3",
        "hills",
        "scree-server 0.2.0",
-       "19e7b0ed981ebbfd198706bbf0cd9e77f3821bccaf5baf5afd950002cafbb8b2",
+       "3789ee47b86fbddc90db3458edcca89ed71a599d2959dd6b7cded9ace17916bc",
        {"hills.scree", "hills_cut.scree"},
        119,
-       0xB117BE0314A116FE,
-       0x49F1E71C90B6CAB8,
+       0x61957F713B65D4BA,
+       0x843344DF45FC3BF4,
        true,
        true}};
   return all;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* ground_hash = "19e7b0ed981ebbfd198706bbf0cd9e77f3821bccaf5baf5afd950002cafbb8b2";
+constexpr const char* ground_hash = "3789ee47b86fbddc90db3458edcca89ed71a599d2959dd6b7cded9ace17916bc";
 
 class WorldProgramTest : public ::testing::Test {
  protected:
