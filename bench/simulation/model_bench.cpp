@@ -116,7 +116,9 @@ std::vector<TickCost> large_carve(Cutter cutter, float radius_m, uint32_t seeds)
   WorldConfig config = flat();
   config.methods.cutter = cutter;
   Stand stand(config);
-  stand.ask(blow_at(config.terrain, 0.0F, 0.0F, radius_m, seeds, 1));
+  const CarveRequest blow = blow_at(config.terrain, 0.0F, 0.0F, radius_m, seeds, 1);
+  stand.generate(blow.shape);
+  stand.ask(blow);
   stand.settle(3600);
   return stand.costs();
 }

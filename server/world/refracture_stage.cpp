@@ -120,6 +120,13 @@ void refracture_piece(World::State& state, const PendingRefracture& pending, Sha
   if (!is_cut_on(operation.pattern)) share_out(state, applied, pending);  // else it is what it shall be
 }
 
+/// Where bodies alone take more than the budget, every cut makes more of them: so much rarer are cuts that do
+/// not fit.
+float overload(const World::State& state) {
+  if (state.config.rules < rules::joints) return 1.0F;
+  return std::clamp(state.work.bodies_load() / limits::load_max, 1.0F, limits::refracture_overload_max);
+}
+
 }  // namespace
 
 void begin_in_stages(SeedPattern& pattern, uint32_t& seeds, uint32_t wanted) {
@@ -146,8 +153,8 @@ void queue_refractures(World::State& state, const Applied& applied, const CarveR
 }
 
 void refracture_pieces(World::State& state, TickDelta& delta) {
-  const auto rest =
-      static_cast<Tick>(limits::refracture_rest_s * static_cast<float>(state.config.tick_rate_hz));
+  const auto rest = static_cast<Tick>(limits::refracture_rest_s * overload(state) *
+                                      static_cast<float>(state.config.tick_rate_hz));
   const float rest_us = limits::refracture_rest_s * client_us_per_s(state.work, state.config);
   state.refractures.begin_tick();
   bool in_order = true;  // a piece whose turn it is may not fit, and those of others may

@@ -118,7 +118,8 @@ void SlideMass::list_surface(const Window& after) {
 
 MassUnits SlideMass::reach_of_rubble() const {
   constexpr int usual = 6;  // a code
-  const auto count = std::ranges::count(surface_, material_, &Surface::material);
+  const auto count = std::ranges::count_if(
+      surface_, [this](Material material) { return material == material_; }, &Surface::material);
   return count * usual * rows_.fill[row_number(material_)] / fill_solid;
 }
 

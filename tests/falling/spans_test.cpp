@@ -98,11 +98,11 @@ size_t islands_of_deck(float span_m, uint32_t rules) {
 
 TEST(spans, a_long_deck_falls_and_a_short_one_stays) {
   EXPECT_EQ(islands_of_deck(6.0F, rules::newest), 0U);
-  EXPECT_GE(islands_of_deck(60.0F, rules::newest), 1U);
+  EXPECT_GE(islands_of_deck(100.0F, rules::newest), 1U);
 }
 
 TEST(spans, worlds_of_the_rules_before_hold_what_has_two_ends) {
-  EXPECT_EQ(islands_of_deck(60.0F, rules::spare_time), 0U);
+  EXPECT_EQ(islands_of_deck(100.0F, rules::spare_time), 0U);
 }
 
 TEST(spans, generated_terrain_holds_itself) {
