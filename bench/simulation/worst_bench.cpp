@@ -134,7 +134,7 @@ std::vector<Cost> large_carve(Cutter cutter) {
   config.methods.cutter = cutter;
   Stand stand(config);
   CarveRequest request = blow_at(config.terrain, 0.0F, 0.0F, limits::edit_reach_max_m, 2000, 1);
-  stand.generate(band_box(in_voxels(request.shape, config.terrain.voxel_size_m)).grown(16));
+  stand.generate(band_box(in_voxels(request.shape, config.terrain.voxel_size_m)).grown(64));
   stand.step({{0, 0, request}});
   stand.settle(3600);
   return stand.costs();
@@ -148,7 +148,7 @@ std::vector<Cost> large_pieces(int carves) {
     const float x_m = -900.0F + 90.0F * static_cast<float>(i % 20), z_m = 100.0F * static_cast<float>(i / 20);
     const CarveRequest blow =
         blow_at(terrain, x_m, z_m, limits::edit_reach_max_m, 8, static_cast<uint32_t>(i));
-    stand.generate(band_box(in_voxels(blow.shape, terrain.voxel_size_m)).grown(16));
+    stand.generate(band_box(in_voxels(blow.shape, terrain.voxel_size_m)).grown(64));
     stand.step({{0, 0, blow}});
     for (int tick = 0; tick < 30; ++tick) stand.step({});
   }
