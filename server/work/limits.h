@@ -81,7 +81,7 @@ inline constexpr float first_fracture_us = 4000.0F;
 inline constexpr float refracture_rest_s = 0.1F;
 
 /// By how much longer it is at most, because bodies leave no room.
-inline constexpr float refracture_overload_max = 8.0F;
+inline constexpr float refracture_overload_max = 5.0F;
 
 /// Islands fall while the tick's budget has room and bodies are no crowd; where that never is so, one every
 /// so many seconds.

@@ -53,7 +53,7 @@ TEST(refracture, pieces_that_froze_while_they_waited_are_cut) {
   CarveRequest carve = ball(4.0F, 2000);
   carve.blast_speed_m_s = 0.0F;
   auto delta = world.step({{{1, 1, carve}}});
-  for (int tick = 0; tick < 600 && delta->work.refractures_put_off > 0; ++tick) delta = world.step({});
+  for (int tick = 0; tick < 1200 && delta->work.refractures_put_off > 0; ++tick) delta = world.step({});
   EXPECT_EQ(delta->work.refractures_put_off, 0U);
   EXPECT_GT(delta->pieces.size(), 200U);
   EXPECT_EQ(delta->ledger.error(), 0);
