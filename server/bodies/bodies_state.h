@@ -67,7 +67,7 @@ struct Bodies::State {
   std::map<PieceId, Body> bodies;
   PendingChanges pending;
   size_t frozen = 0;         ///< number of frozen bodies
-  float moved_m = 0.0F;      ///< farthest that a point of any body moved in the last step
+  float moved_m = 0.0F;      ///< farthest that a point of any body moved in the last step, at most
   std::vector<Body*> loose;  ///< scratch memory of step(): those that are not frozen
 };
 

@@ -19,7 +19,8 @@
 namespace scree {
 
 /// Call once a tick, after the bodies' step and after their impacts were read. Returns the part of its
-/// impulse on terrain that each piece bore until the terrain broke: 0 to 1, for those that broke any.
+/// impulse on terrain that each piece bore until the terrain broke: 0 to 1, for those that broke any. Pieces
+/// of `delta.spawned` break nothing: they strike the hole that they were just blown out of.
 std::map<PieceId, float> break_terrain(World::State& state, TickDelta& delta);
 
 /// The greatest force of a plastic contact, newtons: of that energy, on material of that hardness.

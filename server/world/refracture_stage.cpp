@@ -120,8 +120,8 @@ void refracture_piece(World::State& state, const PendingRefracture& pending, Sha
   if (!is_cut_on(operation.pattern)) share_out(state, applied, pending);  // else it is what it shall be
 }
 
-/// Where bodies alone take more than the budget, every cut makes more of them: so much rarer are cuts that do
-/// not fit.
+/// By which the wait of a cut that does not fit grows: 1 where bodies take limits::load_max of the budget or
+/// less, and more in proportion, because every cut makes more bodies.
 float overload(const World::State& state) {
   if (state.config.rules < rules::joints) return 1.0F;
   return std::clamp(state.work.bodies_load() / limits::load_max, 1.0F, limits::refracture_overload_max);
