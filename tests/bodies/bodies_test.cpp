@@ -45,6 +45,25 @@ void rain_boxes(Bodies& bodies, const TerrainSource& source, PieceId count) {
   }
 }
 
+TEST(Bodies, near_finds_what_just_came_however_fast_it_is_and_what_spins) {
+  MapField field(ground(TerrainKind::flat));
+  Bodies bodies(field, {});
+  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 400.0F, 0.0F}, {190.0F, 0.0F, 0.0F}));
+  BodyState spinning = body_at(2, {0.0F, 300.0F, 0.0F});
+  spinning.spin_rad_s = {0.0F, 0.0F, 6.0F};
+  bodies.add(box_shape({4.0F, 0.2F, 0.2F}), spinning);
+  for (int tick = 0; tick < 20; ++tick) {
+    step(bodies, 1);
+    const glm::vec3 at = bodies.state(1).pose.position_m;
+    EXPECT_EQ(bodies.near(at - 0.1F, at + 0.1F), std::vector<PieceId>{1}) << tick;
+    EXPECT_TRUE(bodies.near(at - glm::vec3(6.1F, 0.1F, 0.1F), at - glm::vec3(5.9F, 0.1F, 0.1F)).empty())
+        << tick;
+    const BodyState beam = bodies.state(2);
+    const glm::vec3 end = beam.pose.position_m + beam.pose.rotation * glm::vec3(3.9F, 0.0F, 0.0F);
+    EXPECT_EQ(bodies.near(end - 0.05F, end + 0.05F), std::vector<PieceId>{2}) << tick;
+  }
+}
+
 TEST(Bodies, falls_and_rests_on_flat_ground) {
   MapField field(ground(TerrainKind::flat));
   Bodies bodies(field, {});
