@@ -185,7 +185,7 @@ std::vector<PieceId> Bodies::near(glm::vec3 lo_m, glm::vec3 hi_m) const {
     const btVector3 by(by_m, by_m, by_m);
     return Bounds{to_bullet(lo_m) - by, to_bullet(hi_m) + by};
   };
-  // The tree holds the bounds from before the last step.
+  // The tree holds the bounds that the last step foresaw: a blow may have sent a body farther.
   const Bounds may_be = grown(state_->moved_m + limits::travel_max_voxels * state_->step_size.voxel_size_m);
   const Bounds is = grown(limits::travel_max_voxels * state_->step_size.voxel_size_m);
   Collector collector;

@@ -45,22 +45,21 @@ void rain_boxes(Bodies& bodies, const TerrainSource& source, PieceId count) {
   }
 }
 
-TEST(Bodies, near_finds_what_just_came_however_fast_it_is_and_what_spins) {
-  MapField field(ground(TerrainKind::flat));
-  Bodies bodies(field, {});
-  bodies.add(box_shape(glm::vec3(0.5F)), body_at(1, {0.0F, 400.0F, 0.0F}, {190.0F, 0.0F, 0.0F}));
-  BodyState spinning = body_at(2, {0.0F, 300.0F, 0.0F});
-  spinning.spin_rad_s = {0.0F, 0.0F, 6.0F};
-  bodies.add(box_shape({4.0F, 0.2F, 0.2F}), spinning);
-  for (int tick = 0; tick < 20; ++tick) {
-    step(bodies, 1);
-    const glm::vec3 at = bodies.state(1).pose.position_m;
-    EXPECT_EQ(bodies.near(at - 0.1F, at + 0.1F), std::vector<PieceId>{1}) << tick;
-    EXPECT_TRUE(bodies.near(at - glm::vec3(6.1F, 0.1F, 0.1F), at - glm::vec3(5.9F, 0.1F, 0.1F)).empty())
-        << tick;
-    const BodyState beam = bodies.state(2);
-    const glm::vec3 end = beam.pose.position_m + beam.pose.rotation * glm::vec3(3.9F, 0.0F, 0.0F);
-    EXPECT_EQ(bodies.near(end - 0.05F, end + 0.05F), std::vector<PieceId>{2}) << tick;
+// In one of the runs a step sends the small one 3 m off: farther than its bounds were foreseen to reach.
+TEST(Bodies, near_finds_what_a_blow_just_sent_off) {
+  for (int run = 0; run < 16; ++run) {
+    MapField field(ground(TerrainKind::flat));
+    Bodies bodies(field, {});
+    bodies.add(box_shape(glm::vec3(0.3F)), body_at(1, {0.0F, 400.0F, 0.0F}));
+    const float from_m = -4.0F - 0.2F * static_cast<float>(run);
+    bodies.add(box_shape(glm::vec3(1.5F)), body_at(2, {from_m, 400.0F, 0.0F}, {190.0F, 0.0F, 0.0F}));
+    for (int tick = 0; tick < 6; ++tick) {
+      step(bodies, 1);
+      for (const PieceId id : {1U, 2U}) {
+        const glm::vec3 at = bodies.state(id).pose.position_m;
+        EXPECT_EQ(std::ranges::count(bodies.near(at - 0.1F, at + 0.1F), id), 1) << id << " at " << at.x;
+      }
+    }
   }
 }
 
