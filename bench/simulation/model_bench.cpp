@@ -7,10 +7,9 @@
 #include <functional>
 
 #include "bench/support/benches.h"
+#include "bench/support/priced_scenes.h"
 #include "bench/support/scenes.h"
 #include "server/work/limits.h"
-#include "shared/base/check.h"
-#include "shared/base/limits.h"
 
 namespace scree {
 
@@ -20,136 +19,32 @@ constexpr double factor_max = 1.15;
 /// Shorter ticks endanger nothing, and a model does not see their fixed costs.
 constexpr double tick_min_ms = 1.0, fitted_min_ms = 4.0;
 
-struct TickCost {
-  StageTimes times;
-  TickWork work;
-  uint64_t state_hash = 0;
-};
-
-/// A world with what a scene builds in it.
-class Stand {
- public:
-  explicit Stand(const WorldConfig& config) : world_(config) {}
-
-  void step(const std::vector<Command>& commands = {}) {
-    const auto delta = world_.step(commands);
-    alive_ = delta->pieces.size();
-    costs_.push_back({delta->times, delta->work, delta->state_hash});
-  }
-  void ask(const Request& request) { step({{0, 0, request}}); }
-  void settle(int ticks_max) {
-    for (int tick = 0; tick < ticks_max && (tick < 60 || alive_ > 0); ++tick) step();
-  }
-  void forget() { costs_.clear(); }
-  const std::vector<TickCost>& costs() const { return costs_; }
-  const TerrainSource& terrain() const { return world_.config().terrain; }
-  /// Ground that was looked at before, as far as a blow's search goes: no tick generates it.
-  void generate(const Shape& shape) {
-    gather(world_.field(), band_box(in_voxels(shape, terrain().voxel_size_m)).grown(64));
-  }
-
- private:
-  World world_;
-  size_t alive_ = 0;
-  std::vector<TickCost> costs_;
-};
-
-WorldConfig flat() {
-  WorldConfig config;
-  config.terrain = {TerrainKind::flat, 1, 0.25F};
-  return config;
-}
-
-CarveRequest cut(const Shape& shape) {
-  CarveRequest request;
-  request.shape = shape;
-  request.seeds = 4;
-  request.impact_m = centre_of(shape);
-  return request;
-}
-
-/// A slab of 60 × 20 × 6 m stands; a slit of half a metre cuts through it.
-std::vector<TickCost> slab(float height_m) {
-  Stand stand(flat());
-  for (float x_m = -22.5F; x_m < 30.0F; x_m += 15.0F)
-    for (const float y_m : {5.0F, 15.0F})
-      stand.ask(FillRequest{box({x_m, y_m, 0.0F}, {7.75F, 5.25F, 3.25F})});
-  stand.settle(120);
-  stand.forget();
-  std::vector<Command> cuts;
-  for (float x_m = -26.25F; x_m < 30.0F; x_m += 7.5F)
-    cuts.push_back({0, 0, cut(box({x_m, height_m, 0.0F}, {3.9F, 0.25F, 3.5F}))});
-  stand.step(cuts);
-  stand.settle(1200);
-  return stand.costs();
-}
-
 /// Blows side by side, one a tick.
 std::vector<TickCost> blows(Recombination recombine, uint32_t a_side, float radius_m, uint32_t seeds,
                             int ticks) {
   WorldConfig config;
   config.methods.recombine = recombine;
-  Stand stand(config);
-  stand.generate(sphere({0.0F, ground_height_m(config.terrain, 0.0F, 0.0F), 0.0F}, 24.0F));
+  PricedScene scene(config);
+  scene.generate(sphere({0.0F, ground_height_m(config.terrain, 0.0F, 0.0F), 0.0F}, 24.0F));
   BlowGrid grid(config.terrain, a_side, 2.25F * radius_m, radius_m, seeds);
-  while (const auto blow = grid.next()) stand.ask(*blow);
-  stand.settle(ticks);
-  return stand.costs();
+  while (const auto blow = grid.next()) scene.ask(*blow);
+  scene.settle(ticks);
+  return scene.costs();
 }
 
 /// Carves and nothing else: each where nobody was before, its pieces removed by the next world.
 std::vector<TickCost> carves(float radius_m, uint32_t seeds) {
   std::vector<TickCost> costs;
   for (uint32_t i = 0; i < 12; ++i) {
-    Stand stand({});
+    PricedScene scene({});
     const CarveRequest blow =
-        blow_at(stand.terrain(), 30.0F * static_cast<float>(i), 11.0F, radius_m, seeds, i);
-    stand.generate(blow.shape);
-    stand.ask(blow);
-    for (int tick = 0; tick < 3; ++tick) stand.step();
-    costs.insert(costs.end(), stand.costs().begin(), stand.costs().end());
+        blow_at(scene.terrain(), 30.0F * static_cast<float>(i), 11.0F, radius_m, seeds, i);
+    scene.generate(blow.shape);
+    scene.ask(blow);
+    for (int tick = 0; tick < 3; ++tick) scene.step();
+    costs.insert(costs.end(), scene.costs().begin(), scene.costs().end());
   }
   return costs;
-}
-
-std::vector<TickCost> large_carve(Cutter cutter, float radius_m, uint32_t seeds) {
-  WorldConfig config = flat();
-  config.methods.cutter = cutter;
-  Stand stand(config);
-  const CarveRequest blow = blow_at(config.terrain, 0.0F, 0.0F, radius_m, seeds, 1);
-  stand.generate(blow.shape);
-  stand.ask(blow);
-  stand.settle(3600);
-  return stand.costs();
-}
-
-/// The largest carves into few pieces, which merge whole.
-std::vector<TickCost> large_pieces(int carves) {
-  Stand stand({});
-  for (int i = 0; i < carves; ++i) {
-    const CarveRequest blow = blow_at(stand.terrain(), -900.0F + 90.0F * static_cast<float>(i), 0.0F,
-                                      limits::edit_reach_max_m, 8, static_cast<uint32_t>(i));
-    stand.generate(blow.shape);
-    stand.ask(blow);
-    for (int tick = 0; tick < 30; ++tick) stand.step();
-  }
-  stand.settle(3600);
-  return stand.costs();
-}
-
-/// Each tick's least time over several runs of the same scene, to exclude other work of the machine.
-std::vector<TickCost> least_of(int runs, const std::function<std::vector<TickCost>()>& play) {
-  std::vector<TickCost> least = play();
-  for (int run = 1; run < runs; ++run) {
-    const std::vector<TickCost> again = play();
-    CHECK(again.size() == least.size());
-    for (size_t i = 0; i < least.size(); ++i) {
-      CHECK(again[i].state_hash == least[i].state_hash);
-      for (size_t stage = 0; stage < tick_stages.size(); ++stage)
-        least[i].times.ms[stage] = std::min(least[i].times.ms[stage], again[i].times.ms[stage]);
-    }
-  }
-  return least;
 }
 
 /// Sums over the ticks of a scene, milliseconds.
@@ -162,17 +57,17 @@ struct SceneSums {
 SceneSums sums_of(const std::vector<TickCost>& costs) {
   SceneSums sums;
   for (const TickCost& cost : costs) {
-    const double clock_ms = cost.times.total_ms();
+    const double clock_ms = cost.ms();
     if (clock_ms < tick_min_ms) continue;
     sums.clock_ms += clock_ms;
-    sums.model_ms += 1e-3 * cost.work.estimate_us;
+    sums.model_ms += cost.model_ms();
     for (size_t stage = 0; stage < tick_stages.size(); ++stage) {
       sums.stages.ms[stage] += cost.times.ms[stage];
       sums.stages.model_ms[stage] += cost.times.model_ms[stage];
     }
     if (clock_ms <= sums.worst_ms) continue;
     sums.worst_ms = clock_ms;
-    sums.worst_model_ms = 1e-3 * cost.work.estimate_us;
+    sums.worst_model_ms = cost.model_ms();
   }
   return sums;
 }
@@ -247,8 +142,8 @@ struct Scene {
 std::vector<Scene> scenes() {
   using enum Recombination;
   return {
-      {"slab_at_1_m", [] { return slab(1.0F); }},
-      {"slab_at_5_m", [] { return slab(5.0F); }},
+      {"slab_at_1_m", [] { return cut_slab(1.0F); }},
+      {"slab_at_5_m", [] { return cut_slab(5.0F); }},
       {"crowd", [] { return blows(off, 5, 2.0F, 80, 400); }},
       {"crowd_of_small", [] { return blows(off, 8, 1.2F, 32, 400); }},
       {"heap", [] { return blows(facets, 4, 2.0F, 80, 2400); }},

@@ -20,8 +20,8 @@ inline constexpr float lift_cost_us = 400.0F;
 inline constexpr float lift_voxel_cost_us = 0.09F;
 
 /// A slide of rubble, and a voxel of its window.
-inline constexpr float slide_cost_us = 1100.0F;
-inline constexpr float slide_voxel_cost_us = 0.007F;
+inline constexpr float slide_cost_us = 660.0F;
+inline constexpr float slide_voxel_cost_us = 0.0042F;
 
 /// Sides of a slide's box along x and z, along y, and of a cell, voxels; and the tangent of its angle, in
 /// 64ths: up to 63°. Above: refused.

@@ -14,11 +14,14 @@ namespace {
 /// Air stops a puff: part of its speed that is lost, a second.
 constexpr float drag_per_s = 2.2F;
 constexpr float dust_rise_m_s = 0.10F;
-/// Beyond it, an event throws no more.
-constexpr float size_max_m = 3.0F;
+/// Beyond it, an event throws no more; what it throws lies as far apart as the piece is wide.
+constexpr float size_max_m = 3.0F, width_max_m = 12.0F;
+constexpr float puff_max_m = 0.9F;
 
-/// Puffs of one moment, about: more would hide what breaks.
-constexpr int puffs_at_once = 45;
+/// Puffs of one moment, about, and young ones at one place: more would hide what breaks.
+constexpr int puffs_at_once = 45, puffs_at_a_place = 7;
+constexpr float place_m = 1.5F;
+constexpr double young_s = 0.8;
 
 /// How much a kind of event throws, from a piece of 1 m.
 struct Throw {
@@ -93,10 +96,20 @@ void Dust::add(const std::vector<PieceEvent>& events, double now_s) {
   while (grains_.size() > limits::particles_max) grains_.pop_front();
 }
 
+bool Dust::is_dusty(glm::vec3 at_m, double now_s) const {
+  int near = 0;
+  for (auto grain = grains_.rbegin(); grain != grains_.rend() && now_s - grain->begun_s < young_s; ++grain) {
+    const glm::vec3 off_m = grain->first.place_m - at_m;
+    near += grain->first.slender == 0.0F && glm::dot(off_m, off_m) < place_m * place_m ? 1 : 0;
+  }
+  return near >= puffs_at_a_place;
+}
+
 void Dust::throw_puffs(const PieceEvent& event, int count, double now_s) {
   Random random(seed_of(event, 0));
   const Throw thrown = throw_of(event.kind);
-  const float half_m = 0.5F * std::min(event.size_m, size_max_m);
+  const float half_m = 0.5F * std::min(event.size_m, width_max_m);
+  const float puff_m = std::min(0.5F * event.size_m, puff_max_m);
   for (int i = 0; i < count; ++i) {
     Grain grain;
     const glm::vec3 out = anywhere(random);
@@ -105,7 +118,8 @@ void Dust::throw_puffs(const PieceEvent& event, int count, double now_s) {
     grain.first.place_m = event.place_m + half_m * (out - glm::vec3(0.0F, down, 0.0F));
     grain.speed_m_s = thrown.speed_m_s * (0.4F + random.unit()) *
                       glm::vec3(out.x, down > 0.0F ? 0.25F * random.unit() : 0.6F * out.y, out.z);
-    grain.first.radius_m = half_m * (0.7F + 0.6F * random.unit());
+    if (is_dusty(grain.first.place_m, now_s)) continue;
+    grain.first.radius_m = puff_m * (0.7F + 0.6F * random.unit());
     const glm::vec3 shade(0.88F + 0.24F * random.unit());
     grain.first.colour = bytes(event.dust * shade, thrown.thickness * hardness(event));
     grain.first.turn = 6.2831853F * random.unit();

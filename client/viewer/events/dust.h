@@ -32,6 +32,8 @@ class Dust {
     float spin = 0.0F;  ///< radians a second
   };
 
+  /// Whether so many young puffs are at that place that one more would hide what breaks.
+  bool is_dusty(glm::vec3 at_m, double now_s) const;
   static Particle aged(const Grain& grain, float age_s);
   void throw_puffs(const PieceEvent& event, int count, double now_s);
   void throw_chips(const PieceEvent& event, int count, double now_s);
