@@ -6,6 +6,7 @@
 #include "proto/content_codec.h"
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
+#include "proto/prop_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
@@ -47,6 +48,11 @@ struct Writing {
     write(*paint.mutable_shape(), from.shape);
     paint.set_material(static_cast<uint32_t>(from.material));
   }
+  void operator()(const AddPropMessage& from) const { write(*to.mutable_add_prop(), from); }
+  void operator()(const RemovePropMessage& from) const { write(*to.mutable_remove_prop(), from); }
+  void operator()(const MovePropMessage& from) const { write(*to.mutable_move_prop(), from); }
+  void operator()(const PushMessage& from) const { write(*to.mutable_push(), from); }
+  void operator()(const BreakMessage& from) const { write(*to.mutable_break_(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
@@ -165,6 +171,16 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read(from.say(), check));
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
+    case wire::ClientMessage::kAddProp:
+      return checked(read(from.add_prop(), check));
+    case wire::ClientMessage::kRemoveProp:
+      return checked(read(from.remove_prop(), check));
+    case wire::ClientMessage::kMoveProp:
+      return checked(read(from.move_prop(), check));
+    case wire::ClientMessage::kPush:
+      return checked(read(from.push(), check));
+    case wire::ClientMessage::kBreak:
+      return checked(read(from.break_(), check));
     case wire::ClientMessage::kAdmin:
       return checked(read_admin(from.admin(), check));
     case wire::ClientMessage::KIND_NOT_SET:

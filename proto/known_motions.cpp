@@ -12,8 +12,8 @@ void KnownMotions::set(PieceId id, Piece& piece, const Motion& motion) {
   piece.check = motion_check(id, motion);
 }
 
-void KnownMotions::add(PieceId id, const Volume& volume) {
-  CHECK(pieces_.try_emplace(id, Piece{volume.centre_voxels * voxel_size_m_, std::nullopt}).second);
+void KnownMotions::add(PieceId id, glm::vec3 centre_m) {
+  CHECK(pieces_.try_emplace(id, Piece{centre_m, std::nullopt}).second);
 }
 
 void KnownMotions::add_made(PieceId id, const Volume& volume, std::optional<PieceId> parent) {

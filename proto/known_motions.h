@@ -17,7 +17,9 @@ class KnownMotions {
   KnownMotions(const MotionRules& rules, float voxel_size_m) : rules_(rules), voxel_size_m_(voxel_size_m) {}
 
   /// A piece that was sent whole: its motion is not known until a frame tells it. The id must be new.
-  void add(PieceId id, const Volume& volume);
+  void add(PieceId id, const Volume& volume) { add(id, volume.centre_voxels * voxel_size_m_); }
+  /// The same of what has its origin there, in its own frame: a prop has it at 0.
+  void add(PieceId id, glm::vec3 centre_m);
   /// A piece that an operation made. It goes on from its parent's motion, and has none if that is not known
   /// or the parent is not here. The id must be new.
   void add_made(PieceId id, const Volume& volume, std::optional<PieceId> parent);

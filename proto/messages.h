@@ -91,6 +91,11 @@ struct RequestMessage : Request {
 using CarveMessage = RequestMessage<CarveRequest>;
 using FillMessage = RequestMessage<FillRequest>;
 using PaintMessage = RequestMessage<PaintRequest>;
+using AddPropMessage = RequestMessage<AddPropRequest>;
+using RemovePropMessage = RequestMessage<RemovePropRequest>;
+using MovePropMessage = RequestMessage<MovePropRequest>;
+using PushMessage = RequestMessage<PushRequest>;
+using BreakMessage = RequestMessage<BreakRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairMessage {
@@ -155,7 +160,8 @@ using ClientMessage =
     std::variant<HelloMessage, InterestMessage, CarveMessage, FillMessage, PaintMessage, RepairMessage,
                  AckMessage, AdminMessage, CursorMessage, PhysicsSubscriptionMessage, AskGroundMessage,
                  OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
-                 AskContentMessage, UnknownMessage>;
+                 AskContentMessage, AddPropMessage, RemovePropMessage, MovePropMessage, PushMessage,
+                 BreakMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -260,7 +266,14 @@ struct PieceMessage {
   QuantisedPose pose;
 };
 
-/// Tells the client to forget every edit and piece, as if it had just joined.
+/// A prop, whole: a new one, or one that came into the interest.
+struct PropMessage {
+  PieceId id = 0;
+  Prop prop;
+  QuantisedPose pose;
+};
+
+/// Tells the client to forget every edit, piece and prop, as if it had just joined.
 struct ResetMessage {};
 
 struct ReplyMessage {
@@ -271,6 +284,7 @@ struct ReplyMessage {
   ServerLatency latency{};     ///< zeroes: no tick answered it
   Tick tick = 0;               ///< that answered it; 0: none. Saved once StatusMessage::saved_tick is as high
   std::optional<uint32_t> painted{};  ///< bricks of 8 voxels a side whose rock a paint changed
+  std::optional<PieceId> prop{};      ///< that was added
 };
 
 /// Once a second, for people.
@@ -361,7 +375,7 @@ using ServerMessage =
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
-                 UnknownMessage>;
+                 PropMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -12,6 +12,7 @@
 #include "proto/operation_codec.h"
 #include "proto/physics_codec.h"
 #include "proto/playback_codec.h"
+#include "proto/prop_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"
@@ -127,6 +128,7 @@ struct Writing {
     piece.set_z(from.pose.z);
     piece.set_rotation(from.pose.rotation);
   }
+  void operator()(const PropMessage& from) const { write(*to.mutable_prop(), from); }
   void operator()(const ResetMessage&) const { to.mutable_reset(); }
   void operator()(const ReplyMessage& from) const {
     wire::Reply& reply = *to.mutable_reply();
@@ -139,6 +141,7 @@ struct Writing {
     reply.set_sending_us(from.latency.sending_us);
     reply.set_tick(from.tick);
     if (from.painted) reply.set_painted(*from.painted);
+    if (from.prop) reply.set_prop(*from.prop);
   }
   void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }
   void operator()(const PersonsMessage& from) const { write(*to.mutable_persons(), from); }
@@ -252,7 +255,8 @@ ReplyMessage read(const wire::Reply& from, FieldChecker& check) {
           {read_latency(from.waiting_us(), check), read_latency(from.tick_us(), check),
            read_latency(from.sending_us(), check)},
           from.tick(),
-          from.has_painted() ? std::optional(from.painted()) : std::nullopt};
+          from.has_painted() ? std::optional(from.painted()) : std::nullopt,
+          from.has_prop() ? std::optional(from.prop()) : std::nullopt};
 }
 
 StatusMessage read(const wire::Status& from, FieldChecker& check) {
@@ -327,6 +331,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(PaletteChangedMessage{read_digest(from.palette_changed().palette(), "palette", check)});
     case wire::ServerMessage::kPiece:
       return checked(read(from.piece(), check));
+    case wire::ServerMessage::kProp:
+      return checked(read(from.prop(), check));
     case wire::ServerMessage::kReset:
       return ResetMessage{};
     case wire::ServerMessage::kReply:

@@ -7,6 +7,7 @@
 #include "client/mirror/pose_between.h"
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
+#include "shared/base/check.h"
 #include "shared/base/overloaded.h"
 #include "shared/operation/price.h"
 
@@ -19,28 +20,6 @@ uint32_t fold(uint64_t hash) {
 }
 
 }  // namespace
-
-MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
-  frames += other.frames;
-  operations += other.operations;
-  operation_bytes += other.operation_bytes;
-  patched_bricks += other.patched_bricks;
-  transforms += other.transforms;
-  transform_bytes += other.transform_bytes;
-  chunks += other.chunks;
-  chunk_parts += other.chunk_parts;
-  chunks_kept += other.chunks_kept;
-  dropped_chunks += other.dropped_chunks;
-  pieces_made += other.pieces_made;
-  pieces_sent += other.pieces_sent;
-  pieces_merged += other.pieces_merged;
-  checks += other.checks;
-  mismatches += other.mismatches;
-  repairs_asked += other.repairs_asked;
-  repairs_arrived += other.repairs_arrived;
-  resets += other.resets;
-  return *this;
-}
 
 Mirror::Mirror(const WelcomeMessage& welcome, FindCachedChunk find_cached)
     : find_cached_(std::move(find_cached)),
@@ -64,6 +43,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
             return {};
           },
           [&](const PieceMessage& piece) { return apply_piece(piece, changes); },
+          [&](const PropMessage& prop) { return apply_prop(prop, changes); },
           [&](const ResetMessage&) -> Done {
             apply_reset(changes);
             return {};
@@ -104,6 +84,9 @@ Result<void> Mirror::within_limits() const {
         fmt::format("{} edited chunks are over this client's {} (limits.mirror_chunks_max); ask for a "
                     "smaller radius of interest",
                     chunks, limits::mirror_chunks_max));
+  if (props_.size() > limits::mirror_props_max)
+    return fail(fmt::format("{} props are over this client's {} (limits.mirror_props_max)", props_.size(),
+                            limits::mirror_props_max));
   if (motions_.size() > limits::mirror_pieces_max)
     return fail(fmt::format("{} pieces are over this client's {} (limits.mirror_pieces_max)", motions_.size(),
                             limits::mirror_pieces_max));
@@ -135,7 +118,7 @@ Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& chang
     incomplete_.erase(chunk);
     ++counters_.dropped_chunks;
   }
-  for (const PieceId id : frame.removed_pieces) remove_piece(id, changes);
+  for (const PieceId id : frame.removed_pieces) remove(id, changes);
   ++counters_.frames;
   TRY(apply_transforms(frame.transforms, frame.tick));
   return apply_motions(frame.motions, frame.tick);
@@ -151,6 +134,9 @@ Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, floa
   const auto taken = table_.lower_bound(made.first);
   if (taken != table_.end() && taken->first - made.first < made.count)
     return fail(fmt::format("piece {} is made a second time", taken->first));
+  const auto prop = props_.lower_bound(made.first);
+  if (prop != props_.end() && prop->first - made.first < made.count)
+    return fail(fmt::format("piece {} has the id of a prop", prop->first));
   const Birthplace birthplace = birthplace_of(operation);
   const Applied applied = scree::apply(operation, field_, table_);
   for (const BrickCoord brick : applied.changed) changed.insert(chunk_of(brick));
@@ -226,10 +212,10 @@ std::optional<RepairMessage> Mirror::next_repair_request() {
 Result<void> Mirror::apply_transforms(const std::vector<uint8_t>& packed, Tick tick) {
   const std::vector<PieceState> states = TRY(unpack_transforms(packed));
   for (const PieceState& state : states) {
-    const auto found = motions_.find(state.id);
-    if (found == motions_.end())
+    BetweenPoses* const moving = find_moving(state.id);
+    if (moving == nullptr)
       return fail(fmt::format("the pose of piece {}, which is not known here", state.id));
-    move_piece(found->second, dequantise(state.pose), tick);
+    move(*moving, dequantise(state.pose), tick);
   }
   counters_.transforms += states.size();
   counters_.transform_bytes += packed.size();
@@ -238,13 +224,17 @@ Result<void> Mirror::apply_transforms(const std::vector<uint8_t>& packed, Tick t
 
 Result<void> Mirror::apply_motions(const std::vector<uint8_t>& motions, Tick tick) {
   const std::vector<PieceId> moved = TRY(known_motions_.advance(motions));
-  for (const PieceId id : moved) move_piece(motions_.at(id), pose_of(*known_motions_.motion(id)), tick);
+  for (const PieceId id : moved) {
+    BetweenPoses* const moving = find_moving(id);
+    CHECK(moving != nullptr);
+    move(*moving, pose_of(*known_motions_.motion(id)), tick);
+  }
   counters_.transforms += moved.size();
   counters_.transform_bytes += motions.size();
   return {};
 }
 
-void Mirror::move_piece(PieceMotion& motion, const Pose& to, Tick tick) const {
+void Mirror::move(BetweenPoses& motion, const Pose& to, Tick tick) const {
   // The server tells nothing of a piece at rest: its motion starts at the last tick, not at its last pose's.
   const Tick start = tick > ticks_per_transform_ ? tick - ticks_per_transform_ : 0;
   motion.from = motion.to;
@@ -329,6 +319,7 @@ void Mirror::apply_unchanged(const UnchangedChunksMessage& message, MirrorChange
 
 Result<void> Mirror::apply_piece(const PieceMessage& message, MirrorChanges& changes) {
   if (motions_.contains(message.id)) return fail(fmt::format("piece {} is sent a second time", message.id));
+  if (props_.contains(message.id)) return fail(fmt::format("piece {} has the id of a prop", message.id));
   auto volume = std::make_shared<const Volume>(message.volume);
   known_motions_.add(message.id, *volume);
   table_[message.id] = volume;
@@ -340,7 +331,9 @@ Result<void> Mirror::apply_piece(const PieceMessage& message, MirrorChanges& cha
 void Mirror::apply_reset(MirrorChanges& changes) {
   for (const ChunkCoord chunk : field_.edited_chunks()) forget_chunk(chunk, changes);
   for (const auto& [id, motion] : motions_) changes.pieces_removed.push_back(id);
+  for (const auto& [id, motion] : props_) changes.props_removed.push_back(id);
   motions_.clear();
+  props_.clear();
   known_motions_.clear();
   table_.clear();
   piece_voxels_ = 0;
@@ -362,7 +355,7 @@ void Mirror::forget_chunk(ChunkCoord chunk, MirrorChanges& changes) {
 void Mirror::add_piece(PieceId id, std::shared_ptr<const Volume> volume, const Pose& pose, Tick tick,
                        MirrorChanges& changes) {
   piece_voxels_ += volume->window.codes.size();
-  motions_[id] = {std::move(volume), pose, pose, tick, tick};
+  motions_[id] = {{pose, pose, tick, tick}, std::move(volume)};
   changes.pieces_added.push_back(id);
 }
 
@@ -376,7 +369,7 @@ void Mirror::remove_piece(PieceId id, MirrorChanges& changes) {
   changes.pieces_removed.push_back(id);
 }
 
-Pose Mirror::pose_at(const PieceMotion& motion, double tick) const {
+Pose Mirror::pose_at(const BetweenPoses& motion, double tick) const {
   if (motion.to_tick <= motion.from_tick || tick >= static_cast<double>(motion.to_tick)) return motion.to;
   if (tick <= static_cast<double>(motion.from_tick)) return motion.from;
   const auto t = static_cast<float>((tick - static_cast<double>(motion.from_tick)) /

@@ -30,18 +30,29 @@ struct MirrorChanges {
       bricks;  ///< codes or paint changed (or forgotten: generated again); some may come twice
   std::vector<PieceId> pieces_added;
   std::vector<PieceId> pieces_removed;
+  std::vector<PieceId> props_added;
+  std::vector<PieceId> props_removed;
   bool palette = false;  ///< Mirror::palette() is another one
   /// An image of the palette has come whole (Client::content).
   std::optional<Digest> image{};
 };
 
-/// A piece between two known poses.
-struct PieceMotion {
-  std::shared_ptr<const Volume> volume;
+/// On the way between two known poses.
+struct BetweenPoses {
   Pose from;
   Pose to;
   Tick from_tick = 0;
   Tick to_tick = 0;
+};
+
+/// A piece between two known poses.
+struct PieceMotion : BetweenPoses {
+  std::shared_ptr<const Volume> volume;
+};
+
+/// A prop, likewise.
+struct PropMotionHere : BetweenPoses {
+  std::shared_ptr<const Prop> prop;
 };
 
 /// Counts of applied messages and their content since the welcome.
@@ -59,6 +70,7 @@ struct MirrorCounters {
   uint64_t pieces_made = 0;    ///< by operations
   uint64_t pieces_sent = 0;    ///< received whole
   uint64_t pieces_merged = 0;  ///< by operations
+  uint64_t props_sent = 0;
   uint64_t checks = 0;
   uint64_t mismatches = 0;       ///< frames whose check failed
   uint64_t repairs_asked = 0;    ///< chunks
@@ -85,8 +97,9 @@ class Mirror {
   std::optional<RepairMessage> next_repair_request();
 
   const std::map<PieceId, PieceMotion>& pieces() const { return motions_; }
+  const std::map<PieceId, PropMotionHere>& props() const { return props_; }
   /// Pose at a (fractional) tick, clamped to the known poses.
-  Pose pose_at(const PieceMotion& motion, double tick) const;
+  Pose pose_at(const BetweenPoses& motion, double tick) const;
 
   Field& field() { return field_; }
   const Field& field() const { return field_; }
@@ -122,13 +135,16 @@ class Mirror {
   void apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& changed, MirrorChanges& changes);
   Result<void> apply_transforms(const std::vector<uint8_t>& packed, Tick tick);
   Result<void> apply_motions(const std::vector<uint8_t>& motions, Tick tick);
-  void move_piece(PieceMotion& motion, const Pose& to, Tick tick) const;
+  /// Of a piece or a prop; null: it is not known here.
+  BetweenPoses* find_moving(PieceId id);
+  void move(BetweenPoses& motion, const Pose& to, Tick tick) const;
   Result<void> apply_chunk(const ChunkMessage& message, MirrorChanges& changes);
   void apply_unchanged(const UnchangedChunksMessage& message, MirrorChanges& changes);
   Result<void> apply_part(const ChunkMessage& message, MirrorChanges& changes);
   void forget_all_but(uint64_t edited, ChunkCoord chunk, MirrorChanges& changes);
   void replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes);
   Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
+  Result<void> apply_prop(const PropMessage& message, MirrorChanges& changes);
   void apply_reset(MirrorChanges& changes);
   Result<void> within_limits() const;
 
@@ -138,6 +154,8 @@ class Mirror {
   void add_piece(PieceId id, std::shared_ptr<const Volume> volume, const Pose& pose, Tick tick,
                  MirrorChanges& changes);
   void remove_piece(PieceId id, MirrorChanges& changes);
+  /// A piece, or a prop.
+  void remove(PieceId id, MirrorChanges& changes);
   void count(const Operation& operation);
 
   FindCachedChunk find_cached_;
@@ -145,8 +163,9 @@ class Mirror {
   MapField field_;
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses
-  KnownMotions known_motions_;              ///< by which they are predicted, of the same pieces
-  size_t piece_voxels_ = 0;                 ///< of their volumes, together
+  std::map<PieceId, PropMotionHere> props_;
+  KnownMotions known_motions_;  ///< by which they are predicted, pieces and props
+  size_t piece_voxels_ = 0;     ///< of their volumes, together
   ChunkSet held_;
   ChunkSet incomplete_;  ///< a part has come, and not the last one: not held
   Tick tick_;

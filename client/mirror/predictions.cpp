@@ -49,8 +49,7 @@ std::optional<Operation> operation_of(const Request& asked) {
                                [](const PaintRequest& paint) -> Made {
                                  return PaintOperation{paint.shape, paint.material};
                                },
-                               [](const SettingsRequest&) -> Made { return std::nullopt; },
-                               [](const LeaveRequest&) -> Made { return std::nullopt; }},
+                               [](const auto&) -> Made { return std::nullopt; }},
                     asked);
 }
 

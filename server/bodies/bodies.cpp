@@ -51,7 +51,7 @@ BodyState moved_by(BodyState state, glm::vec3 offset_m) {
 }
 
 BodyState state_of(PieceId id, const Body& body) {
-  if (body.frozen) return *body.frozen;
+  if (body.frozen) return moved_by(*body.frozen, -body.given->centre_m);
   const btRigidBody& rigid = *body.rigid;
   BodyState state{id, pose_of(body), from_bullet(rigid.getLinearVelocity()),
                   from_bullet(rigid.getAngularVelocity()), false};
@@ -68,6 +68,7 @@ void check_sound(const BodyShape& shape, const BodyState& state) {
   CHECK(shape.friction >= 0.0F);
   CHECK(is_sound(state.pose));
   CHECK(!state.frozen);
+  CHECK(shape.part_radii_m.empty() || shape.part_radii_m.size() == shape.parts_m.size());
   CHECK_DEBUG(std::ranges::all_of(shape.hull_m, [](glm::vec3 corner) { return is_sound(corner); }));
 }
 
@@ -92,6 +93,48 @@ void Bodies::add(BodyShape given, const BodyState& state) {
   body.rigid->setAngularVelocity(to_bullet(state.spin_rad_s));
   body.last = body.rigid->getWorldTransform();
   s.enter(body);
+  limit_speeds(body);
+  if (body.is_fixed()) s.freeze(state.id, body);
+}
+
+void Bodies::set_motion(PieceId id, const std::optional<Pose>& pose,
+                        const std::optional<glm::vec3>& velocity_m_s,
+                        const std::optional<glm::vec3>& spin_rad_s) {
+  State& s = *state_;
+  const auto found = s.bodies.find(id);
+  CHECK(found != s.bodies.end());
+  Body& body = found->second;
+  CHECK(!body.nature().is_piece());
+  BodyState now = moved_by(state_of(id, body), glm::vec3(0.0F));
+  if (pose) now.pose = *pose;
+  if (velocity_m_s) now.velocity_m_s = *velocity_m_s;
+  if (spin_rad_s) now.spin_rad_s = *spin_rad_s;
+  const std::shared_ptr<const BodyShape> given = body.given;
+  if (pose) {  // contacts are of where it was
+    remove(id);
+    now.frozen = false;
+    add(*given, now);
+    return;
+  }
+  if (body.is_fixed()) return;
+  now = moved_by(now, given->centre_m);
+  body.rigid->setLinearVelocity(to_bullet(now.velocity_m_s));
+  body.rigid->setAngularVelocity(to_bullet(now.spin_rad_s));
+  body.rigid->forceActivationState(ACTIVE_TAG);
+  body.rigid->setDeactivationTime(0.0F);
+  limit_speeds(body);
+}
+
+void Bodies::push(PieceId id, glm::vec3 impulse_n_s, glm::vec3 at_m) {
+  State& s = *state_;
+  const auto found = s.bodies.find(id);
+  CHECK(found != s.bodies.end() && is_sound(impulse_n_s) && is_sound(at_m));
+  Body& body = found->second;
+  if (!body.is_dynamic()) return;
+  if (body.frozen) s.wake(body);
+  body.rigid->activate(true);
+  body.rigid->applyImpulse(to_bullet(impulse_n_s),
+                           to_bullet(at_m) - body.rigid->getWorldTransform().getOrigin());
   limit_speeds(body);
 }
 
@@ -141,7 +184,8 @@ void Bodies::freeze(PieceId id) {
 void Bodies::thaw_all() {
   for (auto& [id, body] : state_->bodies)
     if (body.frozen) state_->wake(body);
-  CHECK_EQ(state_->frozen, 0);
+  CHECK_DEBUG(std::ranges::all_of(
+      state_->bodies, [](const auto& one) { return !one.second.frozen || one.second.is_fixed(); }));
 }
 
 size_t Bodies::frozen() const {

@@ -1,4 +1,4 @@
-// Pieces of terrain as rigid bodies, simulated by Bullet.
+// Pieces of terrain, and a game's props, as rigid bodies, simulated by Bullet.
 //
 // Deterministic: the same calls in the same order give the same bits, on any build and on any number of
 // threads. Bullet's own snapshots do not restore that, so a Bodies is never copied; restore() takes up
@@ -96,6 +96,13 @@ class Bodies {
   /// finite, the rotation a unit quaternion. Speeds beyond limits::speed_max_m_s are reduced to it; a body
   /// whose speed is not finite is stopped by the next step.
   void add(BodyShape given, const BodyState& state);
+  /// Changes a body that is no piece, and wakes it: where it is, and its speeds, as far as they are given.
+  /// The body must be present; a fixed one has no speeds. Numbers as of add().
+  void set_motion(PieceId id, const std::optional<Pose>& pose, const std::optional<glm::vec3>& velocity_m_s,
+                  const std::optional<glm::vec3>& spin_rad_s);
+  /// Gives a body an impulse at a place, and wakes it. What does not move, but for a frozen piece, stays as
+  /// it is. The body must be present. It does not become faster than a body may be.
+  void push(PieceId id, glm::vec3 impulse_n_s, glm::vec3 at_m);
   /// Removes a body, which must be present. In the next step the bodies that touch its bounds wake.
   void remove(PieceId id);
   bool contains(PieceId id) const;

@@ -103,11 +103,14 @@ Result<void> Bodies::State::restore(const BodyMotion& motion, std::shared_ptr<co
                                     std::vector<glm::vec3> points_m) {
   TRY(check_shape(motion.id, *shape));
   TRY(check_motion(motion));
+  if (shape->nature.motion != PropMotion::dynamic &&
+      motion.frozen != (shape->nature.motion == PropMotion::fixed))
+    return refuse_body(motion.id, "what is fixed is frozen, and what is kinematic is not");
   Body& body = make(motion.id, std::move(shape), std::move(points_m));
   body.rigid->setCenterOfMassTransform(transform_of(motion));
   body.rigid->setLinearVelocity(to_bullet(motion.velocity_m_s));
   body.rigid->setAngularVelocity(to_bullet(motion.spin_rad_s));
-  if (body.rigid->getLinearVelocity().length() > speed_rounding * limits::speed_max_m_s ||
+  if (body.rigid->getLinearVelocity().length() > speed_rounding * speed_max_m_s(body) ||
       body.rigid->getAngularVelocity().length() > speed_rounding * body.spin_max_rad_s ||
       !is_sound(pose_of(body))) {
     bodies.erase(motion.id);
@@ -159,11 +162,11 @@ void Bodies::State::step() {
   dynamics.solve();
   keep_strongest(terrain_blows, list_terrain_blows(bodies, dispatcher, limits::struck_speed_min_m_s));
   for (Body* body : loose)
-    if (body->rigid->isActive() && is_fast(*body, step_size)) sweep(*body, step_size);
+    if (body->awake && is_fast(*body, step_size)) sweep(*body, step_size);
   for_all(moving, [this](std::span<Body*> some) {
     for (Body* body : some) {
       dynamics.move(*body->rigid, body->hulls->step_share());
-      if (body->rigid->isActive()) settle(*body, step_size, config.air_drag);
+      if (body->rigid->isActive() && body->is_dynamic()) settle(*body, step_size, config.air_drag);
     }
   });
   run(moving);
@@ -198,7 +201,9 @@ void Bodies::State::tell_changes() {
 
 void Bodies::State::enter(Body& body) {
   CHECK(body.ground == nullptr && body.rigid->getBroadphaseHandle() == nullptr);
-  dynamics.addRigidBody(body.rigid.get());
+  const BodyNature& nature = body.nature();
+  dynamics.addRigidBody(body.rigid.get(), static_cast<int>(nature.groups), static_cast<int>(nature.meets));
+  if (nature.gravity != 1.0F) body.rigid->setGravity(dynamics.getGravity() * nature.gravity);
   if (!body.frozen) terrain.add_contacts(body);
 }
 
@@ -223,8 +228,9 @@ void Bodies::State::freeze(PieceId id, Body& body) {
 
 void Bodies::State::wake(Body& body) {
   btRigidBody& rigid = *body.rigid;
+  if (body.is_fixed()) return;
   if (!body.frozen) {
-    rigid.activate(true);
+    if (body.is_dynamic()) rigid.activate(true);
     return;
   }
   leave(body);
@@ -250,6 +256,7 @@ void Bodies::State::thaw_struck() {
     if (first == manifold.getBody1()->isStaticObject()) continue;
     if (!(first ? manifold.getBody1() : manifold.getBody0())->isActive()) continue;
     const PieceId id = id_of(first ? manifold.getBody0() : manifold.getBody1());
+    if (!bodies.at(id).frozen || bodies.at(id).is_fixed()) continue;
     const BlowOnStatic blow = blow_on(manifold, first);
     if (blow.strength >= limits::thaw_speed_m_s * bodies.at(id).mass_kg) struck.emplace_back(id, blow);
   }

@@ -1,6 +1,6 @@
-// A piece as a rigid body of Bullet. Private to this folder.
+// A piece or a prop as a rigid body of Bullet. Private to this folder.
 //
-// Invariant: a body is frozen, or has a terrain manifold, never both.
+// Invariant: a body is frozen, or has a terrain manifold, never both. A fixed prop is always frozen.
 #pragma once
 
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
@@ -44,7 +44,7 @@ struct Body {
   btVector3 inertia_kg_m2;  ///< principal moments
   float reach_m = 0.0F;
   float spin_max_rad_s = 0.0F;
-  bool awake = false;                        ///< within a step: at its start
+  bool awake = false;                        ///< within a step: at its start; it may touch the terrain
   bool roused = false;                       ///< within tell_changes(): it wakes
   bool needs_copy = false;                   ///< within a step: its probe must copy the terrain first
   btVector3 speed_before{0.0F, 0.0F, 0.0F};  ///< at the step's start, of the centre of mass; as the spin
@@ -52,6 +52,12 @@ struct Body {
   btTransform last;                 ///< transform before the step: restored when the step's is not finite
   std::optional<BodyState> frozen;  ///< the state of a frozen body
   std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them
+
+  const BodyNature& nature() const { return given->nature; }
+  /// Whether contacts and gravity move it, once it is not frozen.
+  bool is_dynamic() const { return nature().motion == PropMotion::dynamic; }
+  bool is_fixed() const { return nature().motion == PropMotion::fixed; }
+  bool meets_terrain() const { return is_dynamic() && (nature().meets & group::terrain) != 0; }
 };
 
 /// The piece's pose.

@@ -42,8 +42,11 @@ glm::vec3 middle_of(const std::vector<glm::vec3>& points) {
 /// Makes the shapes that collide with other bodies.
 void add_hulls(const BodyShape& shape, Body& body) {
   body.hulls = std::make_unique<CollisionHulls>();
-  for (const std::vector<glm::vec3>& part : shape.parts_m) {
-    body.parts.push_back(make_convex_shape(part, middle_of(part)));
+  for (size_t i = 0; i < shape.parts_m.size(); ++i) {
+    const std::vector<glm::vec3>& part = shape.parts_m[i];
+    const float radius_m = shape.part_radii_m.empty() ? 0.0F : shape.part_radii_m[i];
+    body.parts.push_back(radius_m > 0.0F ? make_rounded_shape(part, radius_m)
+                                         : make_convex_shape(part, middle_of(part)));
     body.hulls->add(*body.parts.back());
   }
   if (body.parts.empty()) body.hulls->add(*body.shape);
@@ -62,19 +65,27 @@ Body make_body(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<g
   body.reach_m = radius_of(shape.hull_m);
   body.mass_kg = shape.mass_kg;
   body.inertia_kg_m2 = stable_inertia(principal.moments);
-  const float spin_travel_m = 0.2F * limits::travel_max_voxels * step.voxel_size_m / step.step_s;
-  body.spin_max_rad_s = std::min(limits::spin_max_rad_s, spin_travel_m / std::max(body.reach_m, 0.01F));
-  btRigidBody::btRigidBodyConstructionInfo info(shape.mass_kg, nullptr, body.shape.get(), body.inertia_kg_m2);
+  const bool is_piece = shape.nature.is_piece();
+  const float spin_travel_m = (is_piece ? limits::spin_travel_share : limits::prop_spin_travel_share) *
+                              limits::travel_max_voxels * step.voxel_size_m / step.step_s;
+  const float spin_max = is_piece ? limits::spin_max_rad_s : limits::prop_spin_max_rad_s;
+  body.spin_max_rad_s = std::min(spin_max, spin_travel_m / std::max(body.reach_m, 0.01F));
+  const bool is_dynamic = body.is_dynamic();
+  btRigidBody::btRigidBodyConstructionInfo info(
+      is_dynamic ? shape.mass_kg : 0.0F, nullptr, body.shape.get(),
+      is_dynamic ? body.inertia_kg_m2 : btVector3(0.0F, 0.0F, 0.0F));
   info.m_friction = std::sqrt(shape.friction);  // Bullet multiplies those of both bodies
   info.m_restitution = std::sqrt(shape.restitution);
   info.m_linearSleepingThreshold = limits::sleep_speed_m_s;
   info.m_angularSleepingThreshold = limits::sleep_spin_rad_s;
   body.rigid = std::make_unique<btRigidBody>(info);
   body.rigid->setFlags(0);  // no gyroscopic torque: it costs a solve a body, and rubble does not show it
+  if (shape.nature.motion == PropMotion::kinematic)
+    body.rigid->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
   add_hulls(shape, body);
   body.rigid->setUserPointer(body.hulls.get());
   body.rigid->setUserIndex(static_cast<int>(id));
-  body.touches_by_surface = !shape.surface_m.empty();
+  body.touches_by_surface = shape.nature.is_piece() && !shape.surface_m.empty();
   body.points_m = std::move(points_m);
   if (body.points_m.empty())
     body.points_m = shape.surface_m.empty()

@@ -123,6 +123,15 @@ std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3
   return shape;
 }
 
+std::unique_ptr<btConvexHullShape> make_rounded_shape(const std::vector<glm::vec3>& points_m,
+                                                      float radius_m) {
+  CHECK(!points_m.empty() && radius_m > 0.0F);
+  auto shape = std::make_unique<TightHull>(points_m);
+  shape->setMargin(radius_m);
+  shape->recalcLocalAabb();
+  return shape;
+}
+
 std::vector<glm::vec3> corners_of(const btConvexHullShape& shape) {
   std::vector<glm::vec3> corners;
   corners.reserve(static_cast<size_t>(shape.getNumPoints()));

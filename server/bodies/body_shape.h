@@ -15,6 +15,10 @@ namespace scree {
 std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
                                                      glm::vec3 middle_m = glm::vec3(0.0F));
 
+/// The hull of these points, one at least, grown by a ball of that radius, which is positive. It is not
+/// shrunk.
+std::unique_ptr<btConvexHullShape> make_rounded_shape(const std::vector<glm::vec3>& points_m, float radius_m);
+
 /// Distance of the hull's nearest face from a point inside, estimated from above.
 float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m);
 

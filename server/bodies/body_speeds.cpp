@@ -1,5 +1,6 @@
 #include "server/bodies/body_speeds.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "server/bodies/limits.h"
@@ -32,8 +33,8 @@ void limit_undoing(Body& body, const StepSize& step) {
 void limit_speeds(Body& body) {
   btRigidBody& rigid = *body.rigid;
   const float speed = rigid.getLinearVelocity().length();
-  if (speed > limits::speed_max_m_s)
-    rigid.setLinearVelocity(rigid.getLinearVelocity() * (limits::speed_max_m_s / speed));
+  if (const float most = speed_max_m_s(body); speed > most)
+    rigid.setLinearVelocity(rigid.getLinearVelocity() * (most / speed));
   const float turning = rigid.getAngularVelocity().length();
   if (turning > body.spin_max_rad_s)
     rigid.setAngularVelocity(rigid.getAngularVelocity() * (body.spin_max_rad_s / turning));
@@ -49,8 +50,8 @@ void settle(Body& body, const StepSize& step, float air_drag) {
     velocity = spin = btVector3(0.0F, 0.0F, 0.0F);
   }
   limit_undoing(body, step);
-  velocity *= 1.0F - step.step_s * air_drag;
-  spin *= 1.0F - step.step_s * air_drag;
+  velocity *= 1.0F - step.step_s * std::min(air_drag + body.nature().drag, 1.0F);
+  spin *= 1.0F - step.step_s * std::min(air_drag + body.nature().spin_drag, 1.0F);
   rigid.setLinearVelocity(velocity);
   rigid.setAngularVelocity(spin);
   limit_speeds(body);
@@ -64,7 +65,7 @@ bool is_sound_body(PieceId id, const Body& body) {
     return body.ground == nullptr && rigid.isStaticObject() &&
            pose.position_m == body.frozen->pose.position_m && pose.rotation == body.frozen->pose.rotation;
   return body.ground != nullptr && !rigid.isStaticObject() &&
-         rigid.getLinearVelocity().length() <= speed_rounding * limits::speed_max_m_s &&
+         rigid.getLinearVelocity().length() <= speed_rounding * speed_max_m_s(body) &&
          rigid.getAngularVelocity().length() <= speed_rounding * body.spin_max_rad_s;
 }
 

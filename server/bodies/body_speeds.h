@@ -2,6 +2,7 @@
 #pragma once
 
 #include "server/bodies/body.h"
+#include "server/bodies/limits.h"
 
 namespace scree {
 
@@ -15,6 +16,11 @@ inline constexpr float speed_rounding = 1.001F;
 
 /// Cuts the speeds to limits::speed_max_m_s and to the body's greatest spin.
 void limit_speeds(Body& body);
+/// The greatest speed that a body may have.
+inline float speed_max_m_s(const Body& body) {
+  return body.nature().is_piece() ? limits::speed_max_m_s : limits::prop_speed_max_m_s;
+}
+
 /// Applies the air's drag, a share a second, and the limits to a body that is awake, after the step. The step
 /// must not have moved it out of overlaps by more than limits::undo_buried_m_s; else it is put back.
 void settle(Body& body, const StepSize& step, float air_drag);

@@ -11,6 +11,9 @@ namespace scree::limits {
 /// looks at 3.3 m of terrain then. Above: cut.
 inline constexpr float speed_max_m_s = 200.0F;
 
+/// The same of a prop: of a bullet. A step of 1/60 s looks at 10 m of its way.
+inline constexpr float prop_speed_max_m_s = 600.0F;
+
 /// Farthest that any point of a piece may travel unseen, voxels. The narrow band is 3 voxels wide, so a piece
 /// cannot cross it without a contact. Beyond ⅘ of it in a step, the way is looked at in parts of ⅘ (sweep.h).
 inline constexpr float travel_max_voxels = 2.5F;
@@ -34,6 +37,11 @@ inline constexpr float touching_share = 0.03F;
 /// Spin of any piece, rad/s, of which no point may travel farther in a step than ⅕ of travel_max_voxels.
 /// Faster, the contacts of one tick say nothing about the next. Above: cut.
 inline constexpr float spin_max_rad_s = 20.0F;
+inline constexpr float spin_travel_share = 0.2F;
+
+/// The same of a prop, whose wheels are round: so a car drives at 30 m/s.
+inline constexpr float prop_spin_max_rad_s = 120.0F;
+inline constexpr float prop_spin_travel_share = 0.8F;
 
 /// Distance from the ground within which hull points make contacts, metres, even if they do not approach it:
 /// the contacts of a resting piece last from tick to tick.

@@ -21,7 +21,13 @@ Result<void> check_shape(PieceId id, const BodyShape& shape) {
     return std::ranges::all_of(points, [](glm::vec3 p) { return is_sound(p); });
   };
   const auto hull = [&](const std::vector<glm::vec3>& points) { return points.size() >= 4 && sound(points); };
-  if (!hull(shape.hull_m) || !sound(shape.surface_m) || !std::ranges::all_of(shape.parts_m, hull))
+  const bool is_rounded = !shape.part_radii_m.empty();
+  if (is_rounded && shape.part_radii_m.size() != shape.parts_m.size())
+    return refuse_body(id, "not every part has a radius");
+  const auto part = [&](const std::vector<glm::vec3>& points) {
+    return is_rounded ? !points.empty() && sound(points) : hull(points);
+  };
+  if (!hull(shape.hull_m) || !sound(shape.surface_m) || !std::ranges::all_of(shape.parts_m, part))
     return refuse_body(id, "a hull of fewer than four corners, or without a place");
   if (!(shape.mass_kg >= limits::restored_mass_min_kg && shape.mass_kg <= limits::restored_mass_max_kg))
     return refuse_body(id, "its mass is none that a piece has");

@@ -14,7 +14,11 @@ namespace {
 /// Null for what cannot move.
 const btRigidBody* moving(const btCollisionObject* object) {
   const btRigidBody* const body = btRigidBody::upcast(object);
-  return body != nullptr && body->getInvMass() > 0.0F ? body : nullptr;
+  return body != nullptr && !body->isStaticObject() ? body : nullptr;
+}
+
+bool falls(const btRigidBody* body) {
+  return body != nullptr && body->getInvMass() > 0.0F;
 }
 
 btVector3 speed_at(const btRigidBody* body, const btVector3& at) {
@@ -34,10 +38,10 @@ void aim_friction(const btRigidBody* a, const btRigidBody* b, const btVector3& f
   const btVector3 falling = along_surface(fall_m_s, normal);
   btVector3 sliding = along_surface(
       speed_at(a, point.getPositionWorldOnA()) - speed_at(b, point.getPositionWorldOnB()), normal);
-  if (a == nullptr) sliding -= falling;
-  if (b == nullptr) sliding += falling;
+  if (!falls(a)) sliding -= falling;
+  if (!falls(b)) sliding += falling;
   // Where two fall alike, friction alone holds the upper one back.
-  if (a != nullptr && b != nullptr && sliding.length2() < 0.25F * falling.length2()) sliding = falling;
+  if (falls(a) && falls(b) && sliding.length2() < 0.25F * falling.length2()) sliding = falling;
   const float length2 = sliding.length2();
   if (length2 > 1e-12F)
     point.m_lateralFrictionDir1 = sliding / btSqrt(length2);

@@ -119,7 +119,18 @@ void PieceWorld::solve(const SolverGroups::Group& group) {
   idle_solvers_.push_back(std::move(solver));
 }
 
+/// It is awake while it moves.
+void PieceWorld::move_as_told(btRigidBody& body) const {
+  const bool moves = !body.getLinearVelocity().fuzzyZero() || !body.getAngularVelocity().fuzzyZero();
+  body.forceActivationState(moves ? ACTIVE_TAG : ISLAND_SLEEPING);
+  if (!moves) return;
+  btTransform next;
+  body.predictIntegratedTransform(step_s_, next);
+  body.setCenterOfMassTransform(next);
+}
+
 void PieceWorld::move(btRigidBody& body, float share) {
+  if (body.isKinematicObject()) return move_as_told(body);
   btRigidBody* one = &body;
   integrateTransformsInternal(&one, 1, step_s_ * share);
   body.clearForces();

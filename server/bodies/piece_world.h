@@ -37,7 +37,8 @@ class PieceWorld final : public btDiscreteDynamicsWorld {
   void find_contacts(WorkBatch& batch);
   /// Also makes and releases manifolds of pairs.
   void solve();
-  /// Moves a body by that share of the step: one that can move. Threads may move different bodies at once.
+  /// Moves a body by that share of the step, a kinematic one by all of it: one that can move. Threads may
+  /// move different bodies at once.
   void move(btRigidBody& body, float share);
 
  private:
@@ -46,6 +47,7 @@ class PieceWorld final : public btDiscreteDynamicsWorld {
     btVector3 lo{0.0F, 0.0F, 0.0F};  ///< bounds at the step's start and end
     btVector3 hi{0.0F, 0.0F, 0.0F};
   };
+  void move_as_told(btRigidBody& body) const;
   /// Enters what is awake in groups_.
   void gather();
   void solve(const SolverGroups::Group& group);

@@ -12,8 +12,9 @@ namespace scree {
 
 namespace {
 
+/// A kinematic body counts: the solver takes its speed, and one thread at a time.
 bool can_move(const btCollisionObject* body) {
-  return !body->isStaticOrKinematicObject();
+  return !body->isStaticObject();
 }
 
 uint32_t place_of(const btCollisionObject* body) {

@@ -64,10 +64,10 @@ void TerrainBody::turn(Body& body) const {
   const btRigidBody& rigid = *body.rigid;
   body.hulls->begin_step();
   body.hulls->turn(from_bullet(rigid.getWorldTransform().getBasis()));
-  body.awake = rigid.isActive();
+  body.awake = rigid.isActive() && body.meets_terrain();
   body.needs_copy = false;
+  if (rigid.isActive()) body.last = rigid.getWorldTransform();
   if (!body.awake) return;
-  body.last = rigid.getWorldTransform();
   body.needs_copy = !body.probe->turn(from_bullet(rigid.getWorldTransform()), ground_reach_m(body, surface_));
 }
 

@@ -111,7 +111,12 @@ Role role_for(const Request& request) {
                                [](const FillRequest&) { return Role::builder; },
                                [](const PaintRequest&) { return Role::builder; },
                                [](const SettingsRequest&) { return Role::admin; },
-                               [](const LeaveRequest&) { return Role::viewer; }},
+                               [](const LeaveRequest&) { return Role::viewer; },
+                               [](const AddPropRequest&) { return Role::director; },
+                               [](const RemovePropRequest&) { return Role::director; },
+                               [](const MovePropRequest&) { return Role::director; },
+                               [](const PushRequest&) { return Role::carver; },
+                               [](const BreakRequest&) { return Role::carver; }},
                     request);
 }
 

@@ -8,6 +8,7 @@
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"
+#include "server/formats/packed_lists.h"
 #include "server/formats/recording_values.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -28,6 +29,30 @@ PieceMessage read_piece(std::span<const uint8_t> bytes, FieldChecker& check) {
   if (auto* piece = std::get_if<PieceMessage>(&message)) return std::move(*piece);
   check.refuse("a message is not a piece, as it should be");
   return {};
+}
+
+PropMessage read_prop_here(std::span<const uint8_t> bytes, FieldChecker& check) {
+  ServerMessage message = check.value_or_refuse(decode_server(bytes));
+  if (auto* prop = std::get_if<PropMessage>(&message)) return std::move(*prop);
+  check.refuse("a message is not a prop, as it should be");
+  return {};
+}
+
+using PackedProps = google::protobuf::RepeatedPtrField<std::string>;
+
+void write_props(PackedProps& to, const std::vector<PropMessage>& from) {
+  for (const PropMessage& prop : from) *to.Add() = without_length(encode(ServerMessage(prop)));
+}
+
+std::vector<PropMessage> read_props(const PackedProps& from, FieldChecker& check) {
+  std::vector<PropMessage> props;
+  for (const std::string& packed : from) {
+    if (check.failed()) break;
+    props.push_back(read_prop_here(as_span(packed), check));
+    if (props.size() > 1 && props[props.size() - 2].id >= props.back().id)
+      check.refuse("props are not in the order of their ids");
+  }
+  return props;
 }
 
 Command read_command(uint64_t session, const std::string& bytes, FieldChecker& check) {
@@ -88,6 +113,8 @@ std::vector<uint8_t> encode(const RecordedFrame& frame) {
   to.set_field_hash(frame.field_hash);
   to.set_state_hash(frame.state_hash);
   write(*to.mutable_settings(), frame.settings);
+  write_props(*to.mutable_props(), frame.props);
+  to.set_props_gone(pack_ids(frame.props_gone));
   return bytes_of(to);
 }
 
@@ -102,6 +129,8 @@ Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
   frame.field_hash = from.field_hash();
   frame.state_hash = from.state_hash();
   frame.settings = check.settings(from.settings());
+  frame.props = read_props(from.props(), check);
+  frame.props_gone = check.value_or_refuse(unpack_piece_ids(from.props_gone(), "props that are gone"));
   return checked(std::move(frame), check);
 }
 
@@ -121,6 +150,7 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
   to.set_state_hash(keyframe.state_hash);
   write(*to.mutable_settings(), keyframe.settings);
   write(*to.mutable_materials(), keyframe.materials);
+  write_props(*to.mutable_props(), keyframe.props);
   return bytes_of(to);
 }
 
@@ -149,6 +179,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   keyframe.settings = check.settings(from.settings());
   keyframe.poses = check.value_or_refuse(unpack_transforms(as_span(from.poses())));
   keyframe.materials = read(from.materials(), check);
+  keyframe.props = read_props(from.props(), check);
   return checked(std::move(keyframe), check);
 }
 
@@ -161,6 +192,17 @@ Result<PieceMessage> decode_recorded_piece(std::span<const uint8_t> bytes) {
   FieldChecker check("piece of the recording");
   PieceMessage piece = read_piece(bytes, check);
   return checked(std::move(piece), check);
+}
+
+std::vector<uint8_t> encode_recorded_prop(const PropMessage& prop) {
+  const std::string bytes = without_length(encode(ServerMessage(prop)));
+  return {bytes.begin(), bytes.end()};
+}
+
+Result<PropMessage> decode_recorded_prop(std::span<const uint8_t> bytes) {
+  FieldChecker check("prop of the recording");
+  PropMessage prop = read_prop_here(bytes, check);
+  return checked(std::move(prop), check);
 }
 
 std::vector<uint8_t> encode(std::span<const Command> commands) {

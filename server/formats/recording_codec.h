@@ -23,7 +23,7 @@ namespace scree {
 
 /// Version of the blobs and the tables that is written, and the oldest that is read: what both have is the
 /// same. A reader refuses any other.
-inline constexpr uint32_t recording_format = 8;
+inline constexpr uint32_t recording_format = 9;
 inline constexpr uint32_t recording_format_oldest = 6;
 constexpr bool reads_recording_format(uint32_t format) {
   return recording_format_oldest <= format && format <= recording_format;
@@ -51,7 +51,9 @@ struct RecordedFrame {
   Ledger ledger;
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
-  SettingValues settings;  ///< as TickDelta::settings
+  SettingValues settings;           ///< as TickDelta::settings
+  std::vector<PropMessage> props;   ///< that were added, with their poses; ordered by id
+  std::vector<PieceId> props_gone;  ///< of those that were there before; ordered
 };
 
 struct RecordedKeyframe {
@@ -62,14 +64,18 @@ struct RecordedKeyframe {
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
   SettingValues settings;
-  std::vector<PieceState> poses;  ///< of the pieces whose volumes are rows of their own; ordered by id
-  MaterialLedger materials;       ///< empty in recordings that keep none
+  std::vector<PieceState> poses;   ///< of the pieces whose volumes are rows of their own; ordered by id
+  MaterialLedger materials;        ///< empty in recordings that keep none
+  std::vector<PropMessage> props;  ///< all there are; ordered by id
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);
 std::vector<uint8_t> encode(const RecordedFrame& frame);
 std::vector<uint8_t> encode(const RecordedKeyframe& keyframe);
 std::vector<uint8_t> encode(std::span<const Command> commands);
+/// A prop as a message, wherever it is kept alone.
+std::vector<uint8_t> encode_recorded_prop(const PropMessage& prop);
+Result<PropMessage> decode_recorded_prop(std::span<const uint8_t> bytes);
 /// A piece's row: the pose is that of the tick in which it was written.
 std::vector<uint8_t> encode_recorded_piece(const PieceMessage& piece);
 

@@ -216,6 +216,11 @@ void write(kept::Moment& to, const WorldMoment& from) {
   to.set_buried(pack_ids(from.buried));
   to.set_sunk(pack_ids(from.sunk));
   write(*to.mutable_materials(), from.materials);
+  for (const PropRecord& prop : from.props) {
+    kept::Prop& added = *to.add_props();
+    added.set_here(to_string(encode_recorded_prop({prop.id, *prop.prop, {}})));
+    added.set_owner(prop.owner);
+  }
   for (const StruckPlace& place : from.struck) {
     kept::StruckPlace& added = *to.add_struck();
     added.set_x(place.cell.x);
@@ -267,6 +272,11 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   moment.buried = check.value_or_refuse(unpack_piece_ids(from.buried(), "buried pieces"));
   moment.sunk = check.value_or_refuse(unpack_piece_ids(from.sunk(), "sunk pieces"));
   moment.materials = scree::read(from.materials(), check);
+  for (const kept::Prop& one : from.props()) {
+    if (check.failed()) break;
+    PropMessage here = check.value_or_refuse(decode_recorded_prop(as_span(one.here())));
+    moment.props.push_back({here.id, one.owner(), std::make_shared<const Prop>(std::move(here.prop))});
+  }
   for (const kept::StruckPlace& one : from.struck())
     moment.struck.push_back(
         {{one.x(), one.y(), one.z()}, check.not_negative(one.energy_j(), "energy of blows"), one.at()});

@@ -22,8 +22,20 @@
 #include "proto/messages.h"
 #include "server/formats/recording_codec.h"
 #include "shared/field/piece.h"
+#include "shared/prop/prop.h"
 
 namespace scree {
+
+/// How a body moves, and what it meets. A piece has what stands here; a prop says its own
+/// (shared/prop/prop.h).
+struct BodyNature {
+  PropMotion motion = PropMotion::dynamic;
+  float drag = 0.0F, spin_drag = 0.0F, gravity = 1.0F;
+  uint32_t groups = group::pieces, meets = group::all;
+
+  bool is_piece() const { return groups == group::pieces; }
+  bool operator==(const BodyNature&) const = default;
+};
 
 /// The data of a piece that the body library needs. `hull_m`: corners of the piece's convex hull, at least 4
 /// and not all in one plane, relative to the centre of mass, in the volume's axes (the world's axes at
@@ -41,6 +53,10 @@ struct BodyShape {
   /// Convex parts that collide with other bodies, for a large concave piece: each has corners as `hull_m`
   /// has. Empty: the hull collides.
   std::vector<std::vector<glm::vec3>> parts_m{};
+  /// Of each of parts_m, where any is rounded: the radius of a ball that goes around its points, which may be
+  /// fewer than four then; 0: it is as it is.
+  std::vector<float> part_radii_m{};
+  BodyNature nature{};
   glm::vec3 centre_m{0.0F};   ///< the centre of mass, from the volume's centre, in the volume's axes
   float restitution = 0.05F;  ///< share of the speed that a blow gives back; combined as friction is
 
@@ -62,6 +78,13 @@ struct PieceRecord {
   PieceTraits traits;
   std::shared_ptr<const Volume> volume;
   std::shared_ptr<const BodyShape> shape;
+};
+
+/// What never changes of a prop, which is not null.
+struct PropRecord {
+  PieceId id = 0;
+  uint64_t owner = 0;  ///< party that added it (command.h)
+  std::shared_ptr<const Prop> prop;
 };
 
 struct BoundsM {
@@ -204,7 +227,8 @@ struct WorldMoment {
   Ledger ledger;
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;          ///< of field, bodies and ledger, as a tick publishes it
-  std::vector<PieceRecord> pieces;  ///< ordered by id, as motion.bodies
+  std::vector<PieceRecord> pieces;  ///< ordered by id, as motion.bodies, which has those of props, too
+  std::vector<PropRecord> props;    ///< ordered by id
   MotionValue motion;
   RestValue rest;
   RequestsValue requests;

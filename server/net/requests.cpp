@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "shared/base/limits.h"
 #include "shared/base/timing.h"
@@ -20,10 +21,13 @@ bool is_within_world(const glm::vec3& place_m) {
 /// refuse.
 tl::expected<void, Refused> check_reach(const SessionEntry& session, const Request& request, double reach_m) {
   const Shape* const shape = shape_of(request);
-  if (shape == nullptr || session.grant.role == Role::admin || !validate(*shape) ||
-      !is_within_world(shape->a))
-    return {};
-  const double away_m = distance(*shape, session.eye_m);
+  const glm::vec3* const place_m = place_of(request);
+  if (session.grant.role == Role::admin) return {};
+  double away_m = 0.0;
+  if (shape != nullptr && validate(*shape) && is_within_world(shape->a))
+    away_m = distance(*shape, session.eye_m);
+  else if (place_m != nullptr && is_within_world(*place_m))
+    away_m = glm::distance(*place_m, session.eye_m);
   if (away_m <= reach_m) return {};
   const glm::vec3& eye = session.eye_m;
   return refuse(

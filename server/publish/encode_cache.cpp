@@ -147,17 +147,26 @@ SharedBytes EncodeCache::chunk(ChunkCoord coord, const PublishedChunk& chunk) {
   return entry->bytes;
 }
 
-SharedBytes EncodeCache::piece(PieceId id, const PublishedPiece& piece) {
+template <typename Make>
+SharedBytes EncodeCache::whole(PieceId id, const Make& make) {
   Encoded* entry = nullptr;
   {
     const std::scoped_lock lock(mutex_);
     entry = &pieces_[id];
   }
   std::call_once(entry->once, [&] {
-    entry->bytes = share(PieceMessage{id, *piece.volume, piece.pose});
+    entry->bytes = share(make());
     CHECK_DEBUG(decodes(entry->bytes));
   });
   return entry->bytes;
+}
+
+SharedBytes EncodeCache::piece(PieceId id, const PublishedPiece& piece) {
+  return whole(id, [&] { return PieceMessage{id, *piece.volume, piece.pose}; });
+}
+
+SharedBytes EncodeCache::prop(PieceId id, const PublishedProp& prop) {
+  return whole(id, [&] { return PropMessage{id, *prop.prop, prop.pose}; });
 }
 
 }  // namespace scree

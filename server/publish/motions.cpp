@@ -105,10 +105,10 @@ TrackedMotion* Motions::find(PieceId id) {
 }
 
 /// As KnownMotions::add_made does for a client.
-void Motions::make(PieceId id, const Volume& volume, std::optional<PieceId> parent, Tick tick) {
+void Motions::make(PieceId id, glm::vec3 centre_m, std::optional<PieceId> parent, Tick tick) {
   TrackedMotion made;
   made.id = id;
-  made.centre_m = volume.centre_voxels * voxel_size_m_;
+  made.centre_m = centre_m;
   made.changed = tick;
   const TrackedMotion* from = parent ? find(*parent) : nullptr;
   made.motion =
@@ -131,40 +131,47 @@ void Motions::advance(TrackedMotion& piece, Tick tick) const {
   piece.check = motion_check(piece.id, piece.motion);
 }
 
+void Motions::follow(TrackedMotion& one, const QuantisedPose& pose, bool step, Tick tick) const {
+  one.place_m = glm::vec3(pose.x, pose.y, pose.z) / pose_steps_per_m;
+  if (!step) return;
+  MotionTarget& target = one.target;
+  if (target.pose == pose && target.still_steps > 0) {
+    ++target.still_steps;
+    target.moved = {};
+  } else {
+    const MotionTarget last = target;
+    target = {pose, resting_at(pose), {}, last.pose == pose ? last.still_steps + 1 : 0};
+    target.moved = difference(target.at.position, last.at.position);
+  }
+  advance(one, tick);
+}
+
 void Motions::track(const TickDelta& delta, const PublishedState& state, bool step) {
-  std::map<PieceId, const Volume*> spawned;
-  for (const SpawnedPiece& piece : delta.spawned) spawned.emplace(piece.id, piece.volume.get());
+  std::map<PieceId, glm::vec3> spawned_m;  // the volumes' centres
+  for (const SpawnedPiece& piece : delta.spawned)
+    spawned_m.emplace(piece.id, piece.volume->centre_voxels * voxel_size_m_);
   for (const AppliedOperation& applied : delta.operations) {
     const std::optional<PieceId> parent = parent_of(applied.operation);
     for (const PieceId id : applied.created)
-      if (const auto found = spawned.find(id); found != spawned.end())
-        make(id, *found->second, parent, delta.tick);
+      if (const auto found = spawned_m.find(id); found != spawned_m.end())
+        make(id, found->second, parent, delta.tick);
   }
-  // A keyframe has pieces that no operation made.
-  for (const auto& [id, volume] : spawned)
-    if (find(id) == nullptr) make(id, *volume, std::nullopt, delta.tick);
+  // A keyframe has pieces that no operation made, and no operation makes props.
+  for (const SpawnedProp& prop : delta.props_spawned) spawned_m.emplace(prop.id, glm::vec3(0.0F));
+  for (const auto& [id, centre_m] : spawned_m)
+    if (find(id) == nullptr) make(id, centre_m, std::nullopt, delta.tick);
 
-  auto alive = state.pieces().begin();
-  for (TrackedMotion& piece : pieces_) {
-    while (alive != state.pieces().end() && alive->first < piece.id) ++alive;
-    piece.alive = alive != state.pieces().end() && alive->first == piece.id;
-    if (!piece.alive) continue;
-    const QuantisedPose& pose = alive->second.pose;
-    piece.place_m = glm::vec3(pose.x, pose.y, pose.z) / pose_steps_per_m;
-    if (!step) continue;
-    MotionTarget& target = piece.target;
-    if (target.pose == pose && target.still_steps > 0) {
-      ++target.still_steps;
-      target.moved = {};
-    } else {
-      const MotionTarget last = target;
-      target = {pose, resting_at(pose), {}, last.pose == pose ? last.still_steps + 1 : 0};
-      target.moved = difference(target.at.position, last.at.position);
-    }
-    advance(piece, delta.tick);
+  auto piece = state.pieces().begin();
+  auto prop = state.props().begin();
+  for (TrackedMotion& one : pieces_) {
+    while (piece != state.pieces().end() && piece->first < one.id) ++piece;
+    while (prop != state.props().end() && prop->first < one.id) ++prop;
+    const bool is_piece = piece != state.pieces().end() && piece->first == one.id;
+    one.alive = is_piece || (prop != state.props().end() && prop->first == one.id);
+    if (one.alive) follow(one, is_piece ? piece->second.pose : prop->second.pose, step, delta.tick);
   }
-  std::erase_if(pieces_, [](const TrackedMotion& piece) { return !piece.alive; });
-  CHECK_EQ(pieces_.size(), state.pieces().size());
+  std::erase_if(pieces_, [](const TrackedMotion& one) { return !one.alive; });
+  CHECK_EQ(pieces_.size(), state.pieces().size() + state.props().size());
   if (!step) return;
   stepped_before_ = stepped_;
   stepped_ = delta.tick;

@@ -1,4 +1,4 @@
-// The motions of all pieces alive, one for all clients: predicted as every client predicts them, and
+// The motions of all pieces and props, one for all clients: predicted as every client predicts them, and
 // corrected when the prediction leaves the piece. Not thread-safe.
 #pragma once
 
@@ -37,7 +37,7 @@ struct TrackedMotion {
   uint32_t check = 0;                    ///< and of that after
   std::optional<Correction> correction;  ///< in it
   MotionTarget target;
-  glm::vec3 centre_m{0.0F};  ///< of the volume, in its own frame
+  glm::vec3 centre_m{0.0F};  ///< of the volume, in its own frame; of a prop 0
 };
 
 class Motions {
@@ -47,7 +47,7 @@ class Motions {
   /// Follows a tick; `state` is that after it. `step`: it is one whose frames have poses.
   void track(const TickDelta& delta, const PublishedState& state, bool step);
 
-  /// Every piece alive, ordered by id.
+  /// Every piece and every prop, ordered by id.
   const std::vector<TrackedMotion>& all() const { return pieces_; }
   /// The tick of the last step, and of the one before it; 0: none.
   Tick stepped() const { return stepped_; }
@@ -55,7 +55,9 @@ class Motions {
 
  private:
   TrackedMotion* find(PieceId id);
-  void make(PieceId id, const Volume& volume, std::optional<PieceId> parent, Tick tick);
+  void make(PieceId id, glm::vec3 centre_m, std::optional<PieceId> parent, Tick tick);
+  /// Takes one to where it is now.
+  void follow(TrackedMotion& one, const QuantisedPose& pose, bool step, Tick tick) const;
   void advance(TrackedMotion& piece, Tick tick) const;
 
   MotionRules rules_;

@@ -19,12 +19,15 @@ void PieceStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet
   if (credit_bytes_ <= 0) return;
   for (const PieceId id : view.next_pieces(tick.changes.motions, piece_batch)) {
     if (credit_bytes_ <= 0 || outlet.room_bytes() <= 0) return;
-    const PublishedPiece& piece = tick.changes.state.pieces().at(id);
-    const SharedBytes bytes = tick.cache.piece(id, piece);
+    const PublishedState& state = tick.changes.state;
+    const auto prop = state.props().find(id);
+    const bool is_prop = prop != state.props().end();
+    const SharedBytes bytes =
+        is_prop ? tick.cache.prop(id, prop->second) : tick.cache.piece(id, state.pieces().at(id));
     if (bytes->size() > limits::message_bytes_max) continue;  // the client gets its merge as bricks
     credit_bytes_ -= size_of(bytes);
     part.stats.piece_bytes += bytes->size();
-    view.sent_piece(id, piece.pose);
+    view.sent_piece(id, is_prop ? prop->second.pose : state.pieces().at(id).pose);
     outlet.send(bytes, part);
   }
 }

@@ -31,6 +31,9 @@ void append(TickDelta& to, const TickDelta& next) {
                          &BrickState::coord);
   to.bricks = std::move(bricks);
   to.pieces = next.pieces;
+  to.props_spawned.insert(to.props_spawned.end(), next.props_spawned.begin(), next.props_spawned.end());
+  std::ranges::stable_sort(to.props_spawned, {}, &SpawnedProp::id);
+  to.props = next.props;
   if (!next.settings.empty()) to.settings = next.settings;
   to.ledger = next.ledger;
   to.materials = next.materials;
@@ -112,12 +115,15 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   CHECK(to >= first_tick() && to <= last_tick());
   BricksBefore before;
   const PieceTable pieces = state_->pieces;
+  const auto props = state_->props;
   const SettingValues settings = state_->settings;
   TRY(state_->go_to(to, before));
   auto delta = state_->unchanged();
   add_differences(state_->field, before, *delta);
   for (const auto& [id, volume] : state_->pieces)
     if (!pieces.contains(id)) delta->spawned.push_back({id, volume});
+  for (const auto& [id, one] : state_->props)
+    if (!props.contains(id)) delta->props_spawned.push_back({id, one.prop});
   if (state_->settings != settings) delta->settings = state_->settings;
   state_->tell_spawn(*delta);
   return delta;

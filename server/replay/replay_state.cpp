@@ -50,6 +50,11 @@ Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& bef
     pieces[piece.id] = known.at(piece.id);
     poses[piece.id] = piece.pose;
   }
+  props.clear();
+  for (PropMessage& prop : keyframe.props) {
+    if (pieces.contains(prop.id)) return damaged(fmt::format("prop {} has the id of a piece", prop.id));
+    props[prop.id] = {std::make_shared<const Prop>(std::move(prop.prop)), prop.pose};
+  }
   for (PieceMessage& piece : keyframe.pieces) {
     poses[piece.id] = piece.pose;
     pieces[piece.id] = std::make_shared<const Volume>(std::move(piece.volume));
@@ -100,8 +105,28 @@ Result<void> ReplaySource::State::apply_operation(const Operation& operation, Ti
   return {};
 }
 
+Result<void> ReplaySource::State::change_props(const RecordedFrame& frame, TickDelta& delta) {
+  for (const PieceId gone : frame.props_gone)
+    if (props.erase(gone) == 0) return damaged(fmt::format("prop {} is gone, and was not there", gone));
+  for (const PropMessage& added : frame.props) {
+    auto prop = std::make_shared<const Prop>(added.prop);
+    if (pieces.contains(added.id) || !props.try_emplace(added.id, PublishedProp{prop, added.pose}).second)
+      return damaged(fmt::format("prop {} is added a second time", added.id));
+    delta.props_spawned.push_back({added.id, std::move(prop)});
+  }
+  return {};
+}
+
+void ReplaySource::State::tell_props(TickDelta& delta) const {
+  for (const auto& [id, one] : props) delta.props.push_back({id, one.pose});
+}
+
 Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickDelta& delta) {
   for (const PieceState& moved : frame.moved) {
+    if (const auto prop = props.find(moved.id); prop != props.end()) {
+      prop->second.pose = moved.pose;
+      continue;
+    }
     if (!pieces.contains(moved.id)) return damaged(fmt::format("piece {} is not there", moved.id));
     poses[moved.id] = moved.pose;
   }
@@ -120,7 +145,7 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   const auto frame = reader->frame(tick + 1);
   TRY(frame);
   PlayedTick undo;
-  if (undoable) undo = {{}, pieces, poses, ledger, materials, settings, state_hash};
+  if (undoable) undo = {{}, pieces, poses, props, ledger, materials, settings, state_hash};
   const bool notes = before != nullptr || undoable;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++tick;
@@ -128,7 +153,9 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   std::set<BrickCoord> changed;
   for (const Operation& operation : frame->operations)
     TRY(apply_operation(operation, *delta, changed, notes ? &undo.bricks : nullptr));
+  TRY(change_props(*frame, *delta));
   TRY(place_pieces(*frame, *delta));
+  tell_props(*delta);
   TRY(check_hash(frame->field_hash));
   for (const BrickCoord coord : changed) delta->bricks.push_back(published_brick(field, coord));
   ledger = frame->ledger;
@@ -153,6 +180,7 @@ void ReplaySource::State::revert_tick(BricksBefore& before) {
   revert_bricks(field, last.bricks, before);
   pieces = std::move(last.pieces);
   poses = std::move(last.poses);
+  props = std::move(last.props);
   ledger = last.ledger;
   materials = std::move(last.materials);
   settings = std::move(last.settings);
@@ -180,6 +208,7 @@ std::shared_ptr<TickDelta> ReplaySource::State::unchanged() const {
   auto delta = std::make_shared<TickDelta>();
   delta->tick = tick;
   for (const auto& [id, volume] : pieces) delta->pieces.push_back({id, poses.at(id)});
+  tell_props(*delta);
   delta->ledger = ledger;
   if (materials) delta->materials = *materials;
   delta->field_hash = field.hash();
@@ -194,6 +223,7 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
       delta->bricks.push_back(published_brick(field, coord));
   std::ranges::sort(delta->bricks, {}, &BrickState::coord);
   for (const auto& [id, volume] : pieces) delta->spawned.push_back({id, volume});
+  for (const auto& [id, one] : props) delta->props_spawned.push_back({id, one.prop});
   delta->settings = settings;
   delta->spawn = spawn();
   return delta;

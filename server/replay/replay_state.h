@@ -12,6 +12,7 @@
 #include "server/replay/event_marks.h"
 #include "server/replay/recorded_cursors.h"
 #include "server/replay/replay_source.h"
+#include "server/world/published_state.h"
 #include "server/world/spawn_place.h"
 #include "shared/operation/operation.h"
 
@@ -22,6 +23,7 @@ struct PlayedTick {
   BricksBefore bricks;
   PieceTable pieces;
   std::map<PieceId, QuantisedPose> poses;
+  std::map<PieceId, PublishedProp> props;
   Ledger ledger;
   std::optional<MaterialLedger> materials;
   SettingValues settings;
@@ -51,6 +53,7 @@ struct ReplaySource::State {
   MapField field;
   PieceTable pieces;
   std::map<PieceId, QuantisedPose> poses;
+  std::map<PieceId, PublishedProp> props;
   Ledger ledger;
   std::optional<MaterialLedger> materials;  ///< nothing: a keyframe keeps none
   SettingValues settings;
@@ -73,6 +76,8 @@ struct ReplaySource::State {
   Result<void> restore(KeyframeParts parts, BricksBefore& before);
   Result<void> apply_operation(const Operation& operation, TickDelta& delta, std::set<BrickCoord>& changed,
                                BricksBefore* before);
+  Result<void> change_props(const RecordedFrame& frame, TickDelta& delta);
+  void tell_props(TickDelta& delta) const;
   Result<void> place_pieces(const RecordedFrame& frame, TickDelta& delta);
   Result<void> check_hash(uint64_t recorded) const;
   tl::unexpected<Error> damaged(const std::string& what) const;

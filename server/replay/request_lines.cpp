@@ -41,7 +41,23 @@ Asked asked_by(const Request& request, const Palette& palette) {
                      asked.text += (asked.text.empty() ? "" : " ") + setting.name + "=" + setting.value;
                    return asked;
                  },
-                 [](const LeaveRequest&) { return Asked{}; }},
+                 [](const LeaveRequest&) { return Asked{}; },
+                 [](const AddPropRequest& add) {
+                   return Asked{
+                       "add_prop", {}, fmt::format("{} parts, tag {}", add.prop.parts.size(), add.prop.tag)};
+                 },
+                 [](const RemovePropRequest& remove) {
+                   return Asked{"remove_prop", {}, fmt::format("prop {}", remove.prop)};
+                 },
+                 [](const MovePropRequest& move) {
+                   return Asked{"move_prop", {}, fmt::format("prop {}", move.prop)};
+                 },
+                 [](const PushRequest& push) {
+                   return Asked{"push", {}, fmt::format("body {}", push.body)};
+                 },
+                 [](const BreakRequest& broken) {
+                   return Asked{"break", {}, fmt::format("piece {}", broken.piece)};
+                 }},
       request);
 }
 

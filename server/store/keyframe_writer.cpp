@@ -98,7 +98,7 @@ void KeyframeWriter::begin(const TickDelta& keyframe, PublishedState& state, Rea
 bool KeyframeWriter::is_due(const PublishedState& state) const {
   if (state.tick() % limits::ticks_per_idle_keyframe == 0) return true;
   if (state.tick() % limits::ticks_per_keyframe != 0) return false;
-  return !changed_.empty() || !state.pieces().empty() || !pieces_.empty();
+  return !changed_.empty() || !state.pieces().empty() || !pieces_.empty() || !state.props().empty();
 }
 
 Result<std::vector<BrickPatch>> KeyframeWriter::read_whole(const PublishedChunk& published,
@@ -152,6 +152,7 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
     keyframe.poses.push_back({id, piece.pose});
   }
   pieces_ = std::move(alive);
+  for (const auto& [id, prop] : state.props()) keyframe.props.push_back({id, *prop.prop, prop.pose});
   keyframe.tick = state.tick();
   keyframe.ledger = state.ledger();
   keyframe.materials = state.materials();

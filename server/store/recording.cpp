@@ -1,5 +1,7 @@
 #include "server/store/recording.h"
 
+#include <algorithm>
+
 #include "shared/base/check.h"
 
 namespace scree {
@@ -17,6 +19,36 @@ Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
   return RecordingHeader{header.program, std::move(world), burst == 0 ? merge_burst_ticks : burst};
 }
 
+namespace {
+
+/// Enters the props that were added and that still are there, where others went, and which are gone.
+void add_props(RecordedFrame& frame, const TickDelta& delta, const PublishedState& before) {
+  auto known = before.props().begin();
+  for (const PieceState& prop : delta.props) {
+    while (known != before.props().end() && known->first < prop.id)
+      frame.props_gone.push_back((known++)->first);
+    if (known == before.props().end() || known->first != prop.id) {
+      const auto made = std::ranges::lower_bound(delta.props_spawned, prop.id, {}, &SpawnedProp::id);
+      CHECK(made != delta.props_spawned.end() && made->id == prop.id);
+      frame.props.push_back({prop.id, *made->prop, prop.pose});
+      continue;
+    }
+    if (known->second.pose != prop.pose) frame.moved.push_back(prop);
+    ++known;
+  }
+  for (; known != before.props().end(); ++known) frame.props_gone.push_back(known->first);
+}
+
+std::vector<PropMessage> props_of(const TickDelta& keyframe) {
+  CHECK_EQ(keyframe.props_spawned.size(), keyframe.props.size());
+  std::vector<PropMessage> props;
+  for (size_t i = 0; i < keyframe.props.size(); ++i)
+    props.push_back({keyframe.props[i].id, *keyframe.props_spawned[i].prop, keyframe.props[i].pose});
+  return props;
+}
+
+}  // namespace
+
 RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) {
   CHECK_EQ(delta.tick, before.tick() + 1);
   RecordedFrame frame;
@@ -26,6 +58,8 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
     const auto known = before.pieces().find(piece.id);
     if (known == before.pieces().end() || known->second.pose != piece.pose) frame.moved.push_back(piece);
   }
+  add_props(frame, delta, before);
+  std::ranges::sort(frame.moved, {}, &PieceState::id);
   frame.ledger = delta.ledger;
   frame.field_hash = delta.field_hash;
   frame.state_hash = delta.state_hash;
@@ -44,6 +78,7 @@ RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
     CHECK_DEBUG(delta.spawned[i].id == delta.pieces[i].id);
     keyframe.pieces.push_back({delta.spawned[i].id, *delta.spawned[i].volume, delta.pieces[i].pose});
   }
+  keyframe.props = props_of(delta);
   keyframe.ledger = delta.ledger;
   keyframe.materials = delta.materials;
   keyframe.field_hash = delta.field_hash;

@@ -73,6 +73,13 @@ inline constexpr float slide_reserve_share = 0.25F;
 /// Where the tick's budget never has that, a place is looked at every so many seconds.
 inline constexpr float slide_rest_s = 0.2F;
 
+/// A prop that is added or put elsewhere, and each of its parts; one that is pushed or taken away; and the
+/// voxels that a piece has that a request breaks, as a rule.
+inline constexpr float prop_cost_us = 60.0F;
+inline constexpr float prop_part_cost_us = 40.0F;
+inline constexpr float prop_touch_cost_us = 5.0F;
+inline constexpr float broken_voxels = 4096.0F;
+
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.
 inline constexpr float first_fracture_us = 4000.0F;

@@ -30,6 +30,16 @@ struct Pricing {
   float operator()(const PaintRequest& request) const { return edit_price_us(request.shape, field); }
   float operator()(const SettingsRequest&) const { return 0.0F; }
   float operator()(const LeaveRequest&) const { return 0.0F; }
+  float operator()(const AddPropRequest& request) const {
+    return limits::prop_cost_us + limits::prop_part_cost_us * static_cast<float>(request.prop.parts.size());
+  }
+  float operator()(const RemovePropRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const MovePropRequest&) const { return limits::prop_cost_us; }
+  float operator()(const PushRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const BreakRequest& request) const {
+    CHECK(request.seeds <= limits::seeds_max);
+    return cut_price_us(cutter, limits::broken_voxels, request.seeds);
+  }
 };
 
 }  // namespace

@@ -50,7 +50,9 @@ bool lies_within(const World::State& state, PieceId id, const InRock& in_rock) {
 std::vector<PieceId> pieces_near(const World::State& state, const VoxelBox& bounds) {
   const float dx = state.config.terrain.voxel_size_m;
   const auto position_m = [&](VoxelCoord v) { return glm::vec3(v.x, v.y, v.z) * dx; };
-  return state.bodies.near(position_m(bounds.lo), position_m(bounds.hi));
+  std::vector<PieceId> near = state.bodies.near(position_m(bounds.lo), position_m(bounds.hi));
+  if (!state.props.empty()) std::erase_if(near, [&](PieceId id) { return state.props.contains(id); });
+  return near;
 }
 
 /// Places whose voxel has at most that code.

@@ -77,6 +77,7 @@ void lessen(std::vector<Blow>& blows, const std::map<PieceId, float>& borne) {
 std::vector<Blow> blows_of(const World::State& state) {
   std::vector<Blow> blows;
   for (const BodyImpact& impact : state.bodies.impacts(limits::impact_speed_min_m_s)) {
+    if (state.props.contains(impact.id)) continue;  // a prop never breaks
     const float centre_m_s = impact.impulse_n_s / state.bodies.mass_kg(impact.id);
     const float speed_m_s = std::sqrt(centre_m_s * impact.give_m_s);
     blows.push_back({impact, centre_m_s, speed_m_s, speed_m_s / strength_m_s(state, impact)});

@@ -11,6 +11,17 @@ namespace scree::limits {
 inline constexpr uint32_t pieces_max_min = 1;
 inline constexpr uint32_t pieces_max_max = 20000;
 
+/// Props that a world may be asked for. Above, no machine of today keeps the tick. Refused where a world is
+/// created.
+inline constexpr uint32_t props_max_max = 10000;
+
+/// Place of a push from the body's bounding sphere, metres: clients see where a body was some ticks ago.
+/// Beyond: refused.
+inline constexpr float push_slack_m = 4.0F;
+
+/// The greatest impulse of a push, newton seconds: of the heaviest prop at 100 m/s. Above: refused.
+inline constexpr float push_impulse_max_n_s = 1e9F;
+
 /// Memory that a world may be asked to keep to, megabytes: below, hardly more than the program fits. Above:
 /// as good as no limit. Refused where a world is created.
 inline constexpr uint32_t memory_max_min_mb = 256;

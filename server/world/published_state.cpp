@@ -100,6 +100,7 @@ void PublishedState::apply(const TickDelta& delta) {
   }
   CHECK(alive.size() == delta.pieces.size());
   pieces_ = std::move(alive);
+  apply_props(delta);
   pieces_made_ += delta.spawned.size();
   for (const AppliedOperation& applied : delta.operations)
     pieces_merged_ += pieces_merged_by(applied.operation);
@@ -110,6 +111,18 @@ void PublishedState::apply(const TickDelta& delta) {
   field_hash_ = delta.field_hash;
   state_hash_ = delta.state_hash;
   CHECK_DEBUG(field_hash_ == sum_of_chunks());
+}
+
+void PublishedState::apply_props(const TickDelta& delta) {
+  for (const SpawnedProp& one : delta.props_spawned) props_[one.id].prop = one.prop;
+  auto there = props_.begin();
+  for (const PieceState& prop : delta.props) {
+    while (there != props_.end() && there->first < prop.id) there = props_.erase(there);
+    CHECK(there != props_.end() && there->first == prop.id);
+    there->second.pose = prop.pose;
+    ++there;
+  }
+  props_.erase(there, props_.end());
 }
 
 void PublishedState::revert(BrickCoord coord) {
@@ -157,6 +170,10 @@ TickDelta PublishedState::without_bricks() const {
   for (const auto& [id, piece] : pieces_) {
     delta.spawned.push_back({id, piece.volume});
     delta.pieces.push_back({id, piece.pose});
+  }
+  for (const auto& [id, one] : props_) {
+    delta.props_spawned.push_back({id, one.prop});
+    delta.props.push_back({id, one.pose});
   }
   delta.ledger = ledger_;
   delta.materials = materials_;

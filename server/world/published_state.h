@@ -52,6 +52,11 @@ struct PublishedPiece {
   QuantisedPose pose;
 };
 
+struct PublishedProp {
+  std::shared_ptr<const Prop> prop;
+  QuantisedPose pose;
+};
+
 class PublishedState {
  public:
   /// Applies the next tick. The first may have any number, as a keyframe; then there is no gap.
@@ -77,6 +82,7 @@ class PublishedState {
   Tick tick() const { return tick_; }
   const std::unordered_map<ChunkCoord, PublishedChunk, CoordHash>& chunks() const { return chunks_; }
   const std::map<PieceId, PublishedPiece>& pieces() const { return pieces_; }
+  const std::map<PieceId, PublishedProp>& props() const { return props_; }
   const Ledger& ledger() const { return ledger_; }
   const MaterialLedger& materials() const { return materials_; }
   const SettingValues& settings() const { return settings_; }
@@ -99,12 +105,14 @@ class PublishedState {
   uint64_t sum_of_chunks() const;
 
   void apply_terrain(const TickDelta& delta);
+  void apply_props(const TickDelta& delta);
 
   Tick tick_ = 0;
   std::unordered_map<ChunkCoord, PublishedChunk, CoordHash> chunks_;
   std::unordered_set<ChunkCoord, CoordHash> in_;
   size_t bricks_in_ = 0;
   std::map<PieceId, PublishedPiece> pieces_;
+  std::map<PieceId, PublishedProp> props_;
   Ledger ledger_;
   MaterialLedger materials_;
   SettingValues settings_;

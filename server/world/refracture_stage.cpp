@@ -96,27 +96,15 @@ void share_out(World::State& state, const Applied& applied, const PendingRefract
 
 void refracture_piece(World::State& state, const PendingRefracture& pending, ShatterOperation operation,
                       TickDelta& delta) {
-  const BodyState body = state.bodies.state(pending.piece);
-  const PieceTraits traits = state.traits_of(pending.piece);
-  const glm::vec3 centre_voxels = state.pieces.at(pending.piece)->centre_voxels;
-  state.bodies.remove(pending.piece);
-  const Applied applied = state.apply_and_record(operation, pending.party, delta);
-  CHECK_EQ(applied.terrain_gain, 0);
-  state.ledger.pieces -= applied.dust;
-  state.ledger.dust += applied.dust;
-  const float dx = state.config.terrain.voxel_size_m;
   std::optional<Blast> blast;
-  if (pending.thrown_by != nullptr) blast.emplace(state, *pending.thrown_by);
-  const auto born = [&](PieceId id, const Volume& volume) {
-    Newborn part{part_of(body, (volume.centre_voxels - centre_voxels) * dx), traits};
-    if (blast) {
-      const BodyState flight = blast->thrown(id, part.body.pose.position_m);
-      part.body.velocity_m_s += flight.velocity_m_s;
-      part.body.spin_rad_s += flight.spin_rad_s;
-    }
-    return part;
+  const auto throw_part = [&](PieceId id, BodyState& part) {
+    if (pending.thrown_by == nullptr) return;
+    if (!blast) blast.emplace(state, *pending.thrown_by);
+    const BodyState flight = blast->thrown(id, part.pose.position_m);
+    part.velocity_m_s += flight.velocity_m_s;
+    part.spin_rad_s += flight.spin_rad_s;
   };
-  spawn(state, applied, born, delta);
+  const Applied applied = shatter_piece(state, operation, throw_part, delta);
   if (!is_cut_on(operation.pattern)) share_out(state, applied, pending);  // else it is what it shall be
 }
 

@@ -13,6 +13,7 @@
 #include "server/world/fill_joints.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
+#include "server/world/prop_requests.h"
 #include "server/world/refracture_stage.h"
 #include "server/world/settings.h"
 #include "server/world/spawn.h"
@@ -25,9 +26,9 @@ namespace scree {
 
 namespace {
 
-/// How many pieces a request made.
+/// How many pieces a request made, or as its answer says (answer()).
 using Outcome = tl::expected<uint32_t, Refused>;
-using Checked = tl::expected<void, Refused>;
+using Checked = CheckedRequest;
 
 void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, uint64_t party,
                TickDelta& delta) {
@@ -161,6 +162,7 @@ struct Checking {
     return {};
   }
   Checked operator()(const LeaveRequest&) const { return {}; }
+  Checked operator()(const auto& of_bodies) const { return check(state, of_bodies); }
 };
 
 CarveRequest at_rest(CarveRequest request) {
@@ -249,6 +251,7 @@ struct Executing {
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, party, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
   Outcome operator()(const LeaveRequest&) const { return 0U; }  // enqueue_commands() has done it
+  Outcome operator()(const auto& of_bodies) const { return perform(state, of_bodies, party, delta); }
 };
 
 /// The pieces that a request may make, if it is a carve.
@@ -299,6 +302,8 @@ void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
   Reply reply{command.session, command.request, {}, 0};
   if (outcome && std::holds_alternative<PaintRequest>(command.body)) {
     reply.painted = *outcome;
+  } else if (outcome && std::holds_alternative<AddPropRequest>(command.body)) {
+    reply.prop = *outcome;
   } else if (outcome) {
     reply.pieces = *outcome;
   } else {
@@ -324,11 +329,7 @@ Outcome execute(World::State& state, const Command& command, const PieceGrant& g
 
 /// Whether terrain may fall because of it.
 bool may_loosen(const Request& request) {
-  return std::visit(
-      Overloaded{[](const CarveRequest&) { return true; }, [](const FillRequest&) { return true; },
-                 [](const PaintRequest&) { return false; }, [](const SettingsRequest&) { return false; },
-                 [](const LeaveRequest&) { return false; }},
-      request);
+  return std::holds_alternative<CarveRequest>(request) || std::holds_alternative<FillRequest>(request);
 }
 
 Checked enqueue(World::State& state, const Command& command) {

@@ -116,6 +116,8 @@ constexpr std::array table{
     machine_limit<&WorldConfig::pieces_max>("pieces-max", "pieces alive at once; further carves are refused",
                                             {limits::pieces_max_min, limits::pieces_max_max, "pieces"},
                                             few_pieces),
+    machine_limit<&WorldConfig::props_max>("props-max", "props there at once; further ones are refused",
+                                           {0, limits::props_max_max, "props"}),
     machine_limit<&WorldConfig::memory_max_mb>(
         "memory-max", "memory of the terrain and the program; further edits are refused",
         {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}),
@@ -140,7 +142,7 @@ constexpr std::array table{
 /// Each member is bound by name: a new member that is not in the table does not compile. The terrain, the
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
-  const auto& [terrain, tick_rate_hz, pieces_max, memory_max_mb, merges_per_tick_max, work_percent,
+  const auto& [terrain, tick_rate_hz, pieces_max, props_max, memory_max_mb, merges_per_tick_max, work_percent,
                air_drag_percent, methods, service, spawn, ground, rules, palette, material_numbers] = world;
   static_cast<void>(ground);  // names the terrain's
   static_cast<void>(rules);   // fixed from the start, as these three
@@ -151,9 +153,9 @@ constexpr std::array table{
   const auto& [sessions_max, requests_per_second, reach_m] = service;
   constexpr size_t fixed = 3;
   const std::array config{static_cast<double>(terrain.voxel_size_m), static_cast<double>(tick_rate_hz),
-                          static_cast<double>(pieces_max),           static_cast<double>(memory_max_mb),
-                          static_cast<double>(merges_per_tick_max),  static_cast<double>(work_percent),
-                          static_cast<double>(air_drag_percent)};
+                          static_cast<double>(pieces_max),           static_cast<double>(props_max),
+                          static_cast<double>(memory_max_mb),        static_cast<double>(merges_per_tick_max),
+                          static_cast<double>(work_percent),         static_cast<double>(air_drag_percent)};
   const std::array choices{
       static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
       static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),

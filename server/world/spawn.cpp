@@ -91,6 +91,26 @@ void spawn(World::State& state, const Applied& applied,
   state.stopwatch.switch_to(outer, delta.times);
 }
 
+Applied shatter_piece(World::State& state, const ShatterOperation& operation, const SetsOut& sets_out,
+                      TickDelta& delta) {
+  const BodyState body = state.bodies.state(operation.piece);
+  const PieceTraits traits = state.traits_of(operation.piece);
+  const glm::vec3 centre_voxels = state.pieces.at(operation.piece)->centre_voxels;
+  state.bodies.remove(operation.piece);
+  Applied applied = state.apply_and_record(operation, traits.owner, delta);
+  CHECK_EQ(applied.terrain_gain, 0);
+  state.ledger.pieces -= applied.dust;
+  state.ledger.dust += applied.dust;
+  const float dx = state.config.terrain.voxel_size_m;
+  const auto born = [&](PieceId id, const Volume& volume) {
+    Newborn part{part_of(body, (volume.centre_voxels - centre_voxels) * dx), traits};
+    if (sets_out) sets_out(id, part.body);
+    return part;
+  };
+  spawn(state, applied, born, delta);
+  return applied;
+}
+
 float mass_kg(const World::State& state, const Volume& volume) {
   const float dx = state.config.terrain.voxel_size_m;
   float kg = 0.0F;

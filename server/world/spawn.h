@@ -24,6 +24,14 @@ BodyState part_of(const BodyState& body, glm::vec3 offset_m);
 void spawn(World::State& state, const Applied& applied,
            const std::function<Newborn(PieceId, const Volume&)>& born, TickDelta& delta);
 
+/// Changes how a part of a piece that broke sets out.
+using SetsOut = std::function<void(PieceId, BodyState&)>;
+
+/// Breaks a living piece by a valid operation. Its parts go on as it moved, and as its own; `sets_out` may be
+/// empty.
+Applied shatter_piece(World::State& state, const ShatterOperation& operation, const SetsOut& sets_out,
+                      TickDelta& delta);
+
 /// By its materials, as the palette stands.
 float mass_kg(const World::State& state, const Volume& volume);
 

@@ -2,6 +2,7 @@
 
 #define XXH_INLINE_ALL
 #include <array>
+#include <vector>
 #include <xxhash.h>
 
 namespace scree {
@@ -17,7 +18,34 @@ uint64_t state_hash(const HashedState& state) {
                                          static_cast<uint64_t>(ledger.dust),
                                          static_cast<uint64_t>(ledger.poured),
                                          static_cast<uint64_t>(ledger.moved)};
-  return XXH3_64bits(words.data(), sizeof(words));
+  const uint64_t hash = XXH3_64bits(words.data(), sizeof(words));
+  return state.props == 0 ? hash : XXH3_64bits_withSeed(&state.props, sizeof state.props, hash);
+}
+
+uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner) {
+  std::vector<uint8_t> bytes;
+  const auto put = [&](const auto& value) {
+    const auto* const first = reinterpret_cast<const uint8_t*>(&value);
+    bytes.insert(bytes.end(), first, first + sizeof value);
+  };
+  put(id);
+  put(owner);
+  for (const PropPart& part : prop.parts) {
+    put(part.kind);
+    for (const glm::vec3& v : {part.place_m, part.half_m}) put(v);
+    for (const float number : {part.turn.w, part.turn.x, part.turn.y, part.turn.z}) put(number);
+    for (const glm::vec3& corner : part.corners_m) put(corner);
+  }
+  put(prop.motion);
+  for (const float number :
+       {prop.mass_kg, prop.friction, prop.restitution, prop.drag, prop.spin_drag, prop.gravity})
+    put(number);
+  for (const uint32_t bits : {prop.groups, prop.meets}) put(bits);
+  put(prop.material);
+  put(prop.tag);
+  if (prop.model) put(*prop.model);
+  bytes.insert(bytes.end(), prop.data.begin(), prop.data.end());
+  return XXH3_64bits(bytes.data(), bytes.size());
 }
 
 }  // namespace scree

@@ -53,6 +53,11 @@ struct SpawnedPiece {
   std::shared_ptr<const Volume> volume;
 };
 
+struct SpawnedProp {
+  PieceId id = 0;
+  std::shared_ptr<const Prop> prop;
+};
+
 struct TickDelta {
   Tick tick = 0;
   std::vector<AppliedOperation> operations;  ///< in the order in which they were applied
@@ -61,8 +66,10 @@ struct TickDelta {
   /// Every chunk that the tick changed; in a keyframe also those whose bricks are in no memory, and not among
   /// `bricks`. Empty: all chunks are in memory, and their hashes follow from `bricks`.
   std::vector<ChunkState> chunks;
-  std::vector<SpawnedPiece> spawned;  ///< pieces made in this tick, ordered; some may be gone again
-  std::vector<PieceState> pieces;     ///< every piece alive after the tick, ordered by id
+  std::vector<SpawnedPiece> spawned;       ///< pieces made in this tick, ordered; some may be gone again
+  std::vector<PieceState> pieces;          ///< every piece alive after the tick, ordered by id
+  std::vector<SpawnedProp> props_spawned;  ///< props added in this tick, ordered; some may be gone again
+  std::vector<PieceState> props;           ///< every prop there is after the tick, ordered by id
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
   uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay

@@ -27,6 +27,10 @@ void step_bodies(World::State& state, TickDelta& delta) {
   state.work.stepped(state.bodies);
 
   for (const PieceId id : state.bodies.beyond(world_half_m)) {
+    if (state.props.contains(id)) {
+      state.remove_prop(id);
+      continue;
+    }
     const Applied applied = state.apply_and_record(DiscardOperation{id}, state.traits_of(id).owner, delta);
     state.bodies.remove(id);
     state.ledger.pieces -= applied.dust;
@@ -40,7 +44,8 @@ bool is_ordered(const TickDelta& delta) {
     return std::ranges::adjacent_find(list, std::ranges::greater_equal{}, key) == list.end();
   };
   return ascend(delta.bricks, &BrickState::coord) && ascend(delta.pieces, &PieceState::id) &&
-         ascend(delta.spawned, &SpawnedPiece::id);
+         ascend(delta.spawned, &SpawnedPiece::id) && ascend(delta.props, &PieceState::id) &&
+         ascend(delta.props_spawned, &SpawnedProp::id);
 }
 
 /// Enters the bodies' hulls and contacts, and the searches for islands, for display.
@@ -60,13 +65,14 @@ void publish(World::State& state, TickDelta& delta) {
     for (const ChunkCoord chunk : chunks) delta.chunks.push_back(state.chunk_state(chunk));
   }
   state.changed.clear();
-  for (const BodyState& body : state.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
+  publish_poses(state, delta);
   delta.ledger = state.ledger;
   delta.materials = state.materials;
   state.work.report(delta.work);
   delta.field_hash = state.field.hash();
   delta.state_hash = state.hash();
   CHECK_EQ(delta.pieces.size(), state.pieces.size());
+  CHECK_EQ(delta.props.size(), state.props.size());
   CHECK_DEBUG(is_ordered(delta));
   if (state.wants_physics && state.tick % ticks_per_physics == 0) describe_physics(state, delta);
   state.check();

@@ -37,8 +37,8 @@ class Restoring {
   Result<void> run() {
     using Step = Result<void> (Restoring::*)();
     for (const Step step :
-         {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::bodies, &Restoring::ledger,
-          &Restoring::places, &Restoring::waiting, &Restoring::refractures})
+         {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::props, &Restoring::bodies,
+          &Restoring::ledger, &Restoring::places, &Restoring::waiting, &Restoring::refractures})
       TRY((this->*step)());
     s_.rest.restore(m_.rest);
     s_.islands.restore(m_.islands);
@@ -113,14 +113,15 @@ class Restoring {
   }
 
   Result<void> pieces() {
-    if (m_.pieces.size() != m_.motion.bodies.size() || m_.pieces.size() > limits::pieces_max_max)
-      return fail("it has " + std::to_string(m_.pieces.size()) + " pieces and " +
-                  std::to_string(m_.motion.bodies.size()) + " bodies; a world has at most " +
-                  std::to_string(limits::pieces_max_max) + " of each (limits.pieces_max_max)");
-    for (size_t i = 0; i < m_.pieces.size(); ++i) {
-      const PieceRecord& piece = m_.pieces[i];
-      if (piece.id != m_.motion.bodies[i].id || piece.id == 0 || piece.id >= m_.next_piece)
-        return fail("piece " + std::to_string(piece.id) + " has no body, or is none yet");
+    if (m_.pieces.size() + m_.props.size() != m_.motion.bodies.size() ||
+        m_.pieces.size() > limits::pieces_max_max)
+      return fail("it has " + std::to_string(m_.pieces.size()) + " pieces, " +
+                  std::to_string(m_.props.size()) + " props and " + std::to_string(m_.motion.bodies.size()) +
+                  " bodies; a world has at most " + std::to_string(limits::pieces_max_max) +
+                  " pieces (limits.pieces_max_max)");
+    for (const PieceRecord& piece : m_.pieces) {
+      if (piece.id == 0 || piece.id >= m_.next_piece)
+        return fail("piece " + std::to_string(piece.id) + " is none yet");
       const auto within = [&](const std::vector<glm::vec3>& points) { return is_within(piece, points); };
       const BodyShape& shape = *piece.shape;
       if (!within(shape.hull_m) || !within(shape.surface_m) || !std::ranges::all_of(shape.parts_m, within))
@@ -133,9 +134,34 @@ class Restoring {
     return {};
   }
 
+  Result<void> props() {
+    if (m_.props.size() > limits::props_max_max)
+      return fail("it has " + std::to_string(m_.props.size()) + " props; a world has at most " +
+                  std::to_string(limits::props_max_max) + " (limits.props_max_max)");
+    for (const PropRecord& record : m_.props) {
+      const std::string which = "prop " + std::to_string(record.id);
+      if (record.id == 0 || record.id >= m_.next_piece || s_.pieces.contains(record.id) ||
+          s_.props.contains(record.id))
+        return fail(which + " is none yet, or comes twice");
+      if (const Result<void> valid = validate(*record.prop); !valid)
+        return fail(which + ": " + valid.error().message);
+      if (!(record.prop->mass_kg > 0.0F) || !s_.palette->has(record.prop->material))
+        return fail(which + " has no mass, or is of no material that the palette has");
+      shapes_of_props_[record.id] =
+          std::make_shared<const BodyShape>(s_.enter_prop(record.id, record.prop, record.owner));
+    }
+    return {};
+  }
+
   Result<void> bodies() {
+    std::map<PieceId, std::shared_ptr<const BodyShape>> by_id = shapes_of_props_;
+    for (const PieceRecord& piece : m_.pieces) by_id[piece.id] = piece.shape;
     std::vector<std::shared_ptr<const BodyShape>> shapes;
-    for (const PieceRecord& piece : m_.pieces) shapes.push_back(piece.shape);
+    for (const BodyMotion& motion : m_.motion.bodies) {
+      const auto found = by_id.find(motion.id);
+      if (found == by_id.end()) return fail("a body is of no piece and of no prop");
+      shapes.push_back(found->second);
+    }
     for (const VoxelBox& box : m_.motion.changes)
       if (!is_sane(box)) return fail("terrain changed outside the world");
     return s_.bodies.restore(shapes, m_.motion);
@@ -248,6 +274,7 @@ class Restoring {
   const GroundMasses& ground_;
   const PagedTerrain* const paged_;  ///< null: all terrain is in the value
   const bool measure_;
+  std::map<PieceId, std::shared_ptr<const BodyShape>> shapes_of_props_;
 };
 
 Result<std::unique_ptr<World::State>> state_of(const WorldSnapshot& value, size_t threads,
@@ -298,7 +325,16 @@ Result<std::unique_ptr<World>> World::salvaged(WorldSnapshot value, const PagedT
     pieces.push_back(piece);
     bodies.push_back(*body);
   }
+  std::vector<PropRecord> props;
+  for (const PropRecord& prop : moment.props) {
+    const auto body = std::ranges::find(moment.motion.bodies, prop.id, &BodyMotion::id);
+    if (body == moment.motion.bodies.end()) continue;
+    props.push_back(prop);
+    bodies.push_back(*body);
+  }
+  std::ranges::sort(bodies, {}, &BodyMotion::id);
   moment.pieces = std::move(pieces);
+  moment.props = std::move(props);
   moment.motion.bodies = std::move(bodies);
   auto state = TRY(state_of(value, 1, ground, terrain, true));
   return std::unique_ptr<World>(new World(Made{}, std::move(state)));
@@ -352,7 +388,8 @@ TickDelta World::outline() {
   delta.tick = s.tick;
   for (const ChunkCoord chunk : s.field.edited_chunks()) delta.chunks.push_back(s.chunk_state(chunk));
   for (const auto& [id, volume] : s.pieces) delta.spawned.push_back({id, volume});
-  for (const BodyState& body : s.bodies.states()) delta.pieces.push_back({body.id, quantise(body.pose)});
+  for (const auto& [id, one] : s.props) delta.props_spawned.push_back({id, one.prop});
+  publish_poses(s, delta);
   delta.ledger = s.ledger;
   delta.materials = s.materials;
   publish_settings(s, delta);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/bodies/prop_body.h"
 #include "server/work/limits.h"
 #include "server/work/memory.h"
 #include "server/world/applied_operation.h"
@@ -18,6 +19,9 @@
 namespace scree {
 
 namespace {
+
+/// Points by which a prop touches the terrain lie so far apart, about.
+constexpr float prop_points_voxels = 2.0F;
 
 BodiesConfig bodies_config(const WorldConfig& config, size_t threads) {
   BodiesConfig out;
@@ -61,6 +65,11 @@ Loose left_by(const Operation& operation) {
 }
 
 }  // namespace
+
+void publish_poses(const World::State& state, TickDelta& delta) {
+  for (const BodyState& body : state.bodies.states())
+    (state.props.contains(body.id) ? delta.props : delta.pieces).push_back({body.id, quantise(body.pose)});
+}
 
 Tick wait_for_room(const World::State& state, uint64_t party, float price_us, Tick rest) {
   const float left_us = state.work.left_us();
@@ -159,7 +168,24 @@ MassUnits World::State::mass_of_pieces() const {
 }
 
 uint64_t World::State::hash() const {
-  return state_hash({tick, field.hash(), bodies.state_hash(), next_piece, ledger});
+  uint64_t sum_of_props = 0;
+  for (const auto& [id, one] : props) sum_of_props += one.hash;
+  return state_hash({tick, field.hash(), bodies.state_hash(), next_piece, ledger, sum_of_props});
+}
+
+BodyShape World::State::enter_prop(PieceId id, std::shared_ptr<const Prop> prop, uint64_t owner) {
+  CHECK(prop != nullptr && prop->mass_kg > 0.0F);
+  BodyShape shape = body_shape_of(*prop, prop->mass_kg, prop_points_voxels * config.terrain.voxel_size_m);
+  const uint64_t hash = hash_of(id, *prop, owner);
+  const bool is_new = props.try_emplace(id, WorldProp{std::move(prop), owner, hash}).second;
+  CHECK(is_new && !pieces.contains(id));
+  return shape;
+}
+
+void World::State::remove_prop(PieceId id) {
+  const size_t removed = props.erase(id);
+  CHECK_EQ(removed, 1U);
+  bodies.remove(id);
 }
 
 BrickState World::State::brick_state(BrickCoord coord) {
@@ -196,9 +222,10 @@ MassUnits World::State::measure_terrain(const GroundMasses& ground) {
 void World::State::check() const {
   CHECK(ledger.error() == 0);
   CHECK(ledger.pieces >= 0 && ledger.dust >= 0 && ledger.poured >= 0 && ledger.moved >= 0);
-  CHECK_EQ(bodies.size(), pieces.size());
+  CHECK_EQ(bodies.size(), pieces.size() + props.size());
   CHECK_EQ(traits.size(), pieces.size());
   CHECK(pieces.empty() || pieces.rbegin()->first < next_piece);
+  CHECK(props.empty() || props.rbegin()->first < next_piece);
   CHECK(requests.size() <= limits::requests_waiting_max);
   CHECK(materials.agrees(ledger));
   CHECK_DEBUG(ledger.pieces == mass_of_pieces());

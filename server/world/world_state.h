@@ -4,8 +4,8 @@
 // change of the field goes through apply_and_record(), which keeps the delta, the bodies and the ledger's
 // terrain consistent with it.
 //
-// Invariants between stages: a piece has a volume in `pieces`, a body, and traits, or none of them; ids below
-// next_piece are used up; the ledger's sum is right.
+// Invariants between stages: a piece has a volume in `pieces`, a body, and traits, or none of them; a prop
+// has a body; ids below next_piece are used up; the ledger's sum is right.
 #pragma once
 
 #include <map>
@@ -55,6 +55,13 @@ struct StageTurns {
   TurnQueue<WaitingWork> blows, supports, slides;
 };
 
+/// A prop, with what it weighs, and the party that added it (command.h).
+struct WorldProp {
+  std::shared_ptr<const Prop> prop;
+  uint64_t owner = 0;
+  uint64_t hash = 0;  ///< of the prop, its id and its owner (state_hash.h)
+};
+
 struct World::State {
   State(const WorldConfig& world_config, size_t threads);
 
@@ -71,6 +78,10 @@ struct World::State {
   /// Enters the mass that an operation took out of the terrain: in pieces, and the rest in dust.
   void enter_removed(const Applied& applied);
   PieceTraits traits_of(PieceId id) const;
+  /// Enters a valid prop, whose mass is known, without a body. Returns the shape that its body is to have.
+  BodyShape enter_prop(PieceId id, std::shared_ptr<const Prop> prop, uint64_t owner);
+  /// Takes a prop out, with its body.
+  void remove_prop(PieceId id);
   /// Checks the invariants between stages. O(1).
   void check() const;
   /// As published with each tick (state_hash.h).
@@ -87,7 +98,8 @@ struct World::State {
   std::shared_ptr<const Palette> palette;  ///< as it stands; never null
   VdbField field;
   PieceTable pieces;
-  Bodies bodies;                          ///< one for each of `pieces`
+  std::map<PieceId, WorldProp> props;     ///< ids are from the same numbers as pieces'
+  Bodies bodies;                          ///< one for each of `pieces` and of `props`
   std::map<PieceId, PieceTraits> traits;  ///< one for each of `pieces`
   RestDetector rest;
   Ledger ledger;
@@ -119,6 +131,9 @@ struct World::State {
   StageStopwatch stopwatch;      ///< of the tick's stages
   ThreadCheck thread;            ///< that of step()
 };
+
+/// Enters where pieces and props are in a tick's delta.
+void publish_poses(const World::State& state, TickDelta& delta);
 
 /// Whether bodies are a crowd, and the party has its part of them.
 inline bool is_crowding(const World::State& state, uint64_t party) {

@@ -7,11 +7,14 @@
 #include <variant>
 #include <vector>
 
+#include "shared/base/ids.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/setting_value.h"
+#include "shared/field/piece.h"
 #include "shared/field/shape.h"
 #include "shared/fracture/seed_pattern.h"
 #include "shared/material/material.h"
+#include "shared/prop/prop.h"
 
 namespace scree {
 
@@ -42,6 +45,54 @@ struct PaintRequest {
   bool operator==(const PaintRequest&) const = default;
 };
 
+/// Adds a prop to the world; the reply has its id.
+struct AddPropRequest {
+  Prop prop;
+  glm::vec3 place_m{0.0F};
+  glm::quat turn{1.0F, 0.0F, 0.0F, 0.0F};
+  glm::vec3 velocity_m_s{0.0F};  ///< of its origin
+  glm::vec3 spin_rad_s{0.0F};
+
+  bool operator==(const AddPropRequest&) const = default;
+};
+
+struct RemovePropRequest {
+  PieceId prop = 0;
+
+  bool operator==(const RemovePropRequest&) const = default;
+};
+
+/// Puts a prop elsewhere, or changes how it moves; what is left out stays. A kinematic one goes on as it was
+/// told; a fixed one can only be put elsewhere.
+struct MovePropRequest {
+  PieceId prop = 0;
+  std::optional<glm::vec3> place_m{};
+  std::optional<glm::quat> turn{};
+  std::optional<glm::vec3> velocity_m_s{};
+  std::optional<glm::vec3> spin_rad_s{};
+
+  bool operator==(const MovePropRequest&) const = default;
+};
+
+/// Gives a prop or a piece an impulse at a place in the world.
+struct PushRequest {
+  PieceId body = 0;
+  glm::vec3 impulse_n_s{0.0F};
+  glm::vec3 at_m{0.0F};
+
+  bool operator==(const PushRequest&) const = default;
+};
+
+/// Breaks a piece where it is, about a place in the world.
+struct BreakRequest {
+  PieceId piece = 0;
+  glm::vec3 at_m{0.0F};
+  uint32_t seeds = 8;
+  uint32_t random_seed = 0;
+
+  bool operator==(const BreakRequest&) const = default;
+};
+
 /// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
 struct SettingsRequest {
   SettingValues settings;
@@ -55,15 +106,23 @@ struct LeaveRequest {
   bool operator==(const LeaveRequest&) const = default;
 };
 
-using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest>;
+using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest,
+                             AddPropRequest, RemovePropRequest, MovePropRequest, PushRequest, BreakRequest>;
 
 /// The shape of a request that edits terrain; null: it edits none.
 inline const Shape* shape_of(const Request& request) {
   return std::visit(Overloaded{[](const CarveRequest& carve) { return &carve.shape; },
                                [](const FillRequest& fill) { return &fill.shape; },
                                [](const PaintRequest& paint) { return &paint.shape; },
-                               [](const SettingsRequest&) { return static_cast<const Shape*>(nullptr); },
-                               [](const LeaveRequest&) { return static_cast<const Shape*>(nullptr); }},
+                               [](const auto&) { return static_cast<const Shape*>(nullptr); }},
+                    request);
+}
+
+/// The place in the world at which a request acts on a body by reach; null: it does not.
+inline const glm::vec3* place_of(const Request& request) {
+  return std::visit(Overloaded{[](const PushRequest& push) { return &push.at_m; },
+                               [](const BreakRequest& broken) { return &broken.at_m; },
+                               [](const auto&) { return static_cast<const glm::vec3*>(nullptr); }},
                     request);
 }
 

@@ -1,0 +1,78 @@
+#include "server/bodies/prop_body.h"
+
+#include <algorithm>
+
+#include "server/bodies/body_shape.h"
+#include "server/bodies/limits.h"
+#include "shared/base/check.h"
+#include "shared/prop/limits.h"
+#include "shared/prop/prop_solid.h"
+
+namespace scree {
+
+namespace {
+
+/// Points along a capsule's tube, between its ends.
+void add_tube(const PropPart& part, const std::vector<glm::vec3>& outline, float spacing_m,
+              std::vector<glm::vec3>& to) {
+  const float length_m = 2.0F * part.half_m.y;
+  const auto rings = static_cast<int>(length_m / std::max(spacing_m, part.half_m.x));
+  const glm::vec3 along = part.turn * glm::vec3(0.0F, 1.0F, 0.0F);
+  for (int ring = 1; ring <= rings; ++ring)
+    for (const glm::vec3& p : outline) {
+      const glm::vec3 off = p - part.place_m;
+      const float height = glm::dot(off, along);
+      const float rim = height - part.half_m.y;  // of the upper end's widest circle
+      if (rim < -0.05F * part.half_m.x || rim > 0.05F * part.half_m.x) continue;
+      to.push_back(p - along * (length_m * static_cast<float>(ring) / static_cast<float>(rings + 1)));
+    }
+}
+
+/// The points of a part by which it touches the terrain.
+std::vector<glm::vec3> touching_points(const PropPart& part, float spacing_m) {
+  std::vector<glm::vec3> points = outline_of(part);
+  if (part.kind == PropPartKind::capsule) {
+    std::vector<glm::vec3> tube;
+    add_tube(part, points, spacing_m, tube);
+    points.insert(points.end(), tube.begin(), tube.end());
+  } else if (part.kind != PropPartKind::sphere) {
+    points = surface_points(points, spacing_m);
+  }
+  return points;
+}
+
+}  // namespace
+
+BodyShape body_shape_of(const Prop& prop, float density_kg_m3, float spacing_m) {
+  CHECK(validate(prop).has_value());
+  CHECK(density_kg_m3 > 0.0F && spacing_m > 0.0F);
+  const PropMeasure measure = measure_of(prop);
+  CHECK(measure.volume_m3 > 0.0F);
+  BodyShape shape;
+  shape.mass_kg = std::clamp(prop.mass_kg > 0.0F ? prop.mass_kg : density_kg_m3 * measure.volume_m3,
+                             limits::prop_mass_min_kg, limits::prop_mass_max_kg);
+  shape.inertia_kg_m2 = measure.inertia_m5 * (shape.mass_kg / measure.volume_m3);
+  shape.centre_m = measure.middle_m;
+  shape.friction = prop.friction;
+  shape.restitution = prop.restitution;
+  shape.nature = {prop.motion, prop.drag, prop.spin_drag, prop.gravity, prop.groups, prop.meets};
+  const auto from_mass = [&](std::vector<glm::vec3> points) {
+    for (glm::vec3& p : points) p -= shape.centre_m;
+    return points;
+  };
+  bool is_rounded = false;
+  for (const PropPart& part : prop.parts) {
+    const std::vector<glm::vec3> outline = from_mass(outline_of(part)),
+                                 touching = from_mass(touching_points(part, spacing_m));
+    shape.hull_m.insert(shape.hull_m.end(), outline.begin(), outline.end());
+    shape.surface_m.insert(shape.surface_m.end(), touching.begin(), touching.end());
+    RoundedHull hull = rounded_hull_of(part);
+    is_rounded = is_rounded || hull.radius_m > 0.0F;
+    shape.parts_m.push_back(from_mass(std::move(hull.points_m)));
+    shape.part_radii_m.push_back(hull.radius_m);
+  }
+  if (!is_rounded) shape.part_radii_m.clear();
+  return shape;
+}
+
+}  // namespace scree

@@ -1,0 +1,27 @@
+// What clients ask of props and of single bodies: props are added, moved and removed, bodies pushed, pieces
+// broken where they are. Refusals that no wait could mend are those of check().
+#pragma once
+
+#include "server/command/refusal.h"
+#include "server/world/world_state.h"
+#include "shared/operation/request.h"
+
+namespace scree {
+
+using CheckedRequest = tl::expected<void, Refused>;
+
+CheckedRequest check(const World::State& state, const AddPropRequest& request);
+CheckedRequest check(const World::State& state, const RemovePropRequest& request);
+CheckedRequest check(const World::State& state, const MovePropRequest& request);
+CheckedRequest check(const World::State& state, const PushRequest& request);
+CheckedRequest check(const World::State& state, const BreakRequest& request);
+
+/// Carries out a request that has passed check() now. Returns the id of the prop that was added, or into how
+/// many pieces one broke: 0 where it is too small, or where there is no room; else 0.
+uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta);
+uint32_t perform(World::State& state, const RemovePropRequest& request, uint64_t party, TickDelta& delta);
+uint32_t perform(World::State& state, const MovePropRequest& request, uint64_t party, TickDelta& delta);
+uint32_t perform(World::State& state, const PushRequest& request, uint64_t party, TickDelta& delta);
+uint32_t perform(World::State& state, const BreakRequest& request, uint64_t party, TickDelta& delta);
+
+}  // namespace scree
