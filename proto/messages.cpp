@@ -80,6 +80,16 @@ size_t bytes_of(const std::vector<BodyView>& bodies) {
 
 }  // namespace
 
+namespace {
+
+size_t bytes_of(const Prop& prop) {
+  size_t bytes = prop.data.size();
+  for (const PropPart& part : prop.parts) bytes += sizeof part + part.corners_m.size() * sizeof(glm::vec3);
+  return bytes;
+}
+
+}  // namespace
+
 size_t memory_bytes(const ServerMessage& message) {
   const size_t held =
       std::visit(Overloaded{
@@ -92,6 +102,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const ChunkMessage& m) { return bytes_of(m.bricks); },
                      [](const UnchangedChunksMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
                      [](const PieceMessage& m) { return bytes_of(m.volume); },
+                     [](const PropMessage& m) { return bytes_of(m.prop); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const TileMessage& m) { return m.bytes.size(); },
                      [](const ContentMessage& m) { return m.part.size(); },

@@ -16,7 +16,7 @@ static_assert(wire::PropMotion_ARRAYSIZE == kind_count<PropMotion>);
 
 constexpr glm::quat no_turn(1.0F, 0.0F, 0.0F, 0.0F);
 
-void write(wire::Turn& to, const glm::quat& from) {
+void write_turn(wire::Turn& to, const glm::quat& from) {
   to.set_x(from.x);
   to.set_y(from.y);
   to.set_z(from.z);
@@ -28,11 +28,11 @@ glm::quat read_turn(const wire::Turn& from, const char* what, FieldChecker& chec
           check.finite(from.z(), what)};
 }
 
-void write(wire::PropPart& to, const PropPart& from) {
+void write_part(wire::PropPart& to, const PropPart& from) {
   to.set_kind(static_cast<wire::PropPartKind>(from.kind));
-  if (from.place_m != glm::vec3(0.0F)) write(*to.mutable_place(), from.place_m);
-  if (from.turn != no_turn) write(*to.mutable_turn(), from.turn);
-  if (from.kind != PropPartKind::hull) write(*to.mutable_half(), from.half_m);
+  if (from.place_m != glm::vec3(0.0F)) scree::write(*to.mutable_place(), from.place_m);
+  if (from.turn != no_turn) write_turn(*to.mutable_turn(), from.turn);
+  if (from.kind != PropPartKind::hull) scree::write(*to.mutable_half(), from.half_m);
   to.set_corners(pack_points(from.corners_m));
 }
 
@@ -74,7 +74,7 @@ Prop read_prop(const wire::Prop& from, FieldChecker& check) {
 }  // namespace
 
 void write(wire::Prop& to, const Prop& from) {
-  for (const PropPart& part : from.parts) write(*to.add_parts(), part);
+  for (const PropPart& part : from.parts) write_part(*to.add_parts(), part);
   to.set_motion(static_cast<wire::PropMotion>(from.motion));
   to.set_mass_kg(from.mass_kg);
   const Prop usual;
@@ -94,8 +94,8 @@ void write(wire::Prop& to, const Prop& from) {
 void write(wire::AddProp& to, const AddPropMessage& from) {
   to.set_request(from.request);
   write(*to.mutable_prop(), from.prop);
-  write(*to.mutable_place(), from.place_m);
-  if (from.turn != no_turn) write(*to.mutable_turn(), from.turn);
+  scree::write(*to.mutable_place(), from.place_m);
+  if (from.turn != no_turn) write_turn(*to.mutable_turn(), from.turn);
   if (from.velocity_m_s != glm::vec3(0.0F)) write(*to.mutable_velocity_m_s(), from.velocity_m_s);
   if (from.spin_rad_s != glm::vec3(0.0F)) write(*to.mutable_spin_rad_s(), from.spin_rad_s);
 }
@@ -109,7 +109,7 @@ void write(wire::MoveProp& to, const MovePropMessage& from) {
   to.set_request(from.request);
   to.set_prop(from.prop);
   if (from.place_m) write(*to.mutable_place(), *from.place_m);
-  if (from.turn) write(*to.mutable_turn(), *from.turn);
+  if (from.turn) write_turn(*to.mutable_turn(), *from.turn);
   if (from.velocity_m_s) write(*to.mutable_velocity_m_s(), *from.velocity_m_s);
   if (from.spin_rad_s) write(*to.mutable_spin_rad_s(), *from.spin_rad_s);
 }

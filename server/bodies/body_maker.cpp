@@ -42,11 +42,13 @@ glm::vec3 middle_of(const std::vector<glm::vec3>& points) {
 /// Makes the shapes that collide with other bodies.
 void add_hulls(const BodyShape& shape, Body& body) {
   body.hulls = std::make_unique<CollisionHulls>();
+  body.hulls->meets_by_faces = !shape.nature.is_piece();
+  const float gap_m = shape.nature.is_piece() ? limits::birth_gap_m : 0.0F;
   for (size_t i = 0; i < shape.parts_m.size(); ++i) {
     const std::vector<glm::vec3>& part = shape.parts_m[i];
     const float radius_m = shape.part_radii_m.empty() ? 0.0F : shape.part_radii_m[i];
     body.parts.push_back(radius_m > 0.0F ? make_rounded_shape(part, radius_m)
-                                         : make_convex_shape(part, middle_of(part)));
+                                         : make_convex_shape(part, middle_of(part), gap_m));
     body.hulls->add(*body.parts.back());
   }
   if (body.parts.empty()) body.hulls->add(*body.shape);

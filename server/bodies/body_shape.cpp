@@ -109,12 +109,12 @@ float thickness_of(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m) {
   return thickness;
 }
 
-std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
-                                                     glm::vec3 middle_m) {
+std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m, glm::vec3 middle_m,
+                                                     float gap_m) {
   CHECK(hull_m.size() >= 4 && is_sound(middle_m));
   const float thickness = std::max(thickness_of(hull_m, middle_m), 0.01F);
   const float margin = std::clamp(0.1F * thickness, 0.005F, limits::margin_max_m);
-  const float scale = std::max(1.0F - (margin + limits::birth_gap_m) / thickness, 0.5F);
+  const float scale = std::max(1.0F - (margin + gap_m) / thickness, 0.5F);
   std::vector<glm::vec3> corners = hull_m;
   for (glm::vec3& corner : corners) corner = middle_m + (corner - middle_m) * scale;
   auto shape = std::make_unique<TightHull>(corners);

@@ -7,13 +7,16 @@
 #include <memory>
 #include <vector>
 
+#include "server/bodies/limits.h"
+
 namespace scree {
 
-/// The hull's corners, shrunk towards `middle_m` by Bullet's margin around a convex shape and by
-/// limits::birth_gap_m, so that neighbours do not overlap at birth. Collides with other pieces only. The hull
-/// has at least 4 corners, and `middle_m` lies inside it.
+/// The hull's corners, shrunk towards `middle_m` by Bullet's margin around a convex shape and by a gap, so
+/// that pieces do not overlap at birth. Collides with other bodies only. The hull has at least 4 corners, and
+/// `middle_m` lies inside it.
 std::unique_ptr<btConvexHullShape> make_convex_shape(const std::vector<glm::vec3>& hull_m,
-                                                     glm::vec3 middle_m = glm::vec3(0.0F));
+                                                     glm::vec3 middle_m = glm::vec3(0.0F),
+                                                     float gap_m = limits::birth_gap_m);
 
 /// The hull of these points, one at least, grown by a ball of that radius, which is positive. It is not
 /// shrunk.

@@ -15,6 +15,7 @@
 #include <new>
 
 #include "server/bodies/body_shape.h"
+#include "server/bodies/face_contacts.h"
 #include "server/bodies/limits.h"
 #include "server/bodies/to_bullet.h"
 #include "server/bodies/told_overlap.h"
@@ -194,6 +195,11 @@ bool HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, Contac
   CHECK_DEBUG(is_unit(found.normal) && is_sound(found.on_b));
   const btVector3 normal = to_bullet(found.normal), on_b = to_bullet(found.on_b);
   to.addContactPoint(normal, at_b.getOrigin() + on_b + normal * margin_b, found.distance_m - margins);
+  if (!hulls_of(meeting.object_a).meets_by_faces && !hulls_of(meeting.object_b).meets_by_faces) return false;
+  for (const FaceContact& more : face_contacts(a.corners, b.corners, meeting.a_from_b, found.normal))
+    if (more.distance_m < margins + limits::contact_slack_m)
+      to.addContactPoint(normal, at_b.getOrigin() + to_bullet(more.on_b) + normal * margin_b,
+                         more.distance_m - margins);
   return false;
 }
 

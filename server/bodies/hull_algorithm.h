@@ -44,7 +44,8 @@ class CollisionHulls {
   }
   float step_share() const { return step_share_; }
 
-  RollingLengths rolling;  ///< how contacts of the body resist rolling (rolling_rows.h)
+  bool meets_by_faces = false;  ///< face_contacts.h finds its contacts
+  RollingLengths rolling;       ///< how contacts of the body resist rolling (rolling_rows.h)
 
  private:
   std::vector<Part> parts_;

@@ -21,6 +21,7 @@ class HullCorners {
   /// At least one corner, at most 65,535.
   explicit HullCorners(const std::vector<glm::vec3>& corners);
 
+  size_t size() const { return own_.size(); }
   /// `rotation`: from the body's axes to the world's.
   void turn(const glm::mat3& rotation);
   /// The number of the corner farthest along a direction; the lowest of several.
