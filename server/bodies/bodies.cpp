@@ -276,15 +276,6 @@ float Bodies::reach_m(PieceId id) const {
   return found->second.reach_m;
 }
 
-float Bodies::shifted_m_s(PieceId id) const {
-  const auto found = state_->bodies.find(id);
-  CHECK(found != state_->bodies.end());
-  const Body& body = found->second;
-  if (body.frozen) return 0.0F;
-  const btVector3 shift = body.rigid->getWorldTransform().getOrigin() - body.last.getOrigin();
-  return shift.length() / state_->step_size.step_s;
-}
-
 int Bodies::steps_a_tick() const {
   return state_->steps_a_tick;
 }

@@ -148,9 +148,6 @@ class Bodies {
   /// Radius of the sphere about the centre of mass that holds the body's hull; metres. The body must be
   /// present.
   float reach_m(PieceId id) const;
-  /// How fast the last step moved its middle: by its speed, and by what undoes overlaps. Zero before a step.
-  /// The body must be present.
-  float shifted_m_s(PieceId id) const;
 
   /// Steps of the simulation in one tick: one up to limits::step_max_s, more in longer ticks.
   int steps_a_tick() const;

@@ -101,8 +101,7 @@ bool RestDetector::advance_timer(const RestPiece& piece, bool on_terrain, uint32
   const float leash_m = std::min(config_.leash_m + leash_growth_m_tick_ * impatient, config_.leash_max_m);
   const bool is_stuck = timer.age_ticks > stuck_ticks_;
   const float stuck_s = is_stuck ? static_cast<float>(timer.age_ticks - stuck_ticks_) * tick_s_ : 0.0F;
-  const float calm_m_s = config_.calm_m_s + config_.stuck_growth_m_s2 * stuck_s;
-  const bool is_calm = piece.speed_m_s <= calm_m_s;
+  const bool is_calm = piece.speed_m_s <= config_.calm_m_s + config_.stuck_growth_m_s2 * stuck_s;
   if (is_new || !(strayed_m(timer.anchor, piece.pose, piece.reach_m) <= leash_m)) {
     timer.anchor = piece.pose;
     timer.still_ticks = 0;
@@ -111,8 +110,7 @@ bool RestDetector::advance_timer(const RestPiece& piece, bool on_terrain, uint32
   } else {
     timer.still_ticks -= std::min(timer.still_ticks, 2U);
   }
-  return is_calm && piece.shifted_m_s <= calm_m_s && timer.still_ticks >= rest_ticks &&
-         (is_stuck || !gathers_speed(timer, piece));
+  return is_calm && timer.still_ticks >= rest_ticks && (is_stuck || !gathers_speed(timer, piece));
 }
 
 std::vector<PieceId> RestDetector::update(std::span<const RestPiece> pieces,

@@ -4,11 +4,10 @@
 // piece is at rest when, for long enough, no point of it has moved farther than a leash from its anchor.
 // Also, its energy is small for its mass, and it gathers no speed: it is not faster on its way from the
 // anchor than it was on average. So jitter about a place and what contacts push out of an overlap are rest.
-// What sets out, however slowly, is not: it is twice as fast as on average. A piece at rest that an overlap
-// is still pushing out waits until it is out: nobody is to see it stop in full motion. The leash grows with
-// the piece's age, and later the speed, so that every pile comes to rest. A piece at rest may merge when it
-// lies on terrain, or on a piece that merges before it in the same tick: from the ground up. Deterministic.
-// Not thread-safe. Metres and ticks.
+// What sets out, however slowly, is not: it is twice as fast as on average. The leash grows with the piece's
+// age, and later the speed, so that every pile comes to rest. A piece at rest may merge when it lies on
+// terrain, or on a piece that merges before it in the same tick: from the ground up. Deterministic. Not
+// thread-safe. Metres and ticks.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +26,7 @@ struct RestConfig {
   float rest_s =
       1.0F / 3.0F;  ///< at the top of its flight a piece falls 0.14 m in half of it, and leaves the leash
   float leash_m = 0.06F;           ///< a quarter of a default voxel: less than a merge rounds
-  float calm_m_s = 0.2F;           ///< greatest speed_m_s and shifted_m_s of a piece at rest
+  float calm_m_s = 0.2F;           ///< greatest RestPiece::speed_m_s of a piece at rest
   float gathers_m_s = 0.03F;       ///< a slower piece gathers no speed: contacts have so much noise
   float gathers_share = 1.3F;      ///< speed over that on average from which on a piece gathers speed
   float stuck_s = 4.0F;            ///< age from which on a piece is stuck: it shakes without an end
@@ -39,14 +38,13 @@ struct RestConfig {
 };
 
 /// A piece after the bodies' step. `reach_m`: radius about its centre of mass. `speed_m_s`: of its energy,
-/// the root of twice that over the mass. `shifted_m_s`: how fast the last step moved it, overlaps included.
+/// the root of twice that over the mass.
 struct RestPiece {
   PieceId id = 0;
   Pose pose;
   float reach_m = 0.0F;
   float speed_m_s = 0.0F;
   glm::vec3 velocity_m_s{0.0F};
-  float shifted_m_s = 0.0F;
 };
 
 /// `upper` lies on `lower`.

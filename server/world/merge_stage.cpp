@@ -90,12 +90,10 @@ float energy_speed_m_s(const BodyState& body, float reach_m) {
 
 void settle(World::State& state, TickDelta& delta) {
   const bool merging = merges(state.config.methods.recombine);
-  const bool waits_for_overlaps = merging && state.config.rules >= rules::calm;
   std::vector<RestPiece> alive;
   for (const BodyState& body : state.bodies.states())
     if (const float reach_m = state.bodies.reach_m(body.id); !body.frozen)
-      alive.push_back({body.id, body.pose, reach_m, energy_speed_m_s(body, reach_m), body.velocity_m_s,
-                       waits_for_overlaps ? state.bodies.shifted_m_s(body.id) : 0.0F});
+      alive.push_back({body.id, body.pose, reach_m, energy_speed_m_s(body, reach_m), body.velocity_m_s});
   const BodyContacts contacts = state.bodies.contacts();
   std::vector<RestSupport> supports;
   for (const Carried& carried : contacts.carried) supports.push_back({carried.upper, carried.lower});

@@ -28,10 +28,8 @@ inline constexpr uint32_t slides = 7;
 /// Also, a fill that lies exactly on a face of the terrain joins it, and what falls from a large island
 /// becomes terrain again when all of it has fallen. Posts that were cut off topple.
 inline constexpr uint32_t joints = 8;
-/// Also, a piece that an overlap pushes out becomes terrain when it is out.
-inline constexpr uint32_t calm = 9;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = calm;
+inline constexpr uint32_t newest = joints;
 }  // namespace rules
 
 }  // namespace scree
