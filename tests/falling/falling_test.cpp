@@ -248,7 +248,7 @@ TEST(falling, two_worlds_drop_the_same_islands_at_the_same_ticks) {
     if (tick == 0) {
       EXPECT_EQ(islands, 0U);
     }
-    if (tick >= 3) {
+    if (tick >= 3 && tick < 60) {  // later, slopes of the rubble slide
       EXPECT_EQ(islands, 2U) << "one falls at once, the other when the budget has room";
     }
   }

@@ -15,7 +15,7 @@ namespace {
 constexpr float drag_per_s = 2.2F;
 constexpr float dust_rise_m_s = 0.10F;
 /// Beyond it, an event throws no more; what it throws lies as far apart as the piece is wide.
-constexpr float size_max_m = 3.0F, width_max_m = 12.0F;
+constexpr float size_max_m = 3.0F, width_max_m = 4.0F;
 constexpr float puff_max_m = 0.9F;
 
 /// Puffs of one moment, about, and young ones at one place: more would hide what breaks.

@@ -17,8 +17,30 @@ constexpr float crack_m_s = 3.0F;
 constexpr float settle_m_s = 0.4F;
 /// Without a step for so long, what happened meanwhile is no event.
 constexpr double gap_s = 0.5;
+/// A piece larger than this strikes with its foot, which may lie far from its middle.
+constexpr float large_m = 2.0F;
 /// A piece that appears within so much of where a predicted one was until now: the same break.
 constexpr float takes_place_m = 1.5F;
+
+/// Its lowest place, about: of some hundreds of its voxels.
+glm::vec3 lowest_place_m(const ScenePiece& piece, float voxel_m) {
+  constexpr int looks = 8;
+  const Volume& volume = *piece.volume;
+  const VoxelBox& box = volume.window.box;
+  const VoxelCoord size = box.size();
+  const VoxelCoord step{std::max(size.x / looks, 1), std::max(size.y / looks, 1),
+                        std::max(size.z / looks, 1)};
+  glm::vec3 foot = piece.pose.position_m;
+  for (int x = box.lo.x; x < box.hi.x; x += step.x)
+    for (int y = box.lo.y; y < box.hi.y; y += step.y)
+      for (int z = box.lo.z; z < box.hi.z; z += step.z) {
+        if (volume.window.at(x, y, z) >= 0) continue;
+        const glm::vec3 off_m = (glm::vec3(x, y, z) - volume.centre_voxels) * voxel_m;
+        const glm::vec3 place_m = piece.pose.position_m + piece.pose.rotation * off_m;
+        if (place_m.y < foot.y) foot = place_m;
+      }
+  return foot;
+}
 
 }  // namespace
 
@@ -80,8 +102,10 @@ std::vector<PieceEvent> PieceEventDetector::step(const ScenePieces& pieces, floa
     if (continuous && before != known_->end()) {
       one.speed_m_s = (one.place_m - before->second.place_m) / elapsed_s;
       one.moved = true;
-      if (const auto blow = blow_of(before->second, one, elapsed_s))
+      if (const auto blow = blow_of(before->second, one, elapsed_s)) {
         events.push_back(event_of(PieceEventKind::strike, id, one, *blow, palette));
+        if (one.size_m > large_m) events.back().place_m = lowest_place_m(piece, voxel_m);
+      }
     } else if (continuous && !replaces_predicted(id, pieces)) {
       events.push_back(event_of(PieceEventKind::crack, id, one, crack_m_s, palette));
     }
