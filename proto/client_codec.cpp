@@ -53,6 +53,7 @@ struct Writing {
   void operator()(const MovePropMessage& from) const { write(*to.mutable_move_prop(), from); }
   void operator()(const PushMessage& from) const { write(*to.mutable_push(), from); }
   void operator()(const BreakMessage& from) const { write(*to.mutable_break_(), from); }
+  void operator()(const BlastMessage& from) const { write(*to.mutable_blast(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
@@ -181,6 +182,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read(from.push(), check));
     case wire::ClientMessage::kBreak:
       return checked(read(from.break_(), check));
+    case wire::ClientMessage::kBlast:
+      return checked(read(from.blast(), check));
     case wire::ClientMessage::kAdmin:
       return checked(read_admin(from.admin(), check));
     case wire::ClientMessage::KIND_NOT_SET:

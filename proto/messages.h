@@ -96,6 +96,7 @@ using RemovePropMessage = RequestMessage<RemovePropRequest>;
 using MovePropMessage = RequestMessage<MovePropRequest>;
 using PushMessage = RequestMessage<PushRequest>;
 using BreakMessage = RequestMessage<BreakRequest>;
+using BlastMessage = RequestMessage<BlastRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairMessage {
@@ -161,7 +162,7 @@ using ClientMessage =
                  AckMessage, AdminMessage, CursorMessage, PhysicsSubscriptionMessage, AskGroundMessage,
                  OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
                  AskContentMessage, AddPropMessage, RemovePropMessage, MovePropMessage, PushMessage,
-                 BreakMessage, UnknownMessage>;
+                 BreakMessage, BlastMessage, UnknownMessage>;
 
 // ---- server to client
 

@@ -129,6 +129,13 @@ void write(wire::Break& to, const BreakMessage& from) {
   to.set_random_seed(from.random_seed);
 }
 
+void write(wire::Blast& to, const BlastMessage& from) {
+  to.set_request(from.request);
+  write(*to.mutable_centre(), from.centre_m);
+  to.set_energy_j(from.energy_j);
+  to.set_random_seed(from.random_seed);
+}
+
 void write(wire::PropHere& to, const PropMessage& from) {
   to.set_id(from.id);
   write(*to.mutable_prop(), from.prop);
@@ -171,6 +178,12 @@ PushMessage read(const wire::Push& from, FieldChecker& check) {
 
 BreakMessage read(const wire::Break& from, FieldChecker& check) {
   return {{from.piece(), check.vec3(from.at(), "place of a break"), from.seeds(), from.random_seed()},
+          from.request()};
+}
+
+BlastMessage read(const wire::Blast& from, FieldChecker& check) {
+  return {{check.vec3(from.centre(), "centre of a blast"), check.finite(from.energy_j(), "energy of a blast"),
+           from.random_seed()},
           from.request()};
 }
 

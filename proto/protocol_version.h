@@ -10,7 +10,7 @@
 namespace scree {
 
 /// The protocol that this program speaks.
-inline constexpr uint32_t protocol_version = 5;
+inline constexpr uint32_t protocol_version = 6;
 
 /// Whether a peer that speaks the protocols from `oldest` to `newest` can talk with this program, by
 /// protocol_version. `oldest` 0: it speaks `newest` alone.

@@ -36,9 +36,9 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, con
                                                            double now_s) {
   const auto& [world, pager, ahead, room_will_come] = ground;
   const WorldConfig& config = world.config();
-  const Shape* const shape = shape_of(held.command.body);
+  const std::optional<Shape> shape = shape_of(held.command.body);
   // Only a shape that an operation may have has a bounded box. The simulation refuses the others.
-  if (shape == nullptr || !validate_edit(*shape)) return admit_with(held.command, 0.0);
+  if (!shape || !validate_edit(*shape)) return admit_with(held.command, 0.0);
   const VoxelBox box = band_box(in_voxels(*shape, config.terrain.voxel_size_m));
   const VoxelBox around = box.grown(limits::admitted_margin_voxels);
   const double waited_s = now_s - held.since_s;

@@ -21,6 +21,7 @@ constexpr Row rows[] = {
     {Refusal::settings_invalid, "settings_invalid"},
     {Refusal::prop_invalid, "prop_invalid"},
     {Refusal::push_invalid, "push_invalid"},
+    {Refusal::blast_invalid, "blast_invalid"},
     {Refusal::body_missing, "body_missing"},
     {Refusal::props_max, "props_max"},
     {Refusal::blast_speed, "blast_speed"},

@@ -21,6 +21,7 @@ enum class Refusal : uint8_t {
   settings_invalid,
   prop_invalid,
   push_invalid,
+  blast_invalid,
   body_missing,
   props_max,
   blast_speed,

@@ -116,7 +116,8 @@ Role role_for(const Request& request) {
                                [](const RemovePropRequest&) { return Role::director; },
                                [](const MovePropRequest&) { return Role::director; },
                                [](const PushRequest&) { return Role::carver; },
-                               [](const BreakRequest&) { return Role::carver; }},
+                               [](const BreakRequest&) { return Role::carver; },
+                               [](const BlastRequest&) { return Role::carver; }},
                     request);
 }
 

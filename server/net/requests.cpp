@@ -20,11 +20,11 @@ bool is_within_world(const glm::vec3& place_m) {
 /// Refuses an edit that is too far away. One that is no shape, or outside the world, is the simulation's to
 /// refuse.
 tl::expected<void, Refused> check_reach(const SessionEntry& session, const Request& request, double reach_m) {
-  const Shape* const shape = shape_of(request);
+  const std::optional<Shape> shape = shape_of(request);
   const glm::vec3* const place_m = place_of(request);
   if (session.grant.role == Role::admin) return {};
   double away_m = 0.0;
-  if (shape != nullptr && validate(*shape) && is_within_world(shape->a))
+  if (shape && validate(*shape) && is_within_world(shape->a))
     away_m = distance(*shape, session.eye_m);
   else if (place_m != nullptr && is_within_world(*place_m))
     away_m = glm::distance(*place_m, session.eye_m);

@@ -49,6 +49,7 @@ std::string text_of(const Command& command, const Palette& palette) {
                  [](const RemovePropRequest& remove) { return fmt::format("remove prop {}", remove.prop); },
                  [](const MovePropRequest& move) { return fmt::format("move prop {}", move.prop); },
                  [](const PushRequest& push) { return fmt::format("push body {}", push.body); },
+                 [](const BlastRequest& blast) { return fmt::format("a blast of {} J", blast.energy_j); },
                  [](const BreakRequest& broken) { return fmt::format("break piece {}", broken.piece); }},
       command.body);
   return fmt::format("session {}, request {}: {}", command.session, command.request, body);

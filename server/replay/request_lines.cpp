@@ -55,6 +55,9 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  [](const PushRequest& push) {
                    return Asked{"push", {}, fmt::format("body {}", push.body)};
                  },
+                 [](const BlastRequest& blast) {
+                   return Asked{"blast", *shape_of(blast), fmt::format("{} J", blast.energy_j)};
+                 },
                  [](const BreakRequest& broken) {
                    return Asked{"break", {}, fmt::format("piece {}", broken.piece)};
                  }},

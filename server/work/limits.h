@@ -79,6 +79,8 @@ inline constexpr float prop_cost_us = 60.0F;
 inline constexpr float prop_part_cost_us = 40.0F;
 inline constexpr float prop_touch_cost_us = 5.0F;
 inline constexpr float broken_voxels = 4096.0F;
+/// A voxel that is looked at for what a blast breaks.
+inline constexpr float blast_voxel_cost_us = 0.01F;
 
 /// Price of the most pieces that a volume is cut into at once. Above: it is cut into fewer, which are cut on
 /// in later ticks.

@@ -36,6 +36,12 @@ struct Pricing {
   float operator()(const RemovePropRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const MovePropRequest&) const { return limits::prop_cost_us; }
   float operator()(const PushRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const BlastRequest& request) const {
+    const Shape shape = sphere(request.centre_m, blast_reach_m(request.energy_j));
+    const float voxels = voxels_of(band_box(in_voxels(shape, field.source().voxel_size_m)));
+    return edit_price_us(shape, field) + limits::blast_voxel_cost_us * voxels +
+           cut_price_us(cutter_for(cutter, voxels), voxels, blast_pieces(request.energy_j));
+  }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
     return cut_price_us(cutter, limits::broken_voxels, request.seeds);

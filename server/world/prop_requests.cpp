@@ -119,6 +119,14 @@ CheckedRequest check(const World::State& state, const BreakRequest& request) {
   return {};
 }
 
+CheckedRequest check(const World::State& /*state*/, const BlastRequest& request) {
+  if (!is_number(request.centre_m) || !check_place(request.centre_m))
+    return refuse(Refusal::blast_invalid, "the blast's place lies outside the world");
+  if (is_blast_energy(request.energy_j)) return {};
+  return refuse(Refusal::blast_invalid, "a blast has from " + std::to_string(blast_energy_min_j) + " to " +
+                                            std::to_string(blast_energy_max_j) + " J");
+}
+
 uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta) {
   Prop prop = request.prop;
   if (prop.mass_kg == 0.0F)

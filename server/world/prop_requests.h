@@ -15,6 +15,7 @@ CheckedRequest check(const World::State& state, const RemovePropRequest& request
 CheckedRequest check(const World::State& state, const MovePropRequest& request);
 CheckedRequest check(const World::State& state, const PushRequest& request);
 CheckedRequest check(const World::State& state, const BreakRequest& request);
+CheckedRequest check(const World::State& state, const BlastRequest& request);
 
 /// Carries out a request that has passed check() now. Returns the id of the prop that was added, or into how
 /// many pieces one broke: 0 where it is too small, or where there is no room; else 0.

@@ -10,11 +10,13 @@
 #include "server/work/price.h"
 #include "server/world/blast.h"
 #include "server/world/buried_stage.h"
+#include "server/world/explosion.h"
 #include "server/world/fill_joints.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
 #include "server/world/prop_requests.h"
 #include "server/world/refracture_stage.h"
+#include "server/world/request_room.h"
 #include "server/world/settings.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
@@ -38,32 +40,6 @@ void throw_out(World::State& state, const Applied& applied, const CarveRequest& 
     return Newborn{blast.thrown(id, volume.centre_voxels * dx), {.owner = party}};
   };
   spawn(state, applied, born, delta);
-}
-
-/// The refusal of a carve without room, which says what would help: fewer seeds, more room, or time, if the
-/// carve ever fits.
-Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const PieceGrant& grant) {
-  const uint32_t pieces_max = state.config.pieces_max;
-  const size_t alive = state.pieces.size(), wanted = alive + seeds;
-  const std::string limit = std::to_string(pieces_max), all = std::to_string(wanted);
-  const std::string most = std::to_string(grant.pieces_most);
-  if (seeds > pieces_max)
-    return {Refusal::pieces_max,
-            "a carve of " + std::to_string(seeds) + " seeds never fits this server's limit of " + limit +
-                " pieces (pieces-max): ask for " + limit + " seeds at most, or have the limit raised to " +
-                all + " (--pieces-max)"};
-  if (grant.contested)
-    return {
-        Refusal::pieces_share,
-        "other clients share this server's room for pieces (pieces-max), and this client has " +
-            std::to_string(state.shares.of(party)) + " of the " + std::to_string(alive) + " pieces: " +
-            (grant.pieces_most > 0 ? "ask for " + most + " seeds at most" : "wait until some have settled")};
-  return {Refusal::pieces_max,
-          std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +
-              "; this server's limit is " + limit + " (pieces-max): wait until " +
-              std::to_string(wanted - pieces_max) + " have settled, " +
-              (grant.pieces_most > 0 ? "ask for " + most + " seeds at most, " : std::string()) +
-              "or have the limit raised to " + all + " (--pieces-max)"};
 }
 
 /// Refuses an operation that is invalid, and a shape that is too small for the world's voxels.
@@ -193,6 +169,15 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, 
   return static_cast<uint32_t>(applied.created.size());
 }
 
+Outcome blow_up(World::State& state, const BlastRequest& request, uint64_t party, const PieceGrant& grant,
+                TickDelta& delta) {
+  Outcome made = 0U;
+  const std::optional<float> radius_m = blast_radius_m(state, request);
+  if (radius_m) made = carve(state, carve_of(request, *radius_m, grant.pieces), party, grant, delta);
+  if (made) throw_bodies(state, request);
+  return made;
+}
+
 /// Pieces that lie in a shape that is filled become terrain with it, so that they do not travel out of it.
 /// Returns their number, for the reply.
 uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& delta) {
@@ -251,30 +236,11 @@ struct Executing {
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, party, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
   Outcome operator()(const LeaveRequest&) const { return 0U; }  // enqueue_commands() has done it
+  Outcome operator()(const BlastRequest& request) const {
+    return blow_up(state, request, party, grant, delta);
+  }
   Outcome operator()(const auto& of_bodies) const { return perform(state, of_bodies, party, delta); }
 };
-
-/// The pieces that a request may make, if it is a carve.
-PieceGrant grant_for(const World::State& state, const Command& command) {
-  const CarveRequest* const carve = std::get_if<CarveRequest>(&command.body);
-  if (carve == nullptr || carve->seeds == 0) return {};
-  const PieceRoom room{.alive = state.pieces.size(),
-                       .pieces_max = state.config.pieces_max,
-                       .bodies_load = state.work.bodies_load(),
-                       .others_wait = state.requests.others_wait(party_of(command))};
-  return state.shares.grant(party_of(command), carve->seeds, room);
-}
-
-/// Price of the request with the pieces that it was granted. Pieces that are cut later are in it, so that
-/// their client pays for them, too.
-float cost_with(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
-  const CarveRequest* const carve = std::get_if<CarveRequest>(&request.command.body);
-  if (carve == nullptr || grant.pieces == carve->seeds) return request.cost_us;
-  if (grant.pieces == 0) return limits::refusal_cost_us;
-  CarveRequest fewer = *carve;
-  fewer.seeds = grant.pieces;
-  return price_us(Request(fewer), state.field, state.config.methods.cutter);
-}
 
 /// Time in the tick that is kept for pieces at rest that could not merge in the last one.
 float relief_us(const World::State& state) {
@@ -289,13 +255,6 @@ bool may_begin(const World::State& state, float cost_us) {
   if (state.work.bodies_load() < limits::load_max || state.work.affords(cost_us)) return true;
   const auto rest = static_cast<Tick>(limits::request_rest_s * static_cast<float>(state.config.tick_rate_hz));
   return state.tick - state.requested >= rest;
-}
-
-bool may_wait(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
-  const bool gets_some = grant.pieces_at_last > 0;
-  const float wait_s = gets_some ? limits::room_wait_least_s : limits::room_wait_max_s;
-  const auto ticks = static_cast<Tick>(wait_s * static_cast<float>(state.config.tick_rate_hz));
-  return grant.pieces == 0 && (grant.may_wait || gets_some) && state.tick - request.since < ticks;
 }
 
 void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
@@ -329,7 +288,7 @@ Outcome execute(World::State& state, const Command& command, const PieceGrant& g
 
 /// Whether terrain may fall because of it.
 bool may_loosen(const Request& request) {
-  return std::holds_alternative<CarveRequest>(request) || std::holds_alternative<FillRequest>(request);
+  return carve_in(request) || std::holds_alternative<FillRequest>(request);
 }
 
 Checked enqueue(World::State& state, const Command& command) {

@@ -14,6 +14,7 @@
 #include "shared/field/shape.h"
 #include "shared/fracture/seed_pattern.h"
 #include "shared/material/material.h"
+#include "shared/operation/blast.h"
 #include "shared/prop/prop.h"
 
 namespace scree {
@@ -93,6 +94,16 @@ struct BreakRequest {
   bool operator==(const BreakRequest&) const = default;
 };
 
+/// Sets energy free at a place: rock breaks and is thrown out as far as the energy reaches (blast.h), and
+/// what moves about there is thrown.
+struct BlastRequest {
+  glm::vec3 centre_m{0.0F};
+  float energy_j = 4.2e6F;
+  uint32_t random_seed = 0;
+
+  bool operator==(const BlastRequest&) const = default;
+};
+
 /// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
 struct SettingsRequest {
   SettingValues settings;
@@ -106,15 +117,20 @@ struct LeaveRequest {
   bool operator==(const LeaveRequest&) const = default;
 };
 
-using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest,
-                             AddPropRequest, RemovePropRequest, MovePropRequest, PushRequest, BreakRequest>;
+using Request =
+    std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest, AddPropRequest,
+                 RemovePropRequest, MovePropRequest, PushRequest, BreakRequest, BlastRequest>;
 
-/// The shape of a request that edits terrain; null: it edits none.
-inline const Shape* shape_of(const Request& request) {
-  return std::visit(Overloaded{[](const CarveRequest& carve) { return &carve.shape; },
-                               [](const FillRequest& fill) { return &fill.shape; },
-                               [](const PaintRequest& paint) { return &paint.shape; },
-                               [](const auto&) { return static_cast<const Shape*>(nullptr); }},
+/// The shape of a request that edits terrain, or in which it does; nothing: it edits none.
+inline std::optional<Shape> shape_of(const Request& request) {
+  using Found = std::optional<Shape>;
+  return std::visit(Overloaded{[](const CarveRequest& carve) -> Found { return carve.shape; },
+                               [](const FillRequest& fill) -> Found { return fill.shape; },
+                               [](const PaintRequest& paint) -> Found { return paint.shape; },
+                               [](const BlastRequest& blast) -> Found {
+                                 return sphere(blast.centre_m, blast_reach_m(blast.energy_j));
+                               },
+                               [](const auto&) -> Found { return std::nullopt; }},
                     request);
 }
 

@@ -328,6 +328,7 @@ inline Lines describe(const ReplyMessage& m) {
     lines.push_back(fmt::format("waiting {} µs, tick {} µs, sending {} µs", m.latency.waiting_us,
                                 m.latency.tick_us, m.latency.sending_us));
   if (m.painted) lines.push_back(fmt::format("{} bricks painted", *m.painted));
+  if (m.prop) lines.push_back(fmt::format("prop {}", *m.prop));
   if (m.tick != 0) lines.push_back(fmt::format("tick {}", m.tick));
   return lines;
 }

@@ -20,6 +20,7 @@
 #include "server/net/limits.h"
 #include "server/publish/limits.h"
 #include "tests/proto/message_words.h"
+#include "tests/proto/prop_words.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {

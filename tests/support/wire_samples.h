@@ -121,6 +121,31 @@ inline StatusMessage status() {
   return status;
 }
 
+inline Prop prop() {
+  Prop prop;
+  prop.parts = {{.kind = PropPartKind::box, .place_m = {0.5F, 0.0F, -0.25F}, .half_m = {0.5F, 0.25F, 1.0F}},
+                {.kind = PropPartKind::cylinder,
+                 .turn = {0.70710678F, 0.0F, 0.70710678F, 0.0F},
+                 .half_m = {0.3F, 0.1F, 0.5F}},
+                {.kind = PropPartKind::hull,
+                 .corners_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0.5F, 0.5F, 0.5F}}}};
+  prop.parts.back().half_m = {0.5F, 0.5F, 0.5F};
+  prop.motion = PropMotion::kinematic;
+  prop.mass_kg = 120.5F;
+  prop.friction = 0.25F;
+  prop.restitution = 0.75F;
+  prop.drag = 0.125F;
+  prop.spin_drag = 0.5F;
+  prop.gravity = -0.5F;
+  prop.groups = 1U << 31U;
+  prop.meets = 0x80000005U;
+  prop.material = material::soil;
+  prop.model = Digest{1, 2, 3};
+  prop.tag = 0xFEDCBA9876543210ULL;
+  prop.data = {0, 255, 7};
+  return prop;
+}
+
 inline std::vector<ServerMessage> server_messages() {
   WelcomeMessage welcome;
   welcome.session = 0x1234567890ABCDEFULL;
@@ -151,9 +176,11 @@ inline std::vector<ServerMessage> server_messages() {
       FrameMessage{},
       chunk,
       PieceMessage{31, volume(), {1, -2, 3, 4}},
+      PropMessage{32, prop(), {1, -2, 3, 4}},
       ResetMessage{},
       ReplyMessage{7, "radius 12 m is over 8 m", 0, "carve_invalid", {8300, limits::latency_max_us, 400}},
       ReplyMessage{8, "", 0, "", {}, 40, 3},
+      ReplyMessage{9, "", 0, "", {}, 41, std::nullopt, 32},
       status(),
       CursorsMessage{{{4, "Ann", {1.0F, 2.0F, 3.0F}, {-4.0F, 0.5F, 9.0F}}, {9, "", {}, {}}}},
       PersonsMessage{{{4, "Ann", Role::builder}, {9, "", Role::viewer}}, 2, true},
@@ -194,6 +221,9 @@ inline std::vector<ClientMessage> client_messages() {
   authored.pattern = SeedPattern::authored;
   authored.seeds = 2;
   authored.authored_m = {{1.0F, 2.0F, 3.0F}, {-4.0F, 0.25F, 4095.0F}};
+  AddPropMessage add_prop{
+      {prop(), {1.0F, 2.0F, 3.0F}, {0.6F, 0.0F, 0.8F, 0.0F}, {4.0F, 5.0F, 6.0F}, {7, 8, 9}}, 21};
+  MovePropMessage move_prop{{32, glm::vec3(1.0F), std::nullopt, glm::vec3(0.0F), std::nullopt}, 23};
   return {HelloMessage{protocol_version,
                        "scree-bot",
                        {1.0F, 2.0F, -3.0F},
@@ -225,6 +255,12 @@ inline std::vector<ClientMessage> client_messages() {
           AskTilesMessage{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},
           AskContentMessage{{{3, 1, 4}, {2, 7, 1, 8}}},
           OfferMessage{0xABCDEF0123456789ULL, {{-4, 5, -6}, {1, 2, 3}, {1, 2, 4}}, {0xFFFF, 0x0100, 0}},
+          add_prop,
+          RemovePropMessage{{32}, 22},
+          move_prop,
+          PushMessage{{32, {1.0F, -2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}}, 24},
+          BreakMessage{{31, {4.0F, 5.0F, 6.0F}, 6, 0xFFFFFFFFU}, 25},
+          BlastMessage{{{4.0F, 5.0F, 6.0F}, 4.2e6F, 7}, 26},
           GoodbyeMessage{},
           AskHealthMessage{},
           UnknownMessage{}};

@@ -1,0 +1,68 @@
+#include "server/world/request_room.h"
+
+#include <string>
+
+#include "server/work/limits.h"
+#include "server/work/price.h"
+#include "server/world/explosion.h"
+#include "server/world/limits.h"
+
+namespace scree {
+
+Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const PieceGrant& grant) {
+  const uint32_t pieces_max = state.config.pieces_max;
+  const size_t alive = state.pieces.size(), wanted = alive + seeds;
+  const std::string limit = std::to_string(pieces_max), all = std::to_string(wanted);
+  const std::string most = std::to_string(grant.pieces_most);
+  if (seeds > pieces_max)
+    return {Refusal::pieces_max,
+            "a carve of " + std::to_string(seeds) + " seeds never fits this server's limit of " + limit +
+                " pieces (pieces-max): ask for " + limit + " seeds at most, or have the limit raised to " +
+                all + " (--pieces-max)"};
+  if (grant.contested)
+    return {
+        Refusal::pieces_share,
+        "other clients share this server's room for pieces (pieces-max), and this client has " +
+            std::to_string(state.shares.of(party)) + " of the " + std::to_string(alive) + " pieces: " +
+            (grant.pieces_most > 0 ? "ask for " + most + " seeds at most" : "wait until some have settled")};
+  return {Refusal::pieces_max,
+          std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +
+              "; this server's limit is " + limit + " (pieces-max): wait until " +
+              std::to_string(wanted - pieces_max) + " have settled, " +
+              (grant.pieces_most > 0 ? "ask for " + most + " seeds at most, " : std::string()) +
+              "or have the limit raised to " + all + " (--pieces-max)"};
+}
+
+std::optional<CarveRequest> carve_in(const Request& request) {
+  if (const auto* carve = std::get_if<CarveRequest>(&request)) return *carve;
+  const auto* blast = std::get_if<BlastRequest>(&request);
+  if (blast == nullptr) return std::nullopt;
+  return carve_of(*blast, blast_reach_m(blast->energy_j), blast_pieces(blast->energy_j));
+}
+
+PieceGrant grant_for(const World::State& state, const Command& command) {
+  const std::optional<CarveRequest> carve = carve_in(command.body);
+  if (!carve || carve->seeds == 0) return {};
+  const PieceRoom room{.alive = state.pieces.size(),
+                       .pieces_max = state.config.pieces_max,
+                       .bodies_load = state.work.bodies_load(),
+                       .others_wait = state.requests.others_wait(party_of(command))};
+  return state.shares.grant(party_of(command), carve->seeds, room);
+}
+
+float cost_with(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
+  std::optional<CarveRequest> carve = carve_in(request.command.body);
+  if (!carve || grant.pieces == carve->seeds) return request.cost_us;
+  if (grant.pieces == 0) return limits::refusal_cost_us;
+  carve->seeds = grant.pieces;
+  return price_us(Request(*carve), state.field, state.config.methods.cutter);
+}
+
+bool may_wait(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
+  const bool gets_some = grant.pieces_at_last > 0;
+  const float wait_s = gets_some ? limits::room_wait_least_s : limits::room_wait_max_s;
+  const auto ticks = static_cast<Tick>(wait_s * static_cast<float>(state.config.tick_rate_hz));
+  return grant.pieces == 0 && (grant.may_wait || gets_some) && state.tick - request.since < ticks;
+}
+
+}  // namespace scree

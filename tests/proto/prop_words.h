@@ -1,0 +1,63 @@
+// Props and the requests about them in words, as message_words.h.
+#pragma once
+
+#include "tests/proto/message_words.h"
+
+namespace scree {
+
+inline std::string words(const glm::quat& turn) {
+  return fmt::format("({}, {}, {}, {})", turn.x, turn.y, turn.z, turn.w);
+}
+
+inline Lines words(const Prop& prop) {
+  Lines lines;
+  for (const PropPart& part : prop.parts)
+    lines.push_back(fmt::format("part: {}, place {}, turn {}, half {}, {} corners", name_of(part.kind),
+                                words(part.place_m), words(part.turn), words(part.half_m),
+                                part.corners_m.size()));
+  lines.push_back(fmt::format("{}, mass {} kg, friction {}, restitution {}, drag {}, of spin {}, gravity {}",
+                              name_of(prop.motion), prop.mass_kg, prop.friction, prop.restitution, prop.drag,
+                              prop.spin_drag, prop.gravity));
+  lines.push_back(fmt::format("groups 0x{:08x}, meets 0x{:08x}, material {}, tag {}, {} bytes of data",
+                              prop.groups, prop.meets, row_number(prop.material), prop.tag,
+                              prop.data.size()));
+  return lines;
+}
+
+inline Lines describe(const AddPropMessage& m) {
+  Lines lines{
+      fmt::format("add prop: request {}, place {}, turn {}", m.request, words(m.place_m), words(m.turn)),
+      fmt::format("velocity {}, spin {}", words(m.velocity_m_s), words(m.spin_rad_s))};
+  append(lines, words(m.prop));
+  return lines;
+}
+inline Lines describe(const RemovePropMessage& m) {
+  return {fmt::format("remove prop: request {}, prop {}", m.request, m.prop)};
+}
+inline Lines describe(const MovePropMessage& m) {
+  Lines lines{fmt::format("move prop: request {}, prop {}", m.request, m.prop)};
+  if (m.place_m) lines.push_back("place " + words(*m.place_m));
+  if (m.turn) lines.push_back("turn " + words(*m.turn));
+  if (m.velocity_m_s) lines.push_back("velocity " + words(*m.velocity_m_s));
+  if (m.spin_rad_s) lines.push_back("spin " + words(*m.spin_rad_s));
+  return lines;
+}
+inline Lines describe(const PushMessage& m) {
+  return {fmt::format("push: request {}, body {}, {} N s at {}", m.request, m.body, words(m.impulse_n_s),
+                      words(m.at_m))};
+}
+inline Lines describe(const BreakMessage& m) {
+  return {fmt::format("break: request {}, piece {} at {}, {} seeds, random seed 0x{:08x}", m.request, m.piece,
+                      words(m.at_m), m.seeds, m.random_seed)};
+}
+inline Lines describe(const BlastMessage& m) {
+  return {fmt::format("blast: request {}, {} J at {}, random seed 0x{:08x}", m.request, m.energy_j,
+                      words(m.centre_m), m.random_seed)};
+}
+inline Lines describe(const PropMessage& m) {
+  Lines lines{fmt::format("prop: {} {}", m.id, words(m.pose))};
+  append(lines, words(m.prop));
+  return lines;
+}
+
+}  // namespace scree
