@@ -66,6 +66,7 @@ struct Writing {
   }
   void operator()(const PhysicsSubscriptionMessage& from) const {
     to.mutable_watch()->set_physics(from.physics);
+    to.mutable_watch()->set_contacts_j(from.contacts_j);
   }
   void operator()(const AskGroundMessage& from) const {
     to.mutable_ground()->set_chunks(pack_chunks(from.chunks));
@@ -154,7 +155,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(
           CursorMessage{check.vec3(from.cursor().eye(), "eye"), check.vec3(from.cursor().aim(), "aim")});
     case wire::ClientMessage::kWatch:
-      return PhysicsSubscriptionMessage{from.watch().physics()};
+      return checked(PhysicsSubscriptionMessage{from.watch().physics(),
+                                                check.not_negative(from.watch().contacts_j(), "contacts_j")});
     case wire::ClientMessage::kGround:
       return checked(AskGroundMessage{
           check.chunks(from.ground().chunks(), limits::ground_chunks_max, "chunks of a ground request")});

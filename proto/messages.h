@@ -137,9 +137,10 @@ struct AdminMessage {
   AdminRequest act;
 };
 
-/// Switches PhysicsMessages on or off.
+/// Switches PhysicsMessages on or off, and ContactsMessages of blows of at least so much energy; 0: none.
 struct PhysicsSubscriptionMessage {
   bool physics = false;
+  float contacts_j = 0.0F;
 };
 
 /// Asks for the generated ground of chunks; each is answered by a GroundMessage.
@@ -319,6 +320,24 @@ struct StatusMessage {
   MaterialLedger materials{};  ///< the ledger by material
 };
 
+/// A blow in which a prop takes part.
+struct ContactEvent {
+  PieceId body = 0;
+  PieceId other = 0;         ///< a piece or a prop, of a greater id than `body`; 0: the terrain
+  glm::vec3 place_m{0.0F};
+  glm::vec3 normal{0.0F};    ///< unit, towards `body`
+  float impulse_n_s = 0.0F;  ///< along the normal
+  float energy_j = 0.0F;     ///< that the contact took
+
+  bool operator==(const ContactEvent&) const = default;
+};
+
+/// The blows of a tick, within interest, the hardest first.
+struct ContactsMessage {
+  Tick tick = 0;
+  std::vector<ContactEvent> contacts;  ///< at most limits::contact_events_max
+};
+
 /// A rigid body without its pose.
 struct BodyView {
   PieceId id = 0;
@@ -376,7 +395,7 @@ using ServerMessage =
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
-                 PropMessage, UnknownMessage>;
+                 PropMessage, ContactsMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

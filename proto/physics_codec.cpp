@@ -156,4 +156,33 @@ PhysicsMessage read(const wire::Physics& from, FieldChecker& check) {
   return message;
 }
 
+void write(wire::Contacts& to, const ContactsMessage& from) {
+  to.set_tick(from.tick);
+  for (const ContactEvent& event :
+       std::span(from.contacts).first(std::min(from.contacts.size(), limits::contact_events_max))) {
+    wire::Contact& added = *to.add_contacts();
+    added.set_body(event.body);
+    added.set_other(event.other);
+    write(*added.mutable_place(), event.place_m);
+    write(*added.mutable_normal(), event.normal);
+    added.set_impulse_n_s(event.impulse_n_s);
+    added.set_energy_j(event.energy_j);
+  }
+}
+
+ContactsMessage read(const wire::Contacts& from, FieldChecker& check) {
+  ContactsMessage message;
+  message.tick = from.tick();
+  if (static_cast<size_t>(from.contacts_size()) > limits::contact_events_max)
+    check.refuse(fmt::format("more than {} contacts", limits::contact_events_max));
+  for (const wire::Contact& one : from.contacts()) {
+    if (check.failed()) break;
+    message.contacts.push_back({one.body(), one.other(), check.vec3(one.place(), "place of a contact"),
+                                check.vec3(one.normal(), "normal of a contact"),
+                                check.not_negative(one.impulse_n_s(), "impulse of a contact"),
+                                check.not_negative(one.energy_j(), "energy of a contact")});
+  }
+  return message;
+}
+
 }  // namespace scree

@@ -8,8 +8,10 @@ namespace scree {
 /// Leaves out entries beyond the limits.
 void write(wire::Cursors& to, const CursorsMessage& from);
 void write(wire::Physics& to, const PhysicsMessage& from);
+void write(wire::Contacts& to, const ContactsMessage& from);
 
 CursorsMessage read(const wire::Cursors& from, FieldChecker& check);
 PhysicsMessage read(const wire::Physics& from, FieldChecker& check);
+ContactsMessage read(const wire::Contacts& from, FieldChecker& check);
 
 }  // namespace scree

@@ -128,6 +128,7 @@ struct Writing {
     piece.set_z(from.pose.z);
     piece.set_rotation(from.pose.rotation);
   }
+  void operator()(const ContactsMessage& from) const { write(*to.mutable_contacts(), from); }
   void operator()(const PropMessage& from) const { write(*to.mutable_prop(), from); }
   void operator()(const ResetMessage&) const { to.mutable_reset(); }
   void operator()(const ReplyMessage& from) const {
@@ -331,6 +332,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(PaletteChangedMessage{read_digest(from.palette_changed().palette(), "palette", check)});
     case wire::ServerMessage::kPiece:
       return checked(read(from.piece(), check));
+    case wire::ServerMessage::kContacts:
+      return checked(read(from.contacts(), check));
     case wire::ServerMessage::kProp:
       return checked(read(from.prop(), check));
     case wire::ServerMessage::kReset:

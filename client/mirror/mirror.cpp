@@ -65,6 +65,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const MarksMessage&) -> Done { return {}; },
           [](const RecordedCursorsMessage&) -> Done { return {}; },
           [](const PhysicsMessage&) -> Done { return {}; },
+          [](const ContactsMessage&) -> Done { return {}; },
           // Never asked for: the field generates it.
           [](const GroundMessage&) -> Done { return {}; },
           // For the ground (client/cache/received_tiles.h), which the field asks.

@@ -204,6 +204,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const PhysicsSubscriptionMessage& subscription) -> Done {
             publisher_.subscribe_physics(session.id(), subscription.physics);
+            publisher_.subscribe_contacts(session.id(), subscription.contacts_j);
             return {};
           },
           [&](const AskGroundMessage& ground) -> Done {

@@ -41,7 +41,10 @@ PhysicsMessage physics_for(const PhysicsMessage& physics, const PublishedState& 
   part.tick = physics.tick;
   for (const BodyView& body : physics.bodies) {
     const auto piece = state.pieces().find(body.id);
-    if (piece == state.pieces().end() || !near(dequantise(piece->second.pose).position_m)) continue;
+    const auto prop = state.props().find(body.id);
+    const bool is_piece = piece != state.pieces().end();
+    if (!is_piece && prop == state.props().end()) continue;
+    if (!near(dequantise(is_piece ? piece->second.pose : prop->second.pose).position_m)) continue;
     if (part.bodies.size() < limits::physics_bodies_max) part.bodies.push_back(body);
   }
   for (const ContactView& contact : physics.contacts)

@@ -1,6 +1,7 @@
 #include "server/publish/physics_feed.h"
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <utility>
 
 #include "server/publish/interest_filter.h"
@@ -15,6 +16,16 @@ bool PhysicsFeed::set_physics(bool on) {
 void PhysicsFeed::serve(const ServedTick& tick, const ClientView& view, Outlet& outlet, ServedPart& part) {
   if (tick.tick() % ticks_per_physics == 0) send_cursors(tick, view, outlet, part);
   if (physics_ && tick.changes.delta.physics) send_physics(tick, view, outlet, part);
+  if (contacts_j_ > 0.0F && !tick.changes.delta.contacts.empty()) send_contacts(tick, view, outlet, part);
+}
+
+void PhysicsFeed::send_contacts(const ServedTick& tick, const ClientView& view, Outlet& outlet,
+                                ServedPart& part) const {
+  ContactsMessage message{tick.tick(), {}};
+  for (const ContactEvent& contact : tick.changes.delta.contacts)
+    if (contact.energy_j >= contacts_j_ && glm::distance(contact.place_m, view.eye_m()) <= view.radius_m())
+      message.contacts.push_back(contact);
+  if (!message.contacts.empty() && outlet.room_bytes() > 0) outlet.send(share(message), part);
 }
 
 void PhysicsFeed::send_cursors(const ServedTick& tick, const ClientView& view, Outlet& outlet,

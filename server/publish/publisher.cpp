@@ -81,6 +81,10 @@ void Publisher::subscribe_physics(uint64_t session, bool physics) {
     physics_subscribers_ += physics ? 1 : -1;
 }
 
+void Publisher::subscribe_contacts(uint64_t session, float least_j) {
+  if (ClientFeed* const client = find(session)) client->physics_feed().set_contacts(least_j);
+}
+
 void Publisher::repair(uint64_t session, const RepairMessage& request) {
   ClientFeed* const client = find(session);
   if (client == nullptr) return;

@@ -97,6 +97,8 @@ class Publisher {
   StatusMessage status() const { return board_.status(state_, clients_.size()); }
   /// Whether the client gets PhysicsMessages of the ticks that have them.
   void subscribe_physics(uint64_t session, bool physics);
+  /// Whether the client gets ContactsMessages, as of PhysicsFeed::set_contacts.
+  void subscribe_contacts(uint64_t session, float least_j);
   bool has_physics_subscribers() const { return physics_subscribers_ > 0; }
   /// Eyes of all clients, by session, as of the last tick.
   const std::vector<glm::vec3>& eyes_m() const { return eyes_m_; }

@@ -70,6 +70,7 @@ struct TickDelta {
   std::vector<PieceState> pieces;          ///< every piece alive after the tick, ordered by id
   std::vector<SpawnedProp> props_spawned;  ///< props added in this tick, ordered; some may be gone again
   std::vector<PieceState> props;           ///< every prop there is after the tick, ordered by id
+  std::vector<ContactEvent> contacts;  ///< blows of props, the hardest first; never in a recording
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
   uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay

@@ -6,6 +6,7 @@
 #include "server/world/impact_stage.h"
 #include "server/world/island_stage.h"
 #include "server/world/merge_stage.h"
+#include "server/world/prop_contacts.h"
 #include "server/world/refracture_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/settings.h"
@@ -25,6 +26,7 @@ constexpr glm::vec3 world_half_m(limits::world_half_width_m, limits::world_half_
 void step_bodies(World::State& state, TickDelta& delta) {
   state.bodies.step();
   state.work.stepped(state.bodies);
+  if (!state.props.empty()) delta.contacts = contacts_of_props(state);
 
   for (const PieceId id : state.bodies.beyond(world_half_m)) {
     if (state.props.contains(id)) {

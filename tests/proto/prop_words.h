@@ -54,6 +54,13 @@ inline Lines describe(const BlastMessage& m) {
   return {fmt::format("blast: request {}, {} J at {}, random seed 0x{:08x}", m.request, m.energy_j,
                       words(m.centre_m), m.random_seed)};
 }
+inline Lines describe(const ContactsMessage& m) {
+  Lines lines{fmt::format("contacts: tick {}", m.tick)};
+  for (const ContactEvent& one : m.contacts)
+    lines.push_back(fmt::format("body {}, other {}, at {}, normal {}, {} N s, {} J", one.body, one.other,
+                                words(one.place_m), words(one.normal), one.impulse_n_s, one.energy_j));
+  return lines;
+}
 inline Lines describe(const PropMessage& m) {
   Lines lines{fmt::format("prop: {} {}", m.id, words(m.pose))};
   append(lines, words(m.prop));

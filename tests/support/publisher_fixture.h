@@ -169,6 +169,7 @@ class TrustingClient {
   void apply(const SaidMessage&) { ADD_FAILURE() << "what persons say is not the publisher's"; }
   void apply(const AdminListMessage&) { ADD_FAILURE() << "lists are not the publisher's"; }
   void apply(const UnknownMessage&) { ADD_FAILURE() << "a message of this version is known"; }
+  void apply(const ContactsMessage&) { ADD_FAILURE() << "nobody asked for contacts"; }
   void apply(const PhysicsMessage&) { ADD_FAILURE() << "what bodies do is not the publisher's"; }
 };
 

@@ -177,6 +177,8 @@ inline std::vector<ServerMessage> server_messages() {
       chunk,
       PieceMessage{31, volume(), {1, -2, 3, 4}},
       PropMessage{32, prop(), {1, -2, 3, 4}},
+      ContactsMessage{
+          66, {{32, 0, {1, 2, 3}, {0, 1, 0}, 12.5F, 99.5F}, {5, 32, {4, 5, 6}, {1, 0, 0}, 0.0F, 1.0F}}},
       ResetMessage{},
       ReplyMessage{7, "radius 12 m is over 8 m", 0, "carve_invalid", {8300, limits::latency_max_us, 400}},
       ReplyMessage{8, "", 0, "", {}, 40, 3},
@@ -249,7 +251,7 @@ inline std::vector<ClientMessage> client_messages() {
           AdminMessage{13, "", LiftBanRequest{"2001:db8::/64"}},
           AdminMessage{14, "", ControlReplayRequest{ReplayPlay::pause, -16.0F, ReplayMove::by_ticks, -7}},
           CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},
-          PhysicsSubscriptionMessage{true},
+          PhysicsSubscriptionMessage{true, 12.5F},
           SayMessage{"mind the edge"},
           AskGroundMessage{{{1, 2, 3}, {-4, 5, -6}, {1, 2, 3}}},
           AskTilesMessage{{{3, 0, 0}, {2, 1, 0}}, {{0, 7, 9}, {4, -3, 2, -1, TileKind::bricks}}},
