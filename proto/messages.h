@@ -294,6 +294,7 @@ struct StatusMessage {
   Tick tick = 0;
   uint32_t clients = 0;
   uint32_t pieces = 0;
+  uint32_t props = 0;
   int64_t ledger_terrain = 0;
   int64_t ledger_pieces = 0;
   int64_t ledger_dust = 0;

@@ -48,6 +48,7 @@ void write(wire::Status& to, const StatusMessage& from) {
   to.set_tick(from.tick);
   to.set_clients(from.clients);
   to.set_pieces(from.pieces);
+  to.set_props(from.props);
   to.set_ledger_terrain(from.ledger_terrain);
   to.set_ledger_pieces(from.ledger_pieces);
   to.set_ledger_dust(from.ledger_dust);
@@ -265,6 +266,7 @@ StatusMessage read(const wire::Status& from, FieldChecker& check) {
   status.tick = from.tick();
   status.clients = from.clients();
   status.pieces = from.pieces();
+  status.props = from.props();
   status.ledger_terrain = ledger_mass(from.ledger_terrain(), check);
   status.ledger_pieces = ledger_mass(from.ledger_pieces(), check);
   status.ledger_dust = ledger_mass(from.ledger_dust(), check);

@@ -52,6 +52,7 @@ Json json_of(const StatusMessage& status, const std::vector<std::string>& materi
       {"tick", status.tick},
       {"clients", status.clients},
       {"pieces", {{"alive", status.pieces}, {"made", status.pieces_made}, {"merged", status.pieces_merged}}},
+      {"props", status.props},
       {"ledger",
        {{"terrain", status.ledger_terrain},
         {"pieces", status.ledger_pieces},

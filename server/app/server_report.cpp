@@ -169,6 +169,7 @@ void ServerReport::add(const TickDelta& delta) {
   }
   pieces_made += delta.spawned.size();
   pieces_alive = delta.pieces.size();
+  props = delta.props.size();
   ledger = delta.ledger;
   work.add(delta.tick, delta.work);
   if (!delta.settings.empty()) settings = delta.settings;
@@ -189,6 +190,7 @@ std::string to_json(const ServerReport& report) {
                {"pieces_merged", report.pieces_merged},
                {"pieces_lost", report.operations.of<DiscardOperation>()},
                {"pieces_alive", report.pieces_alive},
+               {"props", report.props},
                {"ledger", json_of(report.ledger)},
                {"settings", json_of(report.settings)},
                {"field_hash", hex(report.field_hash)},

@@ -47,6 +47,7 @@ struct ServerReport {
   uint64_t pieces_made = 0;
   uint64_t pieces_merged = 0;
   uint64_t pieces_alive = 0;
+  uint64_t props = 0;
   Ledger ledger;
   SettingValues settings;  ///< at the end
   uint64_t field_hash = 0;

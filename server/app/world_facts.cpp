@@ -68,6 +68,7 @@ std::string world_facts(const std::string& path, const WorldRows& rows, const Ch
                   {"chunks_edited", sums.chunks},
                   {"bricks_edited", sums.bricks},
                   {"pieces_alive", moment.pieces.size()},
+                  {"props", moment.props.size()},
                   {"requests_waiting", waiting},
                   {"ledger_error", moment.ledger.error()},
                   {"ledger_by_material", Json::parse(ledger_json(moment.materials, palette))},

@@ -7,6 +7,7 @@ StatusMessage StatusBoard::status(const PublishedState& state, size_t clients) c
   status.tick = state.tick();
   status.clients = static_cast<uint32_t>(clients);
   status.pieces = static_cast<uint32_t>(state.pieces().size());
+  status.props = static_cast<uint32_t>(state.props().size());
   status.ledger_terrain = state.ledger().terrain;
   status.ledger_pieces = state.ledger().pieces;
   status.ledger_dust = state.ledger().dust;

@@ -103,6 +103,7 @@ inline StatusMessage status() {
   StatusMessage status;
   status.tick = 5;
   status.clients = 3;
+  status.props = 9;
   status.ledger_terrain = -99999999999LL;
   status.ledger_pieces = 99999999998LL;
   status.ledger_dust = 1;

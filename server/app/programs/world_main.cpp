@@ -222,7 +222,7 @@ int repair(const Options& options) {
          {"lost", lost},
          {"chunks_kept", repaired.chunks_kept},
          {"pieces_kept", after.pieces.size()},
-         {"pieces_lost", before.motion.bodies.size() - after.pieces.size()},
+         {"pieces_lost", before.motion.bodies.size() - after.motion.bodies.size()},
          {"terrain_lost_units", before.ledger.terrain - after.ledger.terrain}},
         options.json);
   return 0;
