@@ -30,8 +30,8 @@ struct MirrorChanges {
       bricks;  ///< codes or paint changed (or forgotten: generated again); some may come twice
   std::vector<PieceId> pieces_added;
   std::vector<PieceId> pieces_removed;
-  std::vector<PieceId> props_added;
-  std::vector<PieceId> props_removed;
+  std::vector<PieceId> props_added{};
+  std::vector<PieceId> props_removed{};
   bool palette = false;  ///< Mirror::palette() is another one
   /// An image of the palette has come whole (Client::content).
   std::optional<Digest> image{};

@@ -31,9 +31,11 @@ void sort_and_unite(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
-void note_carried(const btCollisionObject& upper, const btCollisionObject& lower, BodyContacts& contacts) {
+/// A frozen piece counts as terrain. A prop that stands still is none: what lies on it must not merge.
+void note_carried(const btCollisionObject& upper, const btCollisionObject& lower, bool is_lower_fixed,
+                  BodyContacts& contacts) {
   if (upper.isStaticObject()) return;
-  if (lower.isStaticObject())
+  if (lower.isStaticObject() && !is_lower_fixed)
     contacts.on_terrain.push_back(id_of(&upper));
   else
     contacts.carried.push_back({id_of(&upper), id_of(&lower)});
@@ -103,7 +105,7 @@ void Bodies::set_motion(PieceId id, const std::optional<Pose>& pose,
   CHECK(found != s.bodies.end());
   Body& body = found->second;
   CHECK(!body.nature().is_piece());
-  BodyState now = moved_by(state_of(id, body), glm::vec3(0.0F));
+  BodyState now = state_of(id, body);
   if (pose) now.pose = *pose;
   if (velocity_m_s) now.velocity_m_s = *velocity_m_s;
   if (spin_rad_s) now.spin_rad_s = *spin_rad_s;
@@ -269,8 +271,11 @@ BodyContacts Bodies::contacts() const {
     const btPersistentManifold& manifold = *manifolds[i];
     if (manifold.getBody1() == &s.terrain.object() || !touches(manifold)) continue;
     const float up = manifold.getContactPoint(0).m_normalWorldOnB.y();
-    if (up > limits::carrying_slope) note_carried(*manifold.getBody0(), *manifold.getBody1(), contacts);
-    if (up < -limits::carrying_slope) note_carried(*manifold.getBody1(), *manifold.getBody0(), contacts);
+    const auto note = [&](const btCollisionObject* upper, const btCollisionObject* lower) {
+      note_carried(*upper, *lower, s.bodies.at(id_of(lower)).is_fixed(), contacts);
+    };
+    if (up > limits::carrying_slope) note(manifold.getBody0(), manifold.getBody1());
+    if (up < -limits::carrying_slope) note(manifold.getBody1(), manifold.getBody0());
   }
   sort_and_unite(contacts.on_terrain);
   sort_and_unite(contacts.carried);

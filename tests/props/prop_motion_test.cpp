@@ -169,5 +169,19 @@ TEST(PropMotion, falling_rock_pushes_a_crate_and_a_crate_bears_rock) {
   EXPECT_TRUE(world.last().pieces.empty() || world.has(id));
 }
 
+TEST(PropMotion, rock_that_lies_on_a_fixed_prop_does_not_become_terrain) {
+  PropWorld world(rock_world());
+  Prop table = prop_of({.kind = PropPartKind::box, .half_m = {3.0F, 0.25F, 3.0F}}, 1000.0F);
+  table.motion = PropMotion::fixed;
+  world.add(table, {0.0F, 2.0F, 0.0F});
+  world.ask(FillRequest{box({0.0F, 5.5F, 0.0F}, {0.75F, 0.75F, 0.75F})});  // hangs in the air, so it falls
+  world.steps(6 * second);
+  ASSERT_FALSE(world.last().pieces.empty());
+  for (const PieceState& piece : world.last().pieces) {
+    const glm::vec3 at_m = dequantise(piece.pose).position_m;
+    EXPECT_GT(at_m.y, 2.0F);
+  }
+}
+
 }  // namespace
 }  // namespace scree
