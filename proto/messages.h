@@ -344,7 +344,7 @@ struct BodyView {
   PieceId id = 0;
   bool awake = false;
   bool island = false;            ///< collides with terrain by points of its own surface
-  std::vector<glm::vec3> hull_m;  ///< corners that collide, from the centre of mass, in the volume's axes
+  std::vector<glm::vec3> hull_m;  ///< corners that collide, from the place of its pose, in its axes
 };
 
 struct ContactView {

@@ -49,7 +49,7 @@ class Film {
   Film(Stage& stage, std::string folder, const WorldConfig& config = canyon_world())
       : stage_(stage), folder_(std::move(folder)), world_(config) {
     world_.want_physics(true);
-    piece_events_.step(pieces_, voxel_m(), -1.0 / world_.config().tick_rate_hz, *world_.config().palette);
+    piece_events_.step(scene(), -1.0 / world_.config().tick_rate_hz, *world_.config().palette);
     stage_.renderer->set_terrain(config.terrain);
     stage_.renderer->set_palette(config.palette);
   }
@@ -83,19 +83,20 @@ class Film {
     for (const auto& [id, piece] : pieces_) all.pieces_added.push_back(id);
     (*drawn)->changed(all);
     do {
-      (*drawn)->update(Scene{world_.field(), pieces_}, camera);
+      (*drawn)->update(scene(), camera);
       std::this_thread::yield();
     } while (!(*drawn)->complete());
-    stage_.renderer->set_contacts(contacts_of(pieces_, voxel_m(), camera.eye_m));
+    if (const Result<void> shown = stage_.renderer->set_props(props_); !shown) give_up(shown.error().message);
+    stage_.renderer->set_contacts(contacts_of(scene(), camera.eye_m));
     stage_.renderer->set_particles(dust_.at(now_s(), camera.eye_m));
     LineList lines;
-    if (overlay && physics_) add_physics(lines, *physics_, pieces_, voxel_m());
+    if (overlay && physics_) add_physics(lines, *physics_, scene());
     const Result<Image> image = stage_.renderer->draw_image(**drawn, camera, width, height, lines);
     if (!image) give_up(image.error().message);
     const std::string file = folder_ + "/" + name + ".png";
     if (const Result<void> written = write_png(file, *image); !written) give_up(written.error().message);
-    std::printf("%s: tick %llu, %zu pieces\n", file.c_str(), static_cast<unsigned long long>(world_.tick()),
-                pieces_.size());
+    std::printf("%s: tick %llu, %zu pieces, %zu props\n", file.c_str(),
+                static_cast<unsigned long long>(world_.tick()), pieces_.size(), props_.size());
   }
 
  private:
@@ -107,10 +108,14 @@ class Film {
     pieces_.clear();
     for (const PieceState& piece : delta->pieces)
       pieces_[piece.id] = {volumes_.at(piece.id), dequantise(piece.pose)};
+    for (const SpawnedProp& prop : delta->props_spawned) props_of_[prop.id] = prop.prop;
+    props_.clear();
+    for (const PieceState& prop : delta->props)
+      props_[prop.id] = {props_of_.at(prop.id), dequantise(prop.pose)};
     if (delta->physics) physics_ = delta->physics;
-    dust_.add(piece_events_.step(pieces_, voxel_m(), now_s(), *world_.config().palette), now_s());
+    dust_.add(piece_events_.step(scene(), now_s(), *world_.config().palette), now_s());
   }
-  float voxel_m() const { return world_.config().terrain.voxel_size_m; }
+  Scene scene() const { return {world_.field(), pieces_, props_}; }
   double now_s() const { return static_cast<double>(world_.tick()) / world_.config().tick_rate_hz; }
 
   Stage& stage_;
@@ -118,6 +123,8 @@ class Film {
   World world_;
   ScenePieces pieces_;
   std::map<PieceId, std::shared_ptr<const Volume>> volumes_;
+  SceneProps props_;
+  std::map<PieceId, std::shared_ptr<const Prop>> props_of_;
   std::shared_ptr<const PhysicsMessage> physics_;
   PieceEventDetector piece_events_;
   Dust dust_;

@@ -17,6 +17,7 @@
 #include "client/render/gl/particle_drawer.h"
 #include "client/render/gl/shader_sources.h"
 #include "client/render/gl/shadow_map.h"
+#include "client/render/pieces/prop_views.h"
 #include "client/render/scene/limits.h"
 #include "shared/base/check.h"
 
@@ -100,6 +101,7 @@ struct Renderer::Parts {
   std::vector<Particle> particles;
   ContactDrawer contact_drawer;
   std::vector<Contact> contacts;
+  PropViews props;
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
   std::shared_ptr<const Palette> palette = plain_palette();
@@ -240,6 +242,10 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
     const GpuTimers::Part part(&timers, "method");
     method->draw(pass);
   }
+  if (method != nullptr) {
+    const GpuTimers::Part part(&timers, "props");
+    props.draw(pass, *palette);
+  }
   // Depths of a framebuffer that is not a canvas may be of a kind that cannot be copied.
   if (fineness.contacts && canvases.ready() && framebuffer == canvases.drawn()) {
     const GpuTimers::Part part(&timers, "contacts");
@@ -258,6 +264,7 @@ void Renderer::Parts::draw_shadows(DrawMethod& method, const Camera& camera, Dra
   pass.kind = DrawPass::Kind::shadow;
   pass.view_projection = shadows->begin(camera, sun, view_radius_m);
   method.draw(pass);
+  props.draw(pass, *palette);
   shadows->end();
   pass.lighting.shadow_matrix = shadows->matrix();
 }
@@ -302,6 +309,10 @@ Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int
   parts_->errors.poll();
   glFinish();
   return {};
+}
+
+Result<void> Renderer::set_props(const SceneProps& props) {
+  return parts_->props.show(props);
 }
 
 void Renderer::set_particles(std::vector<Particle> particles) {

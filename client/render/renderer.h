@@ -1,4 +1,4 @@
-// Draws a frame: shadows, the method's terrain and pieces, the sky. Needs the GL context current, the
+// Draws a frame: shadows, the method's terrain and pieces, props, the sky. Needs the GL context current, the
 // destructor too.
 #pragma once
 
@@ -45,6 +45,10 @@ class Renderer {
   /// The images of palettes that have come, from now on. A row whose image is missing shows its colour.
   void set_images(const MaterialTexelSet& images);
 
+  /// The props that are drawn from now on, with every method, where they are now. The cost grows with their
+  /// number, and with that of new shapes. Fails if the driver cannot make what draws them.
+  Result<void> set_props(const SceneProps& props);
+
   /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing; without a
   /// method there is only sky. `lines` come last.
   void draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
@@ -54,7 +58,7 @@ class Renderer {
   /// limits::particles_max.
   void set_particles(std::vector<Particle> particles);
 
-  /// Where loose pieces darken what they lie on from now on, where fineness has that.
+  /// Where pieces and props darken what they lie on from now on, where fineness has that.
   void set_contacts(std::vector<Contact> contacts);
 
   /// Draws into an image of its own. Fails if the driver cannot make one so large.

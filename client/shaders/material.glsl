@@ -13,6 +13,9 @@ struct Rock {
 
 uniform highp sampler2D u_materials;
 
+// Of what was made as it is, such as a barrel: none of its faces is broken, whichever way it looks.
+bool is_whole = false;
+
 // As shared/material/palette.h numbers them.
 const int pattern_grain = 1;
 const int pattern_strata = 2;
@@ -220,6 +223,7 @@ Rock material_at(int look, vec3 p, vec3 n, vec4 coarse, vec4 middle, vec4 small,
   vec3 a = abs(n);
   float broken = smoothstep(0.12, 0.26, 1.0 - max(a.x, max(a.y, a.z))) * (1.0 - smoothstep(0.96, 1.0, roughness));
   broken *= smoothstep(0.1, 0.3, roughness);
+  if (is_whole) broken = 0.0;
   Marks marks;
   if (pattern == pattern_bricks) marks = bricks_at(p, n, size, broken, pixel, small.x);
   else if (pattern == pattern_planks) marks = planks_at(p, n, size, broken, pixel, middle);

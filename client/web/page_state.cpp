@@ -249,6 +249,7 @@ std::string state_text(PageClient& client) {
             {"pace", facts.pace},
             {"lost_ticks", facts.lost_ticks},
             {"pieces_near", facts.pieces_near},
+            {"props_near", facts.props_near},
             {"predictions", facts.predictions},
             {"joined", session.joined(now_s)},
             {"loaded", visit.joined(now_s)},

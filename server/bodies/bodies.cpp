@@ -365,7 +365,7 @@ void Bodies::describe(PhysicsMessage& to) const {
       view.hull_m.insert(view.hull_m.end(), corners.begin(), corners.end());
     }
     const glm::mat3 turned = glm::mat3_cast(body.axes);
-    for (glm::vec3& corner : view.hull_m) corner = turned * corner;
+    for (glm::vec3& corner : view.hull_m) corner = turned * corner + body.given->centre_m;
     to.bodies.push_back(std::move(view));
   }
   list_contacts(state_->dispatcher, to.contacts);

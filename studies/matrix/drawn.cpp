@@ -111,7 +111,7 @@ Result<DrawnFrame> SessionDrawer::frame(MatrixSession& session) {
     method_->update(scene, camera);
   }
   time.shown_ms = whole.lap_ms();
-  stage_.renderer->set_contacts(contacts_of(session.pieces(), matrix_terrain.voxel_size_m, camera.eye_m));
+  stage_.renderer->set_contacts(contacts_of(scene, camera.eye_m));
   stopwatch.lap_ms();
   if (Result<void> drawn = stage_.renderer->draw_unseen(*method_, camera, plan_.width, plan_.height); !drawn)
     return fail(drawn.error().message);

@@ -50,7 +50,7 @@ TEST(ContactsOf, are_balls_of_the_pieces_volumes_and_bounded) {
   ScenePieces pieces;
   for (PieceId id = 1; id <= limits::contacts_max + 50; ++id)
     pieces[id] = {volume, {{static_cast<float>(id), 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}}};
-  const std::vector<Contact> contacts = contacts_of(pieces, 0.25F, {});
+  const std::vector<Contact> contacts = contacts_of(Scene{field, pieces}, {});
   ASSERT_EQ(contacts.size(), limits::contacts_max);
   // Half of the ball lay in the flat ground.
   EXPECT_NEAR(contacts.front().radius_m, std::cbrt(0.5F), 0.08F);

@@ -118,9 +118,9 @@ class PieceWatchTest : public testing::Test {
     for (const auto& [id, volume] : table)
       broken_off_[id] = {volume, {volume->centre_voxels * voxel_m, {1.0F, 0.0F, 0.0F, 0.0F}}};
   }
-  std::vector<PieceEvent> step(const ScenePieces& pieces) {
+  std::vector<PieceEvent> step(const ScenePieces& pieces, const SceneProps& props = no_props()) {
     now_s_ += frame_s;
-    return piece_events_.step(pieces, voxel_m, now_s_);
+    return piece_events_.step(Scene{field_, pieces, props}, now_s_);
   }
   static constexpr float voxel_m = 0.25F;
   static constexpr double frame_s = 1.0 / 60.0;
@@ -152,6 +152,32 @@ TEST_F(PieceWatchTest, pieces_crack_off_strike_and_settle_once_each) {
   ASSERT_FALSE(ends.empty());
   EXPECT_EQ(ends[0].kind, PieceEventKind::settle);
   EXPECT_TRUE(step({}).empty());
+}
+
+TEST_F(PieceWatchTest, props_strike_and_do_no_more) {
+  Prop crate;
+  crate.parts.push_back({.half_m = glm::vec3(0.5F)});
+  crate.mass_kg = 300.0F;
+  Prop lift = crate;
+  lift.motion = PropMotion::kinematic;
+  const Pose up{{0.0F, 20.0F, 0.0F}, {1.0F, 0.0F, 0.0F, 0.0F}};
+  SceneProps props{{5, {std::make_shared<const Prop>(crate), up}},
+                   {6, {std::make_shared<const Prop>(lift), up}}};
+  EXPECT_TRUE(step({}).empty());
+  EXPECT_TRUE(step({}, props).empty()) << "they come without a crack";
+  float speed_m_s = 0.0F;
+  for (int i = 0; i < 40; ++i) {
+    speed_m_s -= 9.81F * static_cast<float>(frame_s);
+    for (auto& [id, prop] : props) prop.pose.position_m.y += speed_m_s * static_cast<float>(frame_s);
+    EXPECT_TRUE(step({}, props).empty()) << "falling is silent, frame " << i;
+  }
+  const std::vector<PieceEvent> strikes = step({}, props);  // both stop
+  ASSERT_EQ(strikes.size(), 1U) << "what a kinematic one does is no blow";
+  EXPECT_EQ(strikes[0].kind, PieceEventKind::strike);
+  EXPECT_EQ(strikes[0].piece, 5U);
+  EXPECT_NEAR(strikes[0].size_m, 1.0F, 0.01F);
+  EXPECT_EQ(strikes[0].mass_kg, 300.0F);
+  EXPECT_TRUE(step({}).empty()) << "they go without a sound";
 }
 
 TEST_F(PieceWatchTest, the_heaviest_of_a_frame_come_first) {

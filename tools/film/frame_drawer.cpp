@@ -33,7 +33,8 @@ FrameDrawer::FrameDrawer(const DrawChoice& drawn, std::unique_ptr<EglContext> co
 
 Result<void> FrameDrawer::prepare(RecordedScene& scene, const MirrorChanges& changes, const Camera& camera,
                                   const Stopped& stopped) {
-  const Scene shown{scene.field(), scene.pieces()};
+  const Scene shown = scene.scene();
+  TRY(renderer_->set_props(shown.props));
   TRY(methods_.follow(changes, shown, camera));
   const double until_s = steady_now_s() + limits::film_frame_s_max;
   while (!methods_.complete()) {
@@ -50,7 +51,7 @@ Result<void> FrameDrawer::prepare(RecordedScene& scene, const MirrorChanges& cha
 Result<Image> FrameDrawer::draw(RecordedScene& scene, const MirrorChanges& changes, const Camera& camera,
                                 const Stopped& stopped) {
   TRY(prepare(scene, changes, camera, stopped));
-  renderer_->set_contacts(contacts_of(scene.pieces(), scene.field().source().voxel_size_m, camera.eye_m));
+  renderer_->set_contacts(contacts_of(scene.scene(), camera.eye_m));
   if (drawn_.particles) renderer_->set_particles(scene.particles(camera.eye_m));
   return renderer_->draw_image(*methods_.shown(), camera, drawn_.size.width, drawn_.size.height);
 }

@@ -69,8 +69,9 @@ void RecordedScene::show(std::shared_ptr<const TickDelta> delta, MirrorChanges& 
   for (const BrickState& brick : now_->bricks) changes.bricks.push_back(brick.coord);
   for (const SpawnedPiece& piece : now_->spawned) volumes_[piece.id] = piece.volume;
   update_pieces(changes);
+  update_props(changes);
   const double now_s = seconds_of(static_cast<double>(now_->tick));
-  dust_.add(piece_events_.step(pieces_, field_.source().voxel_size_m, now_s, *palette()), now_s);
+  dust_.add(piece_events_.step(scene(), now_s, *palette()), now_s);
 }
 
 /// The pieces alive after the tick, where they are then.
@@ -85,17 +86,39 @@ void RecordedScene::update_pieces(MirrorChanges& changes) {
   std::erase_if(volumes_, [this](const auto& volume) { return !pieces_.contains(volume.first); });
 }
 
-/// Each piece to that part of its way from the last whole tick to the next one; one that ends there waits.
-void RecordedScene::move_pieces(float part) {
-  for (const PieceState& from : now_->pieces) {
-    Pose pose = dequantise(from.pose);
-    if (part > 0.0F) {
-      const auto to = std::ranges::lower_bound(ahead_->pieces, from.id, {}, &PieceState::id);
-      if (to != ahead_->pieces.end() && to->id == from.id)
-        pose = pose_between(pose, dequantise(to->pose), part);
-    }
-    pieces_.at(from.id).pose = pose;
+/// The props after the tick, where they are then.
+void RecordedScene::update_props(MirrorChanges& changes) {
+  std::map<PieceId, std::shared_ptr<const Prop>> added;
+  for (const SpawnedProp& prop : now_->props_spawned) added[prop.id] = prop.prop;
+  SceneProps there;
+  for (const PieceState& state : now_->props) {
+    const auto is_new = added.find(state.id);
+    if (is_new != added.end()) changes.props_added.push_back(state.id);
+    const std::shared_ptr<const Prop> prop =
+        is_new != added.end() ? is_new->second : props_.at(state.id).prop;
+    props_.erase(state.id);
+    there.emplace_hint(there.end(), state.id, SceneProp{prop, dequantise(state.pose)});
   }
+  for (const auto& [id, prop] : props_) changes.props_removed.push_back(id);
+  props_ = std::move(there);
+}
+
+Pose RecordedScene::on_the_way(const PieceState& from, const std::vector<PieceState>& to, float part) {
+  const Pose pose = dequantise(from.pose);
+  const auto next = std::ranges::lower_bound(to, from.id, {}, &PieceState::id);
+  if (next == to.end() || next->id != from.id) return pose;
+  return pose_between(pose, dequantise(next->pose), part);
+}
+
+/// Each piece and prop to that part of its way from the last whole tick to the next one; one that ends there
+/// waits.
+void RecordedScene::move_pieces(float part) {
+  const std::vector<PieceState> none;
+  const bool on = part > 0.0F;
+  for (const PieceState& from : now_->pieces)
+    pieces_.at(from.id).pose = on_the_way(from, on ? ahead_->pieces : none, part);
+  for (const PieceState& from : now_->props)
+    props_.at(from.id).pose = on_the_way(from, on ? ahead_->props : none, part);
 }
 
 }  // namespace scree

@@ -1,6 +1,6 @@
-// A recording's world at any moment, to be drawn: the terrain after the last whole tick, the pieces between
-// that tick and the next one, and the dust that pieces raised. What is shown at a moment does not depend on
-// which moments were shown before. Nothing is simulated. One thread at a time.
+// A recording's world at any moment, to be drawn: the terrain after the last whole tick, pieces and
+// props between that tick and the next one, and the dust that they raised. What is shown at a moment does not
+// depend on which moments were shown before. Nothing is simulated. One thread at a time.
 #pragma once
 
 #include <memory>
@@ -29,7 +29,7 @@ class RecordedScene {
   /// As of the last moment.
   Field& field() { return field_; }
   const Field& field() const { return field_; }
-  const ScenePieces& pieces() const { return pieces_; }
+  Scene scene() const { return {field_, pieces_, props_}; }
   /// The recording's, as it starts. Not null.
   const std::shared_ptr<const Palette>& palette() const { return source_->header().world.palette; }
   /// In the air; the farthest from the eye first.
@@ -42,12 +42,16 @@ class RecordedScene {
   Result<void> read_ahead();
   void show(std::shared_ptr<const TickDelta> delta, MirrorChanges& changes);
   void update_pieces(MirrorChanges& changes);
+  void update_props(MirrorChanges& changes);
   void move_pieces(float part);
+  /// Where what was there after the last tick is at that part of the way to the next one.
+  static Pose on_the_way(const PieceState& from, const std::vector<PieceState>& to, float part);
 
   std::unique_ptr<ReplaySource> source_;
   MapField field_;
   std::map<PieceId, std::shared_ptr<const Volume>> volumes_;  ///< of the pieces alive
   ScenePieces pieces_;
+  SceneProps props_;
   PieceEventDetector piece_events_;
   Dust dust_;
   MirrorChanges unseen_;                    ///< since the last moment that was asked for

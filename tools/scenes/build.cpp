@@ -13,6 +13,12 @@ namespace {
 /// A tick has time for a fill of any size; those before it may have put it off.
 constexpr int ticks_a_request_max = 60;
 
+glm::vec3 place_of(const BuildStep& step) {
+  return std::visit(Overloaded{[](const AddPropRequest& prop) { return prop.place_m; },
+                               [](const auto& request) { return centre_of(request.shape); }},
+                    step);
+}
+
 Result<void> carry_out(World& world, const BuildStep& step) {
   const Command command{.body = std::visit([](const auto& request) { return Request(request); }, step)};
   std::shared_ptr<const TickDelta> delta = world.step({&command, 1});
@@ -24,8 +30,8 @@ Result<void> carry_out(World& world, const BuildStep& step) {
   const std::string& refusal = delta->replies.front().refusal;
   if (!refusal.empty()) return fail(refusal);
   if (delta->spawned.empty()) return {};
-  const glm::vec3 at_m = std::visit([](const auto& request) { return centre_of(request.shape); }, step);
-  return fail("something falls while the scene is built, at or before the fill about " +
+  const glm::vec3 at_m = place_of(step);
+  return fail("something falls while the scene is built, at or before the step about " +
               std::to_string(at_m.x) + ", " + std::to_string(at_m.y) + ", " + std::to_string(at_m.z));
 }
 
@@ -54,7 +60,8 @@ void build_scene(Field& field, const SceneSetup& setup) {
                           },
                           [&](const PaintRequest& paint) {
                             apply(PaintOperation{paint.shape, paint.material}, field, none);
-                          }},
+                          },
+                          [](const AddPropRequest&) {}},
                step);
 }
 

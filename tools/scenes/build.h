@@ -15,7 +15,7 @@ Result<void> build_scene(World& world, const SceneSetup& setup);
 /// The world of a scene, built. `threads`: as World::create.
 Result<std::unique_ptr<World>> scene_world(const SceneSetup& setup, size_t threads = 1);
 
-/// The same terrain without a world: of a field on the scene's ground.
+/// The same terrain without a world, and without props: of a field on the scene's ground.
 void build_scene(Field& field, const SceneSetup& setup);
 
 /// Makes a world's file of it (scree-server --world); an error if the file exists. A ground file of the scene

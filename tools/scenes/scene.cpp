@@ -5,6 +5,7 @@
 
 #include "shared/base/listed.h"
 #include "tools/scenes/grounds.h"
+#include "tools/scenes/store.h"
 #include "tools/scenes/street.h"
 #include "tools/scenes/structures.h"
 
@@ -23,6 +24,7 @@ constexpr std::array rows{
     SceneRow{"maunga-whau", "the crater of a volcano, from an elevation model", maunga_whau_scene},
     SceneRow{"street", "houses of twelve materials: bricks, concrete, steel, glass, timber and more",
              street_scene},
+    SceneRow{"store", "crates, barrels, balls and a table on a dock and on a wall", store_scene},
 };
 
 }  // namespace

@@ -15,8 +15,8 @@
 
 namespace scree {
 
-/// A scene is built by what makes no pieces.
-using BuildStep = std::variant<FillRequest, PaintRequest>;
+/// A scene is built by what makes no pieces. Props come last: what is filled does not push them away.
+using BuildStep = std::variant<FillRequest, PaintRequest, AddPropRequest>;
 
 struct SceneSetup {
   WorldConfig config{};                 ///< with its ground

@@ -1,4 +1,5 @@
-// Where loose pieces keep the sky's light from what they lie on: each counts as a ball of its volume. No GL.
+// Where pieces and props keep the sky's light from what they lie on: each piece, and each part of a prop,
+// counts as a ball of its volume. No GL.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -14,7 +15,7 @@ struct Contact {
   float radius_m = 0.0F;
 };
 
-/// The contacts of at most limits::contacts_max pieces, those nearest to the eye.
-std::vector<Contact> contacts_of(const ScenePieces& pieces, float voxel_m, glm::vec3 eye_m);
+/// At most limits::contacts_max, those nearest to the eye.
+std::vector<Contact> contacts_of(const Scene& scene, glm::vec3 eye_m);
 
 }  // namespace scree

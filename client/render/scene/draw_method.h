@@ -16,6 +16,7 @@
 #include "client/render/scene/draw_option.h"
 #include "client/render/scene/ground_tint.h"
 #include "shared/base/memory_count.h"
+#include "shared/prop/prop.h"
 
 namespace scree {
 
@@ -28,10 +29,24 @@ struct ScenePiece {
 
 using ScenePieces = std::map<PieceId, ScenePiece>;
 
-/// The content of a frame.
+struct SceneProp {
+  std::shared_ptr<const Prop> prop;
+  Pose pose;  ///< at the time of the frame: of its origin
+};
+
+using SceneProps = std::map<PieceId, SceneProp>;
+
+inline const SceneProps& no_props() {
+  static const SceneProps none;
+  return none;
+}
+
+/// The content of a frame. Methods draw field and pieces; the renderer draws the props, for all methods alike
+/// (Renderer::set_props).
 struct Scene {
   const Field& field;
   const ScenePieces& pieces;
+  const SceneProps& props = no_props();
 };
 
 /// The light, which all methods share.

@@ -6,6 +6,7 @@
 
 #include "client/mirror/predictions.h"
 #include "client/viewer/base/limits.h"
+#include "shared/prop/prop_solid.h"
 
 namespace scree {
 namespace {
@@ -59,7 +60,26 @@ PieceEventDetector::Known PieceEventDetector::seen(const ScenePiece& piece, floa
           std::cbrt(volume_m3(volume.mass)),
           mass_kg,
           main_material(volume),
+          false,
           false};
+}
+
+PieceEventDetector::Known PieceEventDetector::seen(const Prop& prop) {
+  Known one;
+  one.size_m = std::cbrt(measure_of(prop).volume_m3);
+  one.mass_kg = prop.mass_kg;
+  one.material = prop.material;
+  one.is_prop = true;
+  return one;
+}
+
+PieceEventDetector::Known PieceEventDetector::moved_on(const Known& before, glm::vec3 place_m,
+                                                       float elapsed_s) {
+  Known now = before;
+  now.place_m = place_m;
+  now.speed_m_s = (place_m - before.place_m) / elapsed_s;
+  now.moved = true;
+  return now;
 }
 
 PieceEvent PieceEventDetector::event_of(PieceEventKind kind, PieceId id, const Known& piece, float change_m_s,
@@ -89,31 +109,48 @@ bool PieceEventDetector::replaces_predicted(PieceId id, const ScenePieces& piece
   });
 }
 
-std::vector<PieceEvent> PieceEventDetector::step(const ScenePieces& pieces, float voxel_m, double now_s,
-                                                 const Palette& palette) {
+/// What a kinematic one does is told, and no blow.
+void PieceEventDetector::follow_props(const SceneProps& props, std::optional<float> elapsed_s,
+                                      const Palette& palette, Table& now,
+                                      std::vector<PieceEvent>& events) const {
+  for (const auto& [id, shown] : props) {
+    if (shown.prop->motion != PropMotion::dynamic) continue;
+    const auto before = elapsed_s ? known_->find(id) : Table::const_iterator();
+    const bool is_known = elapsed_s && before != known_->end() && before->second.is_prop;
+    Known one = is_known ? moved_on(before->second, shown.pose.position_m, *elapsed_s) : seen(*shown.prop);
+    one.place_m = shown.pose.position_m;
+    if (is_known)
+      if (const auto blow = blow_of(before->second, one, *elapsed_s))
+        events.push_back(event_of(PieceEventKind::strike, id, one, *blow, palette));
+    now.emplace(id, one);
+  }
+}
+
+std::vector<PieceEvent> PieceEventDetector::step(const Scene& scene, double now_s, const Palette& palette) {
   std::vector<PieceEvent> events;
   const auto elapsed_s = static_cast<float>(now_s - last_s_);
   if (known_ && elapsed_s <= 0.0F) return events;
   const bool continuous = known_ && static_cast<double>(elapsed_s) < gap_s;
   Table now;
-  for (const auto& [id, piece] : pieces) {
-    Known one = seen(piece, voxel_m, palette);
+  for (const auto& [id, piece] : scene.pieces) {
+    Known one = seen(piece, scene.field.source().voxel_size_m, palette);
     const auto before = continuous ? known_->find(id) : Table::const_iterator();
     if (continuous && before != known_->end()) {
-      one.speed_m_s = (one.place_m - before->second.place_m) / elapsed_s;
-      one.moved = true;
+      one = moved_on(before->second, one.place_m, elapsed_s);
       if (const auto blow = blow_of(before->second, one, elapsed_s)) {
         events.push_back(event_of(PieceEventKind::strike, id, one, *blow, palette));
-        if (one.size_m > large_m) events.back().place_m = lowest_place_m(piece, voxel_m);
+        if (one.size_m > large_m)
+          events.back().place_m = lowest_place_m(piece, scene.field.source().voxel_size_m);
       }
-    } else if (continuous && !replaces_predicted(id, pieces)) {
+    } else if (continuous && !replaces_predicted(id, scene.pieces)) {
       events.push_back(event_of(PieceEventKind::crack, id, one, crack_m_s, palette));
     }
     now.emplace(id, one);
   }
+  follow_props(scene.props, continuous ? std::optional(elapsed_s) : std::nullopt, palette, now, events);
   if (continuous)
     for (const auto& [id, gone] : *known_)
-      if (!now.contains(id) && !Predictions::is_predicted(id))
+      if (!now.contains(id) && !gone.is_prop && !Predictions::is_predicted(id))
         events.push_back(event_of(PieceEventKind::settle, id, gone, settle_m_s, palette));
   known_ = std::move(now);
   last_s_ = now_s;

@@ -46,6 +46,13 @@ void add_hull(LineList& lines, const BodyView& body, const Pose& pose, LineColou
   }
 }
 
+/// Null: it is neither a piece nor a prop here.
+const Pose* pose_of(PieceId id, const Scene& scene) {
+  if (const auto piece = scene.pieces.find(id); piece != scene.pieces.end()) return &piece->second.pose;
+  const auto prop = scene.props.find(id);
+  return prop == scene.props.end() ? nullptr : &prop->second.pose;
+}
+
 }  // namespace
 
 void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& choice, glm::vec3 eye_m,
@@ -70,19 +77,19 @@ void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& c
   }
 }
 
-void add_physics(LineList& lines, const PhysicsMessage& physics, const ScenePieces& pieces, float voxel_m) {
+void add_physics(LineList& lines, const PhysicsMessage& physics, const Scene& scene) {
   for (const BodyView& body : physics.bodies) {
-    const auto piece = pieces.find(body.id);
-    if (piece == pieces.end()) continue;
+    const Pose* pose = pose_of(body.id, scene);
+    if (pose == nullptr) continue;
     const LineColour moving = body.island ? island_colour : awake_colour;
-    add_hull(lines, body, piece->second.pose, body.awake ? moving : asleep_colour);
+    add_hull(lines, body, *pose, body.awake ? moving : asleep_colour);
   }
   for (const ContactView& contact : physics.contacts) {
     const float length_m =
         std::clamp(contact_min_m * std::sqrt(contact.impulse_n_s) * 0.1F, contact_min_m, contact_max_m);
     lines.line(contact.point_m, contact.point_m + contact.normal * length_m, contact_colour);
   }
-  const float side_m = static_cast<float>(brick_size) * voxel_m;
+  const float side_m = static_cast<float>(brick_size) * scene.field.source().voxel_size_m;
   for (const BrickCoord brick : physics.searched) {
     const glm::vec3 lo_m = glm::vec3(brick.x, brick.y, brick.z) * side_m;
     lines.box(lo_m, lo_m + side_m, searched_colour);

@@ -24,6 +24,6 @@ void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& c
 
 /// Hulls that collide: orange while awake, blue asleep, violet for islands. Red: contacts, along their
 /// normals, longer for stronger ones. Magenta: bricks of unfinished searches for islands.
-void add_physics(LineList& lines, const PhysicsMessage& physics, const ScenePieces& pieces, float voxel_m);
+void add_physics(LineList& lines, const PhysicsMessage& physics, const Scene& scene);
 
 }  // namespace scree

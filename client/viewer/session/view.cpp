@@ -40,7 +40,9 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
   renderer_->set_palette(palette);
   if (images_.follow(*palette, [&](const Digest& image) { return session.content(image); }))
     renderer_->set_images(images_.texels());
-  return methods_.follow(step.changes, Scene{session.field(), session.pieces(now_s)}, camera);
+  const Scene scene = session.scene(now_s);
+  TRY(renderer_->set_props(scene.props));
+  return methods_.follow(step.changes, scene, camera);
 }
 
 }  // namespace scree

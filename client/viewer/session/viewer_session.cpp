@@ -23,6 +23,8 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
   to.bricks.insert(to.bricks.end(), from.bricks.begin(), from.bricks.end());
   to.pieces_added.insert(to.pieces_added.end(), from.pieces_added.begin(), from.pieces_added.end());
   to.pieces_removed.insert(to.pieces_removed.end(), from.pieces_removed.begin(), from.pieces_removed.end());
+  to.props_added.insert(to.props_added.end(), from.props_added.begin(), from.props_added.end());
+  to.props_removed.insert(to.props_removed.end(), from.props_removed.begin(), from.props_removed.end());
 }
 
 std::string told_of_paint(uint32_t bricks) {
@@ -222,6 +224,16 @@ const ScenePieces& ViewerSession::pieces(double now_s) {
   for (const auto& [id, volume] : client_.predictions()->pieces())
     pieces_.emplace(id, ScenePiece{volume, {volume->centre_voxels * voxel_m, {1.0F, 0.0F, 0.0F, 0.0F}}});
   return pieces_;
+}
+
+const SceneProps& ViewerSession::props(double now_s) {
+  props_.clear();
+  const Mirror* mirror = client_.mirror();
+  if (mirror == nullptr) return props_;
+  const double tick = client_.draw_tick(now_s);
+  for (const auto& [id, motion] : mirror->props())
+    props_.emplace_hint(props_.end(), id, SceneProp{motion.prop, mirror->pose_at(motion, tick)});
+  return props_;
 }
 
 const Figures& ViewerSession::figures(double now_s) {

@@ -59,6 +59,11 @@ class ViewerSession {
   Field& field() { return client_.field(); }
   /// The pieces at the poses to draw now; those of predicted carves where they are cut.
   const ScenePieces& pieces(double now_s);
+  /// The props, likewise.
+  const SceneProps& props(double now_s);
+  /// The field, the pieces and the props. After the first welcome; valid until the next step(), strike() or
+  /// scene().
+  Scene scene(double now_s) { return {field(), pieces(now_s), props(now_s)}; }
   /// The person's name from the next connection on.
   void set_name(const std::string& name) { choice_.name = name; }
   /// The camera has no place yet: the next welcome says it. Until this is off again, the server is not told
@@ -152,6 +157,7 @@ class ViewerSession {
   Pace pace_;
   double tick_rate_hz_ = 60.0;
   ScenePieces pieces_;
+  SceneProps props_;
   std::string trouble_;   ///< the reason for the missing connection
   bool gave_up_ = false;  ///< the server refused for a reason that stays (may_come_again)
   double next_try_s_ = 0.0;

@@ -8,7 +8,7 @@ void Whereabouts::step(Camera& camera, const FlyInput& input, float elapsed_s, V
   if (input.move != glm::vec3(0.0F)) eye_.end();
   if (eye_.follows()) return eye_.step(camera, session.figures(now_s), now_s);
   if (!feet_.walks()) return fly(camera, input, elapsed_s);
-  feet_.step(camera, input, elapsed_s, Scene{session.field(), session.pieces(now_s)});
+  feet_.step(camera, input, elapsed_s, session.scene(now_s));
 }
 
 void Whereabouts::walk_or_fly(const Camera& camera, ViewerSession& session) {

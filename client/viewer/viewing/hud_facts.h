@@ -31,6 +31,7 @@ struct HudFacts {
   bool is_replay = false;
   float voxel_size_m = 1.0F;
   size_t pieces_near = 0;  ///< that the server shows to this viewer
+  size_t props_near = 0;   ///< likewise
   std::optional<Preparing> preparing;
   std::optional<StatusMessage> status;  ///< the server's last
   double bytes_per_s = 0.0;

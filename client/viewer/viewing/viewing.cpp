@@ -84,7 +84,7 @@ Moment Viewing::moment(double now_s) {
   moment.joined = joined(now_s);
   moment.carved = session.carved();
   if (Mirror* mirror = session.mirror()) {
-    const Scene scene{session.field(), session.pieces(now_s)};
+    const Scene scene = session.scene(now_s);
     const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
     moment.pieces = pieces_in_sight(scene, camera, aspect, view_radius_m());
     const bool elsewhere = mirror->status() && mirror->status()->pieces > 0;

@@ -99,8 +99,7 @@ Result<void> Visit::step(double now_s) {
   events_.clear();
   if (session.mirror() != nullptr) {
     follow_pieces(now_s);
-    view->renderer().set_contacts(
-        contacts_of(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, camera.eye_m));
+    view->renderer().set_contacts(contacts_of(session.scene(now_s), camera.eye_m));
   }
   const TraceSpan span(trace.get(), "viewer", "update");
   return view->follow(step, session, camera, now_s);
@@ -109,8 +108,7 @@ Result<void> Visit::step(double now_s) {
 /// What they do is heard and seen.
 void Visit::follow_pieces(double now_s) {
   if (!listens_ && !particles_) return;
-  events_ = piece_events_.step(session.pieces(now_s), session.mirror()->terrain().voxel_size_m, now_s,
-                               session.palette());
+  events_ = piece_events_.step(session.scene(now_s), now_s, session.palette());
   if (!particles_) return;
   dust_.add(events_, now_s);
   view->renderer().set_particles(dust_.at(now_s, camera.eye_m));
@@ -142,8 +140,7 @@ void Visit::add_overlay(LineList& lines, const OverlayChoice& choice, double now
   session.want_physics(choice.shown && choice.physics);
   if (!choice.shown || session.mirror() == nullptr) return;
   add_borders(lines, session, choice, camera.eye_m, now_s);
-  if (const PhysicsMessage* physics = session.physics())
-    add_physics(lines, *physics, session.pieces(now_s), session.mirror()->terrain().voxel_size_m);
+  if (const PhysicsMessage* physics = session.physics()) add_physics(lines, *physics, session.scene(now_s));
 }
 
 }  // namespace scree

@@ -157,6 +157,7 @@ void Hud::figures(const HudFacts& facts, bool all) {
   show_pace(facts);
   if (facts.mismatches > 0) ImGui::Text("%" PRIu64 " frames differed", facts.mismatches);
   if (facts.status) show_pieces(*facts.status);
+  if (facts.props_near > 0) ImGui::Text("props: %zu here", facts.props_near);
   if (all) show_all(facts);
   panels_.end();
 }
