@@ -213,17 +213,17 @@ void draw_methods(Film& film) {
     film.shoot("method_" + std::string(entry.name), camera, entry.name);
 }
 
-/// The street of all materials as it is built, struck, and at rest, by every method.
-void draw_street(Stage& stage, const std::string& folder) {
+/// A scene as it is built, struck, and at rest, by every method.
+void draw_by_all_methods(Stage& stage, const std::string& folder, const std::string& name,
+                         const Camera& camera) {
   const ScratchFolder grounds("pictures");
-  const Result<SceneSetup> scene = scene_named("street")->set_up(grounds / "");
+  const Result<SceneSetup> scene = scene_named(name)->set_up(grounds / "");
   if (!scene) give_up(scene.error().message);
   Film film(stage, folder, scene->config);
   film.build(*scene);
-  const Camera camera = look_at({6.5F, 5.5F, 15.5F}, {-2.0F, 3.4F, -4.0F});
   const auto shoot = [&](const std::string& when) {
     for (const MethodEntry& entry : all_methods())
-      film.shoot("street_" + when + "_" + std::string(entry.name), camera, entry.name);
+      film.shoot(name + "_" + when + "_" + std::string(entry.name), camera, entry.name);
   };
   shoot("before");
   for (const CarveRequest& strike : scene->strikes) film.ask(strike);
@@ -295,7 +295,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", SCREE_VERSION);
   app.option_defaults()->always_capture_default();
   app.add_option("--out", folder, "folder for the PNGs");
-  app.add_option("--only", only, "draw only one of blast, patterns, tower, arch, methods, street");
+  app.add_option("--only", only, "draw only one of blast, patterns, tower, arch, methods, street, store");
   app.add_flag("--scenes", scenes, "draw every scene instead of the documentation's pictures");
   app.add_option("--scene", scene, "draw only this scene: " + scene_names())
       ->check([](const std::string& name) {
@@ -323,6 +323,9 @@ int main(int argc, char** argv) {
     Film film(**stage, folder);
     scenario.draw(film);
   }
-  if (only.empty() || only == "street") draw_street(**stage, folder);
+  if (only.empty() || only == "street")
+    draw_by_all_methods(**stage, folder, "street", look_at({6.5F, 5.5F, 15.5F}, {-2.0F, 3.4F, -4.0F}));
+  if (only.empty() || only == "store")
+    draw_by_all_methods(**stage, folder, "store", look_at({4.6F, 3.0F, 6.4F}, {-0.6F, 1.1F, -0.8F}));
   return 0;
 }

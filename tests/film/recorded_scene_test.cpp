@@ -58,6 +58,54 @@ TEST_F(FilmScene, pieces_are_between_their_places_of_two_ticks) {
   }
 }
 
+/// A crate that falls from tick 3 on, and is taken away in tick 9.
+class FilmProps : public RecordingTest {
+ protected:
+  void SetUp() override {
+    RecordingTest::SetUp();
+    World world(small_world());
+    std::optional<uint32_t> crate;
+    for (Tick tick = 1; tick <= 12; ++tick) {
+      std::vector<Command> commands;
+      if (tick == 3) commands = {{1, 1, falling_crate()}};
+      if (tick == 9) commands = {{1, 2, RemovePropRequest{*crate}}};
+      deltas.push_back(world.step(commands));
+      commands_by_tick.push_back(commands);
+      for (const SpawnedProp& prop : deltas.back()->props_spawned) crate = prop.id;
+    }
+    record();
+  }
+  static AddPropRequest falling_crate() {
+    AddPropRequest add;
+    add.prop.parts.push_back({.half_m = glm::vec3(0.5F)});
+    add.prop.mass_kg = 100.0F;
+    add.place_m = {0.0F, 9.0F, 0.0F};
+    return add;
+  }
+};
+
+TEST_F(FilmProps, come_are_between_their_places_of_two_ticks_and_go) {
+  auto opened = RecordedScene::open(path, 0.0, {});
+  ASSERT_TRUE(opened.has_value()) << opened.error().message;
+  RecordedScene& scene = **opened;
+  ASSERT_TRUE(scene.go_to(2.5).has_value());
+  EXPECT_TRUE(scene.scene().props.empty());
+  const auto came = scene.go_to(3.0);
+  ASSERT_TRUE(came.has_value());
+  EXPECT_EQ(came->props_added.size(), 1U);
+  ASSERT_EQ(scene.scene().props.size(), 1U);
+  EXPECT_EQ(*scene.scene().props.begin()->second.prop, falling_crate().prop);
+  ASSERT_TRUE(scene.go_to(6.25).has_value());
+  const float from_m = dequantise(deltas[5]->props.front().pose).position_m.y;
+  const float to_m = dequantise(deltas[6]->props.front().pose).position_m.y;
+  ASSERT_LT(to_m, from_m);
+  EXPECT_NEAR(scene.scene().props.begin()->second.pose.position_m.y, from_m + 0.25F * (to_m - from_m), 1e-4F);
+  const auto went = scene.go_to(10.0);
+  ASSERT_TRUE(went.has_value());
+  EXPECT_EQ(went->props_removed.size(), 1U);
+  EXPECT_TRUE(scene.scene().props.empty());
+}
+
 TEST_F(FilmScene, a_moment_is_the_same_whichever_were_shown_before) {
   const glm::vec3 eye_m(0.0F, 5.0F, 10.0F);
   const auto slowly = scene_at(0.0);

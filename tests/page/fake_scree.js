@@ -31,7 +31,7 @@ const status = {
 
 export const state = {
   connection: { phase: 'connected', text: 'fake', replay: false, role: 'player', session: 1 },
-  notice: '', camera: '30,9,19,63,-7', walks: false, eye: '', tick: 67611, tick_rate_hz: 60, pace: 1, lost_ticks: 0, pieces_near: 96,
+  notice: '', camera: '30,9,19,63,-7', walks: false, eye: '', tick: 67611, tick_rate_hz: 60, pace: 1, lost_ticks: 0, pieces_near: 96, props_near: 0,
   predictions: 0, joined: true, loaded: true, complete: true,
   traffic: { received_bytes: 1250000, sent_bytes: 8123, received_bytes_per_s: 10240, waiting_bytes: 0 },
   mirror: { frames: 900, pieces_made: 512, pieces_merged: 384, checks: 120, mismatches: 0, repairs: 0, held_chunks: 444, edited_bricks: 812 },

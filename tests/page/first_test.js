@@ -13,7 +13,7 @@ import { host, run } from './server.js';
 const WIDTH = 480, HEIGHT = 270, VIEW_M = 64;
 const PLACES_AGREE = 0.95;
 const TERRAINS = ['flat', 'noise', 'canyon'];
-const SCENES = ['plain', 'cliffs', 'arch', 'tower', 'bridge', 'quarry', 'city', 'maunga-whau'];
+const SCENES = ['plain', 'cliffs', 'arch', 'tower', 'bridge', 'quarry', 'city', 'maunga-whau', 'store'];
 
 let folder, browser;
 before(async () => {

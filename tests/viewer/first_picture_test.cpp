@@ -1,5 +1,6 @@
 // The first picture of who says no camera: on each ground and each scene it has ground and sky in it, nothing
 // right before the eye, and no rock around it. SCREE_PICTURES names a folder for the pictures, for people.
+#include <algorithm>
 #include <cstdlib>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -150,6 +151,28 @@ TEST_F(FirstPicture, of_every_scene) {
     server_.reset();
     port_ = 0;
   }
+}
+
+TEST_F(FirstPicture, shows_the_props_of_a_server) {
+  const auto scene = scene_named("store")->set_up(folder_ / "");
+  ASSERT_TRUE(scene) << scene.error().message;
+  const auto is_prop = [](const BuildStep& step) { return std::holds_alternative<AddPropRequest>(step); };
+  const auto props = static_cast<size_t>(std::ranges::count_if(scene->build, is_prop));
+  LiveConfig config;
+  config.world_path = folder_ / "store.world";
+  ASSERT_TRUE(make_scene_file(*scene, config.world_path, 7));
+  serve(config);
+  view();
+  ASSERT_TRUE(load()) << viewing_->session.description();
+  ASSERT_EQ(viewing_->session.mirror()->props().size(), props);
+  const auto shown = viewing_->picture(steady_now_s(), picture_width, picture_height);
+  ASSERT_TRUE(viewing_->view->renderer().set_props({}));
+  const auto bare = viewing_->picture(steady_now_s(), picture_width, picture_height);
+  ASSERT_TRUE(shown && bare);
+  size_t changed = 0;
+  for (size_t i = 0; i < shown->rgb.size(); i += 3)
+    changed += std::abs(shown->rgb[i] - bare->rgb[i]) > 16 ? 1 : 0;
+  EXPECT_GT(changed, 1000U);
 }
 
 TEST_F(FirstPicture, of_an_imported_ground_without_a_scene) {

@@ -29,6 +29,7 @@ class RecordedScene {
   /// As of the last moment.
   Field& field() { return field_; }
   const Field& field() const { return field_; }
+  const ScenePieces& pieces() const { return pieces_; }
   Scene scene() const { return {field_, pieces_, props_}; }
   /// The recording's, as it starts. Not null.
   const std::shared_ptr<const Palette>& palette() const { return source_->header().world.palette; }

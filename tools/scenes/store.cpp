@@ -51,7 +51,9 @@ class Storeman {
   /// `place_m`: of the props' origin.
   void put(std::string_view material, std::vector<PropPart> parts, glm::vec3 place_m,
            glm::quat turn = upright) {
-    AddPropRequest add{.place_m = place_m + glm::vec3(0.0F, gap_m, 0.0F), .turn = turn};
+    AddPropRequest add;
+    add.place_m = place_m + glm::vec3(0.0F, gap_m, 0.0F);
+    add.turn = turn;
     add.prop.parts = std::move(parts);
     add.prop.material = store_material(material);
     add.prop.friction = builtin_palette().row(add.prop.material).friction;
