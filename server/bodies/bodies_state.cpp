@@ -160,6 +160,7 @@ void Bodies::State::step() {
   run(touching);
   terrain.roughen(loose, *config.palette);
   dynamics.solve();
+  break_joints();
   keep_strongest(terrain_blows, list_terrain_blows(bodies, dispatcher, limits::struck_speed_min_m_s));
   for (Body* body : loose)
     if (body->awake && is_fast(*body, step_size)) sweep(*body, step_size);
@@ -197,6 +198,15 @@ void Bodies::State::tell_changes() {
   for (Body* body : all)
     if (body->roused) wake(*body);
   pending.clear();
+}
+
+void Bodies::State::take_out(PieceId id) {
+  Body& body = bodies.at(id);
+  pending.add(bounds_of(body));
+  leave(body);
+  if (body.frozen) --frozen;
+  bodies.erase(id);
+  CHECK(frozen <= bodies.size());
 }
 
 void Bodies::State::enter(Body& body) {
