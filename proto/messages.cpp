@@ -103,6 +103,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const UnchangedChunksMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
                      [](const PieceMessage& m) { return bytes_of(m.volume); },
                      [](const PropMessage& m) { return bytes_of(m.prop); },
+                     [](const JointsMessage& m) { return bytes_of(m.here) + bytes_of(m.gone); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const TileMessage& m) { return m.bytes.size(); },
                      [](const ContentMessage& m) { return m.part.size(); },

@@ -76,19 +76,6 @@ struct TerrainBlow {
   float energy_j() const { return 0.5F * impulse_n_s * speed_m_s; }
 };
 
-struct KnownJoint {
-  JointId id = 0;
-  Joint joint;
-};
-
-/// A joint that is no more, though nobody removed it.
-struct EndedJoint {
-  JointId id = 0;
-  JointEnd why = JointEnd::broken;
-
-  bool operator==(const EndedJoint&) const = default;
-};
-
 /// What a joint bore in the last step that moved its bodies, without its motor's part.
 struct JointLoad {
   float force_n = 0.0F;
@@ -139,6 +126,8 @@ class Bodies {
   void set_motor(JointId id, const JointMotor& motor);
   bool has_joint(JointId id) const;
   size_t joints() const;
+  /// Number of joints of which a body is awake.
+  size_t awake_joints() const;
   /// Whether a joint holds the body.
   bool is_joined(PieceId id) const;
   /// The joint must be present.

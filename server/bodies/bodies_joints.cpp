@@ -142,6 +142,13 @@ size_t Bodies::joints() const {
   return state_->joints.size();
 }
 
+size_t Bodies::awake_joints() const {
+  const auto is_awake = [](const btRigidBody* body) { return body != nullptr && body->isActive(); };
+  return static_cast<size_t>(std::ranges::count_if(state_->joints, [&](const auto& entry) {
+    return is_awake(entry.second.body_a()) || is_awake(entry.second.body_b());
+  }));
+}
+
 bool Bodies::is_joined(PieceId id) const {
   return state_->joints_of.contains(id);
 }

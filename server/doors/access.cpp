@@ -116,7 +116,10 @@ Role role_for(const Request& request) {
                                [](const RemovePropRequest&) { return Role::director; },
                                [](const MovePropRequest&) { return Role::director; },
                                [](const PushRequest&) { return Role::carver; },
-                               [](const BreakRequest&) { return Role::carver; }},
+                               [](const BreakRequest&) { return Role::carver; },
+                               [](const AddJointRequest&) { return Role::director; },
+                               [](const RemoveJointRequest&) { return Role::director; },
+                               [](const SetMotorRequest&) { return Role::director; }},
                     request);
 }
 

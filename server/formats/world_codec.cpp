@@ -6,6 +6,7 @@
 
 #include "proto/operation_codec.h"
 #include "proto/wire_values.h"
+#include "server/formats/joint_lists.h"
 #include "server/formats/packed_lists.h"
 #include "server/formats/recording_values.h"
 #include "shared/base/check.h"
@@ -221,6 +222,8 @@ void write(kept::Moment& to, const WorldMoment& from) {
     added.set_here(to_string(encode_recorded_prop({prop.id, *prop.prop, {}})));
     added.set_owner(prop.owner);
   }
+  write_joints(*to.mutable_joints(), from.joints);
+  for (const JointRecord& joint : from.joints) to.add_joint_owners(joint.owner);
   for (const StruckPlace& place : from.struck) {
     kept::StruckPlace& added = *to.add_struck();
     added.set_x(place.cell.x);
@@ -277,6 +280,7 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
     PropMessage here = check.value_or_refuse(decode_recorded_prop(as_span(one.here())));
     moment.props.push_back({here.id, one.owner(), std::make_shared<const Prop>(std::move(here.prop))});
   }
+  moment.joints = read_joints(from.joints(), from.joint_owners(), check);
   for (const kept::StruckPlace& one : from.struck())
     moment.struck.push_back(
         {{one.x(), one.y(), one.z()}, check.not_negative(one.energy_j(), "energy of blows"), one.at()});

@@ -36,6 +36,9 @@ struct Pricing {
   float operator()(const RemovePropRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const MovePropRequest&) const { return limits::prop_cost_us; }
   float operator()(const PushRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const AddJointRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const RemoveJointRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const SetMotorRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
     return cut_price_us(cutter, limits::broken_voxels, request.seeds);

@@ -107,6 +107,21 @@ struct Joint {
   bool operator==(const Joint&) const = default;
 };
 
+struct KnownJoint {
+  JointId id = 0;
+  Joint joint;
+
+  bool operator==(const KnownJoint&) const = default;
+};
+
+/// A joint that is no more.
+struct EndedJoint {
+  JointId id = 0;
+  JointEnd why = JointEnd::removed;
+
+  bool operator==(const EndedJoint&) const = default;
+};
+
 /// Refuses what no world can take: numbers beyond their bounds, members that are another kind's, and a joint
 /// of a body with itself, or of the terrain alone.
 Result<void> validate(const Joint& joint);
