@@ -33,7 +33,7 @@ void Bodies::State::enter_joint(JointId id, const Joint& joint) {
   for (const PieceId body : {joint.a.body, joint.b.body})
     if (body != 0) joints_of[body].insert(id);
   keep_apart(added->second, true);
-  list_joints();
+  joints_listed = false;
 }
 
 void Bodies::State::end_joint(JointId id) {
@@ -49,10 +49,11 @@ void Bodies::State::end_joint(JointId id) {
     if (others.empty()) joints_of.erase(body);
     wake(bodies.at(body));
   }
-  list_joints();
+  joints_listed = false;
 }
 
 void Bodies::State::list_joints() {
+  if (std::exchange(joints_listed, true)) return;
   std::vector<JointRows*> all;
   for (auto& [id, joint] : joints) all.push_back(&joint);
   dynamics.set_joints(std::move(all));
@@ -84,6 +85,8 @@ void Bodies::State::enter_joints(PieceId body) {
     JointRows& joint = joints.at(id);
     joint.replace(body, bodies.at(body).rigid.get());
     keep_apart(joint, true);
+    for (const PieceId held : {joint.joint().a.body, joint.joint().b.body})
+      if (held != 0) wake(bodies.at(held));
   }
 }
 

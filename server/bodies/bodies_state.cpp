@@ -141,6 +141,7 @@ void Bodies::State::step() {
     batch.run_alone();
   };
   WorkBatch turning, copying, touching, moving;
+  list_joints();
   dynamics.begin(step_size.step_s);
   dynamics.foresee(turning);
   for_all(turning, [this](std::span<Body*> some) {

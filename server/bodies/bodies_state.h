@@ -63,11 +63,11 @@ struct Bodies::State {
   void enter_joint(JointId id, const Joint& joint);
   /// Takes a joint out, and wakes its bodies.
   void end_joint(JointId id);
-  /// Tells Bullet's world which joints there are.
+  /// Tells Bullet's world which joints there are, if they are others than before.
   void list_joints();
   /// Two bodies that a joint keeps apart make no contacts.
   void keep_apart(JointRows& joint, bool apart);
-  /// The joints of a body let its object in Bullet go, and hold its new one.
+  /// The joints of a body let its object in Bullet go, and hold its new one; their bodies wake.
   void leave_joints(PieceId body);
   void enter_joints(PieceId body);
   /// Ends the joints that the last step's load breaks.
@@ -89,6 +89,7 @@ struct Bodies::State {
   std::map<PieceId, Body> bodies;
   std::map<JointId, JointRows> joints;
   std::map<PieceId, std::set<JointId>> joints_of;  ///< by body; none is empty
+  bool joints_listed = true;                       ///< as of list_joints()
   std::vector<EndedJoint> ended;                   ///< that were not told yet
   PendingChanges pending;
   size_t frozen = 0;         ///< number of frozen bodies

@@ -246,7 +246,7 @@ void JointRows::finish(float step_s) {
   }
   for (float& impulse : impulses_)
     if (!(magnitude(impulse) < no_bound)) impulse = 0.0F;
-  a_ = b_ = {};
+  a_.solver = b_.solver = nullptr;
 }
 
 bool JointRows::breaks() const {

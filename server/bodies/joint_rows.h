@@ -30,7 +30,7 @@ struct SolvedBody {
   btSolverBody* solver = nullptr;                             ///< null: impulses do not move it
   btVector3 speed{0.0F, 0.0F, 0.0F}, spin{0.0F, 0.0F, 0.0F};  ///< without what the solver adds
   float inverse_mass = 0.0F;
-  btMatrix3x3 inverse_inertia;
+  btMatrix3x3 inverse_inertia = btMatrix3x3(0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
 
   btVector3 speed_now() const { return solver == nullptr ? speed : speed + solver->m_deltaLinearVelocity; }
   btVector3 spin_now() const { return solver == nullptr ? spin : spin + solver->m_deltaAngularVelocity; }

@@ -84,7 +84,6 @@ void PieceSolver::start_joints(float step_s) {
   m_maxOverrideNumSolverIterations = limits::joint_iterations;
   const auto solved = [&](const btRigidBody* body) {
     SolvedBody out;
-    out.inverse_inertia.setValue(0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
     if (body == nullptr || body->isStaticObject()) return out;
     out.speed = body->getLinearVelocity();
     out.spin = body->getAngularVelocity();
