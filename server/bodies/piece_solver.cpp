@@ -80,8 +80,7 @@ btScalar PieceSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies, i
 
 // The bodies that can move have their places in the pool as companion numbers.
 void PieceSolver::start_joints(float step_s) {
-  if (joints_.empty()) return;
-  m_maxOverrideNumSolverIterations = limits::joint_iterations;
+  m_maxOverrideNumSolverIterations = joints_.empty() ? 0 : limits::joint_iterations;
   const auto solved = [&](const btRigidBody* body) {
     SolvedBody out;
     if (body == nullptr || body->isStaticObject()) return out;

@@ -9,8 +9,8 @@
 namespace scree {
 namespace {
 
-constexpr int second = 60;
-constexpr float pi = 3.14159265F;
+constexpr int a_second = 60;
+constexpr float half_circle = 3.14159265F;
 
 float turned_rad(const Pose& pose) {
   return 2.0F * std::acos(std::min(1.0F, std::abs(pose.rotation.w)));
@@ -34,20 +34,20 @@ TEST(JointMotion, a_hinge_swings_as_a_pendulum) {
       joint_at(JointKind::hinge, world.frame(post), world.frame(id), {0.0F, 10.0F, 0.0F}, {0, 0, 1}), id);
   float before_m = world.place_m(id).x, amplitude_m = 0.0F;
   std::vector<float> crossings;
-  for (int tick = 1; tick <= 20 * second; ++tick) {
+  for (int tick = 1; tick <= 20 * a_second; ++tick) {
     world.step();
     const glm::vec3 at_m = world.place_m(id);
     EXPECT_NEAR(glm::distance(at_m, {0.0F, 10.0F, 0.0F}), arm_m, 0.02F * arm_m);
     EXPECT_LT(std::abs(at_m.z), 0.01F);
     if (before_m > 0.0F && at_m.x <= 0.0F)
-      crossings.push_back((static_cast<float>(tick) - at_m.x / (at_m.x - before_m)) / second);
-    if (tick > 15 * second) amplitude_m = std::max(amplitude_m, at_m.x);
+      crossings.push_back((static_cast<float>(tick) - at_m.x / (at_m.x - before_m)) / a_second);
+    if (tick > 15 * a_second) amplitude_m = std::max(amplitude_m, at_m.x);
     before_m = at_m.x;
   }
   ASSERT_GE(crossings.size(), 4U);
   const float inertia = arm_m * arm_m + 2.0F / 3.0F * half_m * half_m;
   const float period_s =
-      2.0F * pi * std::sqrt(inertia / (9.81F * arm_m)) * (1.0F + lean_rad * lean_rad / 16.0F);
+      2.0F * half_circle * std::sqrt(inertia / (9.81F * arm_m)) * (1.0F + lean_rad * lean_rad / 16.0F);
   EXPECT_NEAR((crossings.back() - crossings.front()) / static_cast<float>(crossings.size() - 1), period_s,
               0.02F * period_s);
   EXPECT_GT(amplitude_m, 0.8F * start_m.x);
@@ -61,7 +61,7 @@ TEST(JointMotion, a_slider_slides_along_its_axis_alone_and_to_its_limit) {
   Joint joint = joint_at(JointKind::slider, world.frame(post), world.frame(id), origin_m, axis);
   joint.limits = JointLimits{-1.0F, 3.0F};
   world.join(joint);
-  for (int tick = 0; tick < 4 * second; ++tick) {
+  for (int tick = 0; tick < 4 * a_second; ++tick) {
     world.step();
     const glm::vec3 off_m = world.place_m(id) - origin_m;
     EXPECT_LT(glm::length(off_m - axis * glm::dot(off_m, axis)), 0.02F);
@@ -80,11 +80,11 @@ TEST(JointMotion, a_motor_lifts_a_slider_at_its_speed_and_not_more_than_it_can_b
     joint.limits = JointLimits{-1.0F, 2.0F};
     joint.motor = {0.5F, force_n};
     world.join(joint);
-    world.steps(second);
+    world.steps(a_second);
     const float from_m = world.place_m(id).y;
-    world.steps(second);
+    world.steps(a_second);
     EXPECT_NEAR(world.place_m(id).y - from_m, force_n > 2000.0F ? 0.5F : 0.0F, 0.02F);
-    world.steps(5 * second);
+    world.steps(5 * a_second);
     EXPECT_NEAR(world.place_m(id).y, force_n > 2000.0F ? 7.0F : 4.0F, 0.05F);
   }
 }
@@ -98,12 +98,12 @@ TEST(JointMotion, a_hinge_reaches_its_motors_speed_as_its_torque_allows_and_stay
       joint_at(JointKind::hinge, world.frame(post), world.frame(id), {0.0F, 10.0F, 0.0F}, {0, 1, 0});
   joint.motor = {8.0F, 20.0F};
   const JointId hinge = world.join(joint);
-  world.steps(second - 1);
+  world.steps(a_second - 1);
   EXPECT_NEAR(world.motion(id).spin_rad_s.y, 2.0F, 0.05F) << "20 N m on 10 kg m²";
-  world.steps(5 * second);
+  world.steps(5 * a_second);
   EXPECT_NEAR(world.motion(id).spin_rad_s.y, 8.0F, 0.05F);
   EXPECT_EQ(world.ask(SetMotorRequest{hinge, {-0.1F, 500.0F}}).refusal, "");
-  world.steps(10 * second);
+  world.steps(10 * a_second);
   EXPECT_NEAR(world.motion(id).spin_rad_s.y, -0.1F, 0.005F) << "it would sleep without its motor";
 }
 
@@ -115,13 +115,13 @@ TEST(JointMotion, limits_hold_a_hinge_against_its_motor) {
   joint.limits = JointLimits{-0.5F, 1.2F};
   joint.motor = {3.0F, 5000.0F};
   const JointId hinge = world.join(joint);
-  for (int tick = 0; tick < 3 * second; ++tick) {
+  for (int tick = 0; tick < 3 * a_second; ++tick) {
     world.step();
     EXPECT_LT(turned_rad(world.pose(id)), 1.25F);
   }
   EXPECT_NEAR(turned_rad(world.pose(id)), 1.2F, 0.02F);
   world.ask(SetMotorRequest{hinge, {-3.0F, 5000.0F}});
-  world.steps(3 * second);
+  world.steps(3 * a_second);
   EXPECT_NEAR(turned_rad(world.pose(id)), 0.5F, 0.02F);
 }
 
@@ -135,13 +135,13 @@ TEST(JointMotion, a_rope_of_five_metres_holds_two_tonnes_and_breaks_at_three) {
     rope.break_force_n = 25000.0F;
     const JointId joint = world.join_still(rope, id);
     std::optional<JointEnd> end;
-    for (int tick = 0; tick < 5 * second && !end; ++tick) {
+    for (int tick = 0; tick < 5 * a_second && !end; ++tick) {
       world.step();
       end = world.end(joint);
     }
     EXPECT_EQ(end, mass_kg < 2500.0F ? std::nullopt : std::optional(JointEnd::broken));
     if (!end) EXPECT_NEAR(world.place_m(id).y, 15.0F, 0.03F);
-    world.steps(3 * second);
+    world.steps(3 * a_second);
     if (end) EXPECT_NEAR(world.place_m(id).y, 0.5F, 0.1F);
   }
 }
@@ -154,7 +154,7 @@ TEST(JointMotion, a_slack_rope_lets_fall_until_it_is_taut) {
   rope.length_m = 5.0F;
   world.join(rope);
   float lowest_m = 20.0F;
-  for (int tick = 0; tick < 5 * second; ++tick) {
+  for (int tick = 0; tick < 5 * a_second; ++tick) {
     world.step();
     lowest_m = std::min(lowest_m, world.place_m(id).y);
   }
@@ -171,7 +171,7 @@ TEST(JointMotion, a_distance_keeps_two_that_whirl_apart) {
       line_between(JointKind::distance, world.frame(a), world.place_m(a), world.frame(b), world.place_m(b)));
   world.ask(MovePropRequest{a, {}, {}, glm::vec3(0.0F, 0.0F, 4.0F)});
   world.ask(MovePropRequest{b, {}, {}, glm::vec3(0.0F, 1.0F, -4.0F)});
-  for (int tick = 0; tick < 10 * second; ++tick) {
+  for (int tick = 0; tick < 10 * a_second; ++tick) {
     world.step();
     EXPECT_NEAR(glm::distance(world.place_m(a), world.place_m(b)), 2.0F, 0.04F);
   }
@@ -183,7 +183,7 @@ TEST(JointMotion, a_fixed_joint_makes_one_body_of_two) {
                 b = world.add(crate(0.4F), {0.9F, 5.2F, 0.0F});
   world.join(JointKind::fixed, a, b, {0.45F, 5.1F, 0.0F});
   world.ask(PushRequest{a, {100.0F, 0.0F, 300.0F}, world.place_m(a)});
-  for (int tick = 0; tick < 4 * second; ++tick) {
+  for (int tick = 0; tick < 4 * a_second; ++tick) {
     world.step();
     const Pose at_a = world.pose(a), at_b = world.pose(b);
     const glm::vec3 off_m = glm::conjugate(at_a.rotation) * (at_b.position_m - at_a.position_m);
@@ -195,8 +195,8 @@ TEST(JointMotion, ten_links_of_a_chain_hang_still) {
   JointWorld world(rock_world());
   const std::vector<PieceId> chain = hang_chain(world, {0.0F, 12.0F, 0.0F}, 10);
   const glm::vec3 end_m{0.0F, 12.0F - 9.5F * 0.5F, 0.0F};
-  world.steps(5 * second);
-  for (int tick = 0; tick < 5 * second; ++tick) {
+  world.steps(5 * a_second);
+  for (int tick = 0; tick < 5 * a_second; ++tick) {
     world.step();
     EXPECT_LT(glm::distance(world.place_m(chain.back()), end_m), 0.05F);
   }
@@ -208,7 +208,7 @@ TEST(JointMotion, a_chain_bears_a_load_of_twenty_links) {
   std::vector<PieceId> chain = hang_chain(world, {0.0F, 12.0F, 0.0F}, 10);
   const PieceId load = world.add(crate(0.3F, 100.0F), {0.0F, 6.65F, 0.0F});
   world.join(JointKind::ball, chain.back(), load, {0.0F, 7.0F, 0.0F});
-  world.steps(10 * second);
+  world.steps(10 * a_second);
   EXPECT_NEAR(world.place_m(load).y, 6.65F, 0.15F);
   EXPECT_LT(world.speed_m_s(load), 0.1F);
 }
@@ -217,7 +217,7 @@ TEST(JointMotion, a_ring_of_joints_that_do_not_fit_does_not_explode) {
   JointWorld world(rock_world());
   std::vector<PieceId> ring;
   for (int i = 0; i < 8; ++i) {
-    const float angle = 0.25F * pi * static_cast<float>(i);
+    const float angle = 0.25F * half_circle * static_cast<float>(i);
     ring.push_back(world.add(crate(0.3F, 50.0F), {3.0F * std::cos(angle), 5.0F, 3.0F * std::sin(angle)}));
   }
   for (size_t i = 0; i < ring.size(); ++i) {
@@ -227,7 +227,7 @@ TEST(JointMotion, a_ring_of_joints_that_do_not_fit_does_not_explode) {
     joint.b = {ring[(i + 1) % ring.size()], {-1.0F, 0.0F, 0.5F}};
     world.join(joint);
   }
-  for (int tick = 0; tick < 10 * second; ++tick) {
+  for (int tick = 0; tick < 10 * a_second; ++tick) {
     world.step();
     for (const PieceId id : ring) ASSERT_LT(glm::length(world.place_m(id)), 25.0F) << tick;
   }
@@ -238,16 +238,16 @@ TEST(JointMotion, jointed_bodies_touch_only_if_they_may) {
   for (const bool touches : {false, true}) {
     JointWorld world(rock_world());
     const PieceId low = world.add(crate(), {0.0F, 0.5F, 0.0F}), high = world.add(crate(), {0.0F, 1.5F, 0.0F});
-    world.steps(second);
+    world.steps(a_second);
     Joint rope = line_between(JointKind::rope, world.frame(low), world.place_m(low), world.frame(high),
                               world.place_m(high));
     rope.length_m = 3.0F;
     rope.touches = touches;
     const JointId joint = world.join(rope);
-    world.steps(2 * second);
+    world.steps(2 * a_second);
     EXPECT_NEAR(world.place_m(high).y, touches ? 1.5F : 0.5F, 0.1F);
     EXPECT_EQ(world.ask(RemoveJointRequest{joint}).refusal, "");
-    world.steps(2 * second);
+    world.steps(2 * a_second);
     EXPECT_GT(glm::distance(world.place_m(high), world.place_m(low)), 0.9F) << "they meet again";
   }
 }
@@ -257,9 +257,9 @@ TEST(JointMotion, a_body_that_is_put_elsewhere_keeps_its_joints) {
   const PieceId post = world.add_post({0.0F, 10.0F, 0.0F}), id = world.add(crate(0.3F), {0.0F, 8.0F, 0.0F});
   world.join(line_between(JointKind::rope, world.frame(post), {0.0F, 10.0F, 0.0F}, world.frame(id),
                           world.place_m(id)));
-  world.steps(second);
+  world.steps(a_second);
   EXPECT_EQ(world.ask(MovePropRequest{id, glm::vec3(1.0F, 9.0F, 0.0F)}).refusal, "");
-  world.steps(20 * second);
+  world.steps(20 * a_second);
   EXPECT_LT(glm::distance(world.place_m(id), glm::vec3(0.0F, 10.0F, 0.0F)), 2.05F);
   EXPECT_GT(world.place_m(id).y, 7.9F);
 }

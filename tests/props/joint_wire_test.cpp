@@ -29,7 +29,7 @@ Joint whole_joint() {
   return joint;
 }
 
-std::span<const uint8_t> body(const std::vector<uint8_t>& framed) {
+std::span<const uint8_t> body_of_message(const std::vector<uint8_t>& framed) {
   return std::span(framed).subspan(length_prefix_bytes);
 }
 
@@ -40,19 +40,20 @@ TEST(JointWire, messages_come_back_as_they_were) {
   rope.b.body = 4;
   rope.length_m = 5.0F;
   const JointsMessage sent{{{8, whole_joint()}, {9, rope}}, {{2, JointEnd::let_go}, {3, JointEnd::broken}}};
-  const auto got = decode_server(body(encode(ServerMessage(sent))));
+  const auto got = decode_server(body_of_message(encode(ServerMessage(sent))));
   ASSERT_TRUE(got.has_value()) << got.error().message;
   const auto& joints = std::get<JointsMessage>(*got);
   EXPECT_EQ(joints.here, sent.here);
   EXPECT_EQ(joints.gone, sent.gone);
-  const auto add = decode_client(body(encode(ClientMessage(AddJointMessage{{whole_joint()}, 5}))));
+  const auto add = decode_client(body_of_message(encode(ClientMessage(AddJointMessage{{whole_joint()}, 5}))));
   ASSERT_TRUE(add.has_value());
   EXPECT_EQ(std::get<AddJointMessage>(*add).joint, whole_joint());
   EXPECT_EQ(std::get<AddJointMessage>(*add).request, 5U);
-  const auto set = decode_client(body(encode(ClientMessage(SetMotorMessage{{8, {-1.0F, 50.0F}}, 6}))));
+  const auto set =
+      decode_client(body_of_message(encode(ClientMessage(SetMotorMessage{{8, {-1.0F, 50.0F}}, 6}))));
   ASSERT_TRUE(set.has_value());
   EXPECT_EQ(std::get<SetMotorMessage>(*set).motor, (JointMotor{-1.0F, 50.0F}));
-  const auto remove = decode_client(body(encode(ClientMessage(RemoveJointMessage{{8}, 7}))));
+  const auto remove = decode_client(body_of_message(encode(ClientMessage(RemoveJointMessage{{8}, 7}))));
   ASSERT_TRUE(remove.has_value());
   EXPECT_EQ(std::get<RemoveJointMessage>(*remove).joint, 8U);
 }
@@ -65,7 +66,7 @@ TEST(JointWire, a_client_refuses_joints_that_cannot_be) {
                                        {{{0, whole_joint()}}, {}},
                                        {{}, {{3, JointEnd::broken}, {2, JointEnd::broken}}}};
   for (const JointsMessage& sent : all)
-    EXPECT_FALSE(decode_server(body(encode(ServerMessage(sent)))).has_value());
+    EXPECT_FALSE(decode_server(body_of_message(encode(ServerMessage(sent)))).has_value());
   Mirror mirror(flat_welcome());
   EXPECT_FALSE(mirror.apply(JointsMessage{{{8, whole_joint()}}, {}}).has_value()) << "of an unknown body";
   EXPECT_TRUE(mirror.apply(JointsMessage{{}, {{5, JointEnd::broken}}}).has_value());

@@ -14,9 +14,9 @@
 namespace scree {
 namespace {
 
-constexpr int second = 60;
+constexpr int ticks_a_second = 60;
 
-std::string refusal_of(PropWorld& world, const Joint& joint) {
+std::string refusal_of_joint(PropWorld& world, const Joint& joint) {
   return refusal_name(world.ask(AddJointRequest{joint}));
 }
 
@@ -28,7 +28,7 @@ TEST(JointWorld, requests_are_refused_by_name) {
   const auto refused = [&](const auto& change) {
     Joint joint = good;
     change(joint);
-    return refusal_of(world, joint);
+    return refusal_of_joint(world, joint);
   };
   EXPECT_EQ(refused([&](Joint& j) { j.b.body = a; }), "joint_invalid") << "with itself";
   EXPECT_EQ(refused([&](Joint& j) { j.a.body = j.b.body = 0; }), "joint_invalid");
@@ -69,9 +69,9 @@ TEST(JointWorld, no_more_joints_than_the_setting_allows) {
   const Joint joint = joint_at(JointKind::ball, world.frame(a), world.frame(b), {1.0F, 0.5F, 0.0F});
   world.join(joint);
   const JointId last = world.join(joint);
-  EXPECT_EQ(refusal_of(world, joint), "joints_max");
+  EXPECT_EQ(refusal_of_joint(world, joint), "joints_max");
   world.ask(RemoveJointRequest{last});
-  EXPECT_EQ(refusal_of(world, joint), "");
+  EXPECT_EQ(refusal_of_joint(world, joint), "");
 }
 
 TEST(JointWorld, ten_thousand_joints_between_two_crates_are_harmless) {
@@ -87,7 +87,7 @@ TEST(JointWorld, ten_thousand_joints_between_two_crates_are_harmless) {
     for (const Reply& reply : world.step(commands).replies) made += reply.joint ? 1U : 0U;
   }
   EXPECT_GT(made, 500U);
-  world.steps(second);
+  world.steps(ticks_a_second);
   EXPECT_LT(glm::distance(world.place_m(a), glm::vec3(0.0F, 0.5F, 0.0F)), 1.0F);
   EXPECT_EQ(world.ask(RemovePropRequest{a}).refusal, "");
   EXPECT_GE(world.last().joints_removed.size(), made);
@@ -113,21 +113,21 @@ Drawbridge build_drawbridge(JointWorld& world) {
 TEST(JointWorld, a_drawbridge_falls_when_the_rock_about_its_hinge_is_carved_away) {
   JointWorld world(rock_world());
   const Drawbridge bridge = build_drawbridge(world);
-  world.steps(3 * second);
+  world.steps(3 * ticks_a_second);
   EXPECT_NEAR(world.place_m(bridge.plank).y, 4.0F, 0.1F);
   CarveRequest far;
   far.shape = sphere({-2.5F, 1.5F, 1.5F}, 0.5F);
   far.impact_m = {-2.5F, 1.5F, 2.5F};
   far.seeds = 2;
   world.ask(far);
-  world.steps(second);
+  world.steps(ticks_a_second);
   EXPECT_NEAR(world.place_m(bridge.plank).y, 4.0F, 0.1F) << "other rock does not matter";
   CarveRequest carve = far;
   carve.shape = sphere({-1.4F, 4.0F, 0.0F}, 0.8F);
   carve.seeds = 8;
   world.ask(carve);
   EXPECT_EQ(world.end(bridge.hinge), JointEnd::let_go);
-  world.steps(3 * second);
+  world.steps(3 * ticks_a_second);
   EXPECT_LT(world.place_m(bridge.plank).y, 2.0F);
 }
 
@@ -160,7 +160,7 @@ TEST(JointWorld, a_piece_that_merges_loses_its_joints) {
   joint.length_m += 3.0F;
   const JointId rope = world.join(joint);
   std::optional<JointEnd> end;
-  for (int tick = 0; tick < 20 * second && !end; ++tick) {
+  for (int tick = 0; tick < 20 * ticks_a_second && !end; ++tick) {
     world.step();
     end = world.end(rope);
   }
@@ -197,14 +197,14 @@ TEST(JointWorld, a_car_drives_two_hundred_metres_over_rough_ground) {
   const Car car = add_car(world, {0.0F, high_m + 1.5F, 0.0F}, 8.0F);
   glm::vec3 before_m = world.place_m(car.chassis);
   float way_m = 0.0F;
-  for (int tick = 0; tick < 90 * second && way_m < 200.0F; ++tick) {
+  for (int tick = 0; tick < 90 * ticks_a_second && way_m < 200.0F; ++tick) {
     world.step();
     ASSERT_TRUE(world.has(car.chassis)) << tick;
     const glm::vec3 at_m = world.place_m(car.chassis);
     way_m += glm::length(glm::vec2(at_m.x - before_m.x, at_m.z - before_m.z));
     before_m = at_m;
-    if (tick % (5 * second) == 0)
-      std::printf("%d s: %.1f m, at %.1f %.1f %.1f\n", tick / second, way_m, at_m.x, at_m.y, at_m.z);
+    if (tick % (5 * ticks_a_second) == 0)
+      std::printf("%d s: %.1f m, at %.1f %.1f %.1f\n", tick / ticks_a_second, way_m, at_m.x, at_m.y, at_m.z);
     ASSERT_TRUE(world.last().joints_removed.empty());
     for (size_t i = 0; i < car.wheels.size(); ++i) {
       const glm::vec3 off_m =
@@ -230,7 +230,7 @@ TEST(JointWorld, goes_the_same_way_by_any_number_of_threads) {
     JointWorld world(rock_world(), threads);
     fill_joint_scene(world);
     std::vector<uint64_t>& of_ticks = hashes.emplace_back();
-    for (int i = 0; i < 5 * second; ++i) of_ticks.push_back(world.step().state_hash);
+    for (int i = 0; i < 5 * ticks_a_second; ++i) of_ticks.push_back(world.step().state_hash);
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
@@ -239,7 +239,7 @@ TEST(JointWorld, goes_the_same_way_by_any_number_of_threads) {
 TEST(JointWorld, a_snapshot_is_the_world_and_goes_on_the_same_way_each_time) {
   JointWorld world(rock_world());
   fill_joint_scene(world);
-  world.steps(second);
+  world.steps(ticks_a_second);
   const std::vector<uint8_t> bytes = encode(world.world().snapshot());
   std::vector<std::vector<uint64_t>> ways(3);
   for (size_t i = 0; i < 2; ++i) {
@@ -249,10 +249,11 @@ TEST(JointWorld, a_snapshot_is_the_world_and_goes_on_the_same_way_each_time) {
     ASSERT_TRUE(restored) << restored.error().message;
     EXPECT_EQ(encode((*restored)->snapshot()), bytes);
     EXPECT_EQ((*restored)->moment().joints.size(), 11U);
-    for (int tick = 0; tick < 2 * second; ++tick) ways[i].push_back((*restored)->step({})->state_hash);
+    for (int tick = 0; tick < 2 * ticks_a_second; ++tick)
+      ways[i].push_back((*restored)->step({})->state_hash);
   }
   world.world().renew();
-  for (int tick = 0; tick < 2 * second; ++tick) ways[2].push_back(world.step().state_hash);
+  for (int tick = 0; tick < 2 * ticks_a_second; ++tick) ways[2].push_back(world.step().state_hash);
   EXPECT_EQ(ways[0], ways[1]);
   EXPECT_EQ(ways[0], ways[2]);
 }
