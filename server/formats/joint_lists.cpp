@@ -50,10 +50,4 @@ JointsMessage read_joints(const PackedJoints& from, FieldChecker& check) {
   return all;
 }
 
-void write_joints(PackedJoints& to, const std::vector<JointRecord>& joints) {
-  JointsMessage message;
-  for (const JointRecord& record : joints) message.here.push_back({record.id, *record.joint});
-  write_joints(to, message);
-}
-
 }  // namespace scree

@@ -6,9 +6,9 @@
 
 #include "proto/operation_codec.h"
 #include "proto/wire_values.h"
-#include "server/formats/joint_lists.h"
 #include "server/formats/packed_lists.h"
 #include "server/formats/recording_values.h"
+#include "server/formats/world_props.h"
 #include "shared/base/check.h"
 #include "shared/field/mass.h"
 
@@ -217,13 +217,7 @@ void write(kept::Moment& to, const WorldMoment& from) {
   to.set_buried(pack_ids(from.buried));
   to.set_sunk(pack_ids(from.sunk));
   write(*to.mutable_materials(), from.materials);
-  for (const PropRecord& prop : from.props) {
-    kept::Prop& added = *to.add_props();
-    added.set_here(to_string(encode_recorded_prop({prop.id, *prop.prop, {}})));
-    added.set_owner(prop.owner);
-  }
-  write_joints(*to.mutable_joints(), from.joints);
-  for (const JointRecord& joint : from.joints) to.add_joint_owners(joint.owner);
+  write_world_props(to, from);
   for (const StruckPlace& place : from.struck) {
     kept::StruckPlace& added = *to.add_struck();
     added.set_x(place.cell.x);
@@ -275,12 +269,7 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   moment.buried = check.value_or_refuse(unpack_piece_ids(from.buried(), "buried pieces"));
   moment.sunk = check.value_or_refuse(unpack_piece_ids(from.sunk(), "sunk pieces"));
   moment.materials = scree::read(from.materials(), check);
-  for (const kept::Prop& one : from.props()) {
-    if (check.failed()) break;
-    PropMessage here = check.value_or_refuse(decode_recorded_prop(as_span(one.here())));
-    moment.props.push_back({here.id, one.owner(), std::make_shared<const Prop>(std::move(here.prop))});
-  }
-  moment.joints = read_joints(from.joints(), from.joint_owners(), check);
+  read_world_props(from, moment, check);
   for (const kept::StruckPlace& one : from.struck())
     moment.struck.push_back(
         {{one.x(), one.y(), one.z()}, check.not_negative(one.energy_j(), "energy of blows"), one.at()});
