@@ -2,7 +2,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "server/bodies/joint_rows.h"
 #include "tests/support/flat_world.h"
 #include "tests/support/joined_props.h"
 
@@ -14,14 +13,6 @@ constexpr float half_circle = 3.14159265F;
 
 float turned_rad(const Pose& pose) {
   return 2.0F * std::acos(std::min(1.0F, std::abs(pose.rotation.w)));
-}
-
-TEST(JointMotion, the_angle_is_that_of_the_math_library) {
-  for (int i = -314; i <= 314; ++i) {
-    const float angle = 0.01F * static_cast<float>(i);
-    EXPECT_NEAR(angle_of(3.0F * std::cos(angle), 3.0F * std::sin(angle)), angle, 2e-5F);
-  }
-  EXPECT_TRUE(std::isfinite(angle_of(0.0F, 0.0F)));
 }
 
 TEST(JointMotion, a_hinge_swings_as_a_pendulum) {
