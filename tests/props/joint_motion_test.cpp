@@ -131,9 +131,13 @@ TEST(JointMotion, a_rope_of_five_metres_holds_two_tonnes_and_breaks_at_three) {
       end = world.end(joint);
     }
     EXPECT_EQ(end, mass_kg < 2500.0F ? std::nullopt : std::optional(JointEnd::broken));
-    if (!end) EXPECT_NEAR(world.place_m(id).y, 15.0F, 0.03F);
+    if (!end) {
+      EXPECT_NEAR(world.place_m(id).y, 15.0F, 0.03F);
+    }
     world.steps(3 * a_second);
-    if (end) EXPECT_NEAR(world.place_m(id).y, 0.5F, 0.1F);
+    if (end) {
+      EXPECT_NEAR(world.place_m(id).y, 0.5F, 0.1F);
+    }
   }
 }
 

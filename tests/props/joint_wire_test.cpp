@@ -179,7 +179,9 @@ TEST(JointWire, a_recording_keeps_joints_and_is_verified) {
     ASSERT_TRUE(delta.has_value() && *delta != nullptr) << tick;
     played.apply(**delta);
     EXPECT_EQ(played.joints().size(), joints.at((*delta)->tick)) << tick;
-    if (tick == 120) EXPECT_EQ(played.joints().at(3)->motor.speed, 2.0F);
+    if (tick == 120) {
+      EXPECT_EQ(played.joints().at(3)->motor.speed, 2.0F);
+    }
   }
   const auto back = (*source)->jump(120);
   ASSERT_TRUE(back.has_value()) << back.error().message;
