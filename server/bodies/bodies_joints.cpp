@@ -100,6 +100,27 @@ void Bodies::State::break_joints() {
   }
 }
 
+// Passes in both directions, until none changes anything: chains are mostly in the order of their joints' ids.
+void Bodies::State::stop_together() {
+  const auto hulls_of_mover = [](const btRigidBody* body) -> const CollisionHulls* {
+    if (body == nullptr || body->isStaticOrKinematicObject()) return nullptr;
+    return static_cast<const CollisionHulls*>(body->getUserPointer());
+  };
+  bool changed = true;
+  const auto join = [&](const JointRows& joint) {
+    const CollisionHulls *const a = hulls_of_mover(joint.body_a()), *const b = hulls_of_mover(joint.body_b());
+    if (a == nullptr || b == nullptr || a->step_share() == b->step_share()) return;
+    const float least = std::min(a->step_share(), b->step_share());
+    a->stop_at(least);
+    b->stop_at(least);
+    changed = true;
+  };
+  while (std::exchange(changed, false)) {
+    for (auto joint = joints.begin(); joint != joints.end(); ++joint) join(joint->second);
+    for (auto joint = joints.rbegin(); joint != joints.rend(); ++joint) join(joint->second);
+  }
+}
+
 Result<void> Bodies::State::restore_joints(std::span<const KnownJoint> known) {
   for (const auto& [id, joint] : known) {
     const auto is_there = [&](const JointSide& side) {

@@ -165,6 +165,7 @@ void Bodies::State::step() {
   keep_strongest(terrain_blows, list_terrain_blows(bodies, dispatcher, limits::struck_speed_min_m_s));
   for (Body* body : loose)
     if (body->awake && is_fast(*body, step_size)) sweep(*body, step_size);
+  stop_together();
   for_all(moving, [this](std::span<Body*> some) {
     for (Body* body : some) {
       dynamics.move(*body->rigid, body->hulls->step_share());

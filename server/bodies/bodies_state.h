@@ -72,6 +72,8 @@ struct Bodies::State {
   void enter_joints(PieceId body);
   /// Ends the joints that the last step's load breaks.
   void break_joints();
+  /// Bodies that joints hold move by the same share of the step: the least of theirs.
+  void stop_together();
   Result<void> restore_joints(std::span<const KnownJoint> known);
 
   BodiesConfig config;

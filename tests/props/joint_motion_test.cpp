@@ -1,5 +1,6 @@
 // Each kind of joint against its law.
 #include <cmath>
+#include <cstdio>
 #include <glm/geometric.hpp>
 
 #include "tests/support/flat_world.h"
@@ -125,7 +126,7 @@ TEST(JointMotion, a_rope_of_five_metres_holds_two_tonnes_and_breaks_at_three) {
                               world.place_m(id));
     rope.break_force_n = 25000.0F;
     const JointId joint = world.join_still(rope, id);
-    std::optional<JointEnd> end;
+    std::optional<JointEnd> end = world.end(joint);
     for (int tick = 0; tick < 5 * a_second && !end; ++tick) {
       world.step();
       end = world.end(joint);
@@ -203,18 +204,41 @@ TEST(JointMotion, a_chain_bears_a_load_of_twenty_links) {
   std::vector<PieceId> chain = hang_chain(world, {0.0F, 12.0F, 0.0F}, 10);
   const PieceId load = world.add(crate(0.3F, 100.0F), {0.0F, 6.65F, 0.0F});
   world.join(JointKind::ball, chain.back(), load, {0.0F, 7.0F, 0.0F});
-  world.steps(10 * a_second);
+  for (int i = 0; i < 30; ++i) {
+    world.steps(2 * a_second);
+    const glm::vec3 p = world.place_m(load);
+    std::printf("load %d s: %.3f %.3f %.3f speed %.3f spin %.3f\n", 2 * i, p.x, p.y, p.z, world.speed_m_s(load), glm::length(world.motion(load).spin_rad_s));
+  }
   EXPECT_NEAR(world.place_m(load).y, 6.65F, 0.15F);
   EXPECT_LT(world.speed_m_s(load), 0.1F);
 }
 
-TEST(JointMotion, a_ring_of_joints_that_do_not_fit_does_not_explode) {
-  JointWorld world(rock_world());
+/// Eight crates in a ring, in the air.
+std::vector<PieceId> add_ring(JointWorld& world) {
   std::vector<PieceId> ring;
   for (int i = 0; i < 8; ++i) {
     const float angle = 0.25F * half_circle * static_cast<float>(i);
     ring.push_back(world.add(crate(0.3F, 50.0F), {3.0F * std::cos(angle), 5.0F, 3.0F * std::sin(angle)}));
   }
+  return ring;
+}
+
+TEST(JointMotion, a_ring_of_joints_that_is_too_narrow_by_a_metre_comes_to_rest) {
+  JointWorld world(rock_world());
+  const std::vector<PieceId> ring = add_ring(world);
+  for (size_t i = 0; i < ring.size(); ++i) {
+    Joint joint = line_between(JointKind::distance, world.frame(ring[i]), world.place_m(ring[i]),
+                               world.frame(ring[(i + 1) % 8]), world.place_m(ring[(i + 1) % 8]));
+    if (i == 3) joint.length_m -= 1.0F;
+    world.join(joint);
+  }
+  world.steps(10 * a_second);
+  for (const PieceId id : ring) EXPECT_LT(world.speed_m_s(id), 0.2F);
+}
+
+TEST(JointMotion, a_ring_of_joints_that_can_never_fit_does_not_explode) {
+  JointWorld world(rock_world());
+  const std::vector<PieceId> ring = add_ring(world);
   for (size_t i = 0; i < ring.size(); ++i) {
     Joint joint;
     joint.kind = i % 2 == 0 ? JointKind::hinge : JointKind::fixed;
@@ -224,9 +248,8 @@ TEST(JointMotion, a_ring_of_joints_that_do_not_fit_does_not_explode) {
   }
   for (int tick = 0; tick < 10 * a_second; ++tick) {
     world.step();
-    for (const PieceId id : ring) ASSERT_LT(glm::length(world.place_m(id)), 25.0F) << tick;
+    for (const PieceId id : ring) ASSERT_LT(world.speed_m_s(id), 20.0F) << tick;
   }
-  for (const PieceId id : ring) EXPECT_LT(world.speed_m_s(id), 10.0F);
 }
 
 TEST(JointMotion, jointed_bodies_touch_only_if_they_may) {
