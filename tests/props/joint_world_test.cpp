@@ -194,7 +194,7 @@ TEST(JointWorld, explore) {
   for (uint32_t seed = 1; seed <= 6; ++seed)
     for (float z0 : {0.0F, 20.0F}) {
       WorldConfig config = rough_world();
-      config.terrain.seed = seed;
+      config.terrain.random_seed = seed;
       JointWorld world(config);
       float high_m = -40.0F;
       for (float x = -2.5F; x <= 2.5F; x += 0.5F)
