@@ -100,7 +100,8 @@ void Bodies::State::break_joints() {
   }
 }
 
-// Passes in both directions, until none changes anything: chains are mostly in the order of their joints' ids.
+// Passes in both directions, until none changes anything: chains are mostly in the order of their joints'
+// ids.
 void Bodies::State::stop_together() {
   const auto hulls_of_mover = [](const btRigidBody* body) -> const CollisionHulls* {
     if (body == nullptr || body->isStaticOrKinematicObject()) return nullptr;

@@ -139,7 +139,9 @@ btScalar PieceSolver::solveSingleIteration(int iteration, btCollisionObject** bo
                                            btPersistentManifold** manifolds, int manifold_count,
                                            btTypedConstraint** joints, int joint_count,
                                            const btContactSolverInfo& info, btIDebugDraw* drawer) {
-  for (JointRows* joint : joints_) joint->solve();
+  // To and fro: what one end of a chain bears reaches the other end in either direction.
+  const size_t count = joints_.size();
+  for (size_t i = 0; i < count; ++i) joints_[iteration % 2 == 0 ? i : count - 1 - i]->solve();
   const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
       iteration, bodies, body_count, manifolds, manifold_count, joints, joint_count, info, drawer);
   for (RollingRow& row : rolling_) row.solve(m_tmpSolverContactConstraintPool);
