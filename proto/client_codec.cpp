@@ -6,6 +6,7 @@
 #include "proto/content_codec.h"
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
+#include "proto/joint_codec.h"
 #include "proto/prop_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/wire_values.h"
@@ -54,6 +55,9 @@ struct Writing {
   void operator()(const PushMessage& from) const { write(*to.mutable_push(), from); }
   void operator()(const BreakMessage& from) const { write(*to.mutable_break_(), from); }
   void operator()(const BlastMessage& from) const { write(*to.mutable_blast(), from); }
+  void operator()(const AddJointMessage& from) const { write(*to.mutable_add_joint(), from); }
+  void operator()(const RemoveJointMessage& from) const { write(*to.mutable_remove_joint(), from); }
+  void operator()(const SetMotorMessage& from) const { write(*to.mutable_set_motor(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
@@ -186,6 +190,12 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read(from.break_(), check));
     case wire::ClientMessage::kBlast:
       return checked(read(from.blast(), check));
+    case wire::ClientMessage::kAddJoint:
+      return checked(read(from.add_joint(), check));
+    case wire::ClientMessage::kRemoveJoint:
+      return checked(read(from.remove_joint(), check));
+    case wire::ClientMessage::kSetMotor:
+      return checked(read(from.set_motor(), check));
     case wire::ClientMessage::kAdmin:
       return checked(read_admin(from.admin(), check));
     case wire::ClientMessage::KIND_NOT_SET:

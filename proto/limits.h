@@ -14,6 +14,9 @@ namespace scree::limits {
 inline constexpr size_t client_message_bytes_max = size_t{64} << 10;
 inline constexpr size_t hello_bytes_max = 1024;
 
+/// Joints that one message tells of, and as many that are gone: some 130 bytes each. More come in several.
+inline constexpr size_t joints_a_message = 256;
+
 /// Bricks in one message: 2 MiB of codes, which compress to about message_bytes_max. When a tick changes more
 /// for one client, whole chunks are streamed instead.
 inline constexpr size_t bricks_per_message_max = 4096;

@@ -104,6 +104,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const PieceMessage& m) { return bytes_of(m.volume); },
                      [](const PropMessage& m) { return bytes_of(m.prop); },
                      [](const ContactsMessage& m) { return m.contacts.size() * sizeof(ContactEvent); },
+                     [](const JointsMessage& m) { return bytes_of(m.here) + bytes_of(m.gone); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const TileMessage& m) { return m.bytes.size(); },
                      [](const ContentMessage& m) { return m.part.size(); },

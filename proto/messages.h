@@ -11,6 +11,7 @@
 #include "proto/content.h"
 #include "proto/cursor.h"
 #include "proto/health.h"
+#include "proto/joint_message.h"
 #include "proto/marks.h"
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
@@ -97,6 +98,9 @@ using MovePropMessage = RequestMessage<MovePropRequest>;
 using PushMessage = RequestMessage<PushRequest>;
 using BreakMessage = RequestMessage<BreakRequest>;
 using BlastMessage = RequestMessage<BlastRequest>;
+using AddJointMessage = RequestMessage<AddJointRequest>;
+using RemoveJointMessage = RequestMessage<RemoveJointRequest>;
+using SetMotorMessage = RequestMessage<SetMotorRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairMessage {
@@ -163,7 +167,7 @@ using ClientMessage =
                  AckMessage, AdminMessage, CursorMessage, PhysicsSubscriptionMessage, AskGroundMessage,
                  OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
                  AskContentMessage, AddPropMessage, RemovePropMessage, MovePropMessage, PushMessage,
-                 BreakMessage, BlastMessage, UnknownMessage>;
+                 BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -287,6 +291,7 @@ struct ReplyMessage {
   Tick tick = 0;               ///< that answered it; 0: none. Saved once StatusMessage::saved_tick is as high
   std::optional<uint32_t> painted{};  ///< bricks of 8 voxels a side whose rock a paint changed
   std::optional<PieceId> prop{};      ///< that was added
+  std::optional<JointId> joint{};     ///< likewise
 };
 
 /// Once a second, for people.
@@ -396,7 +401,7 @@ using ServerMessage =
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
-                 PropMessage, ContactsMessage, UnknownMessage>;
+                 PropMessage, ContactsMessage, JointsMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

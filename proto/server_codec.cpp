@@ -9,6 +9,7 @@
 #include "proto/health_codec.h"
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
+#include "proto/joint_codec.h"
 #include "proto/operation_codec.h"
 #include "proto/physics_codec.h"
 #include "proto/playback_codec.h"
@@ -131,6 +132,7 @@ struct Writing {
   }
   void operator()(const ContactsMessage& from) const { write(*to.mutable_contacts(), from); }
   void operator()(const PropMessage& from) const { write(*to.mutable_prop(), from); }
+  void operator()(const JointsMessage& from) const { write(*to.mutable_joints(), from); }
   void operator()(const ResetMessage&) const { to.mutable_reset(); }
   void operator()(const ReplyMessage& from) const {
     wire::Reply& reply = *to.mutable_reply();
@@ -144,6 +146,7 @@ struct Writing {
     reply.set_tick(from.tick);
     if (from.painted) reply.set_painted(*from.painted);
     if (from.prop) reply.set_prop(*from.prop);
+    if (from.joint) reply.set_joint(*from.joint);
   }
   void operator()(const CursorsMessage& from) const { write(*to.mutable_cursors(), from); }
   void operator()(const PersonsMessage& from) const { write(*to.mutable_persons(), from); }
@@ -258,7 +261,8 @@ ReplyMessage read(const wire::Reply& from, FieldChecker& check) {
            read_latency(from.sending_us(), check)},
           from.tick(),
           from.has_painted() ? std::optional(from.painted()) : std::nullopt,
-          from.has_prop() ? std::optional(from.prop()) : std::nullopt};
+          from.has_prop() ? std::optional(from.prop()) : std::nullopt,
+          from.has_joint() ? std::optional(from.joint()) : std::nullopt};
 }
 
 StatusMessage read(const wire::Status& from, FieldChecker& check) {
@@ -338,6 +342,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.contacts(), check));
     case wire::ServerMessage::kProp:
       return checked(read(from.prop(), check));
+    case wire::ServerMessage::kJoints:
+      return checked(read(from.joints(), check));
     case wire::ServerMessage::kReset:
       return ResetMessage{};
     case wire::ServerMessage::kReply:

@@ -16,6 +16,9 @@ inline constexpr size_t mirror_pieces_max = 65536;
 /// Props at once, more than a server may have. Above: the connection ends.
 inline constexpr size_t mirror_props_max = 16384;
 
+/// Joints at once, likewise.
+inline constexpr size_t mirror_joints_max = 16384;
+
 /// Work of one frame's operations by the model (shared/operation/price.h), microseconds: far more than a
 /// server may do in its longest tick. Above: the connection is closed before it is done.
 inline constexpr float mirror_frame_work_max_us = 2.0e6F;

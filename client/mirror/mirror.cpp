@@ -44,6 +44,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           },
           [&](const PieceMessage& piece) { return apply_piece(piece, changes); },
           [&](const PropMessage& prop) { return apply_prop(prop, changes); },
+          [&](const JointsMessage& joints) { return apply_joints(joints, changes); },
           [&](const ResetMessage&) -> Done {
             apply_reset(changes);
             return {};
@@ -333,6 +334,7 @@ void Mirror::apply_reset(MirrorChanges& changes) {
   for (const ChunkCoord chunk : field_.edited_chunks()) forget_chunk(chunk, changes);
   for (const auto& [id, motion] : motions_) changes.pieces_removed.push_back(id);
   for (const auto& [id, motion] : props_) changes.props_removed.push_back(id);
+  while (!joints_.empty()) forget_joint({joints_.begin()->first, JointEnd::body_gone}, changes);
   motions_.clear();
   props_.clear();
   known_motions_.clear();
@@ -365,6 +367,7 @@ void Mirror::remove_piece(PieceId id, MirrorChanges& changes) {
   known_motions_.remove(id);
   const auto found = motions_.find(id);
   if (found == motions_.end()) return;
+  forget_joints_of(id, changes);
   piece_voxels_ -= found->second.volume->window.codes.size();
   motions_.erase(found);
   changes.pieces_removed.push_back(id);

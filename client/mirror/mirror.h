@@ -11,6 +11,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
@@ -32,6 +33,8 @@ struct MirrorChanges {
   std::vector<PieceId> pieces_removed;
   std::vector<PieceId> props_added{};
   std::vector<PieceId> props_removed{};
+  std::vector<JointId> joints_changed{};  ///< that are new, or have another motor
+  std::vector<EndedJoint> joints_removed{};
   bool palette = false;  ///< Mirror::palette() is another one
   /// An image of the palette has come whole (Client::content).
   std::optional<Digest> image{};
@@ -98,6 +101,8 @@ class Mirror {
 
   const std::map<PieceId, PieceMotion>& pieces() const { return motions_; }
   const std::map<PieceId, PropMotionHere>& props() const { return props_; }
+  /// Their bodies are known here.
+  const std::map<JointId, Joint>& joints() const { return joints_; }
   /// Pose at a (fractional) tick, clamped to the known poses.
   Pose pose_at(const BetweenPoses& motion, double tick) const;
 
@@ -145,6 +150,9 @@ class Mirror {
   void replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes);
   Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
   Result<void> apply_prop(const PropMessage& message, MirrorChanges& changes);
+  Result<void> apply_joints(const JointsMessage& message, MirrorChanges& changes);
+  void forget_joint(const EndedJoint& gone, MirrorChanges& changes);
+  void forget_joints_of(PieceId body, MirrorChanges& changes);
   void apply_reset(MirrorChanges& changes);
   Result<void> within_limits() const;
 
@@ -164,8 +172,10 @@ class Mirror {
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses
   std::map<PieceId, PropMotionHere> props_;
-  KnownMotions known_motions_;  ///< by which they are predicted, pieces and props
-  size_t piece_voxels_ = 0;     ///< of their volumes, together
+  std::map<JointId, Joint> joints_;
+  std::map<PieceId, std::set<JointId>> joints_of_;  ///< by body; none is empty
+  KnownMotions known_motions_;                      ///< by which they are predicted, pieces and props
+  size_t piece_voxels_ = 0;                         ///< of their volumes, together
   ChunkSet held_;
   ChunkSet incomplete_;  ///< a part has come, and not the last one: not held
   Tick tick_;

@@ -25,6 +25,7 @@ BetweenPoses* Mirror::find_moving(PieceId id) {
 void Mirror::remove(PieceId id, MirrorChanges& changes) {
   const auto prop = props_.find(id);
   if (prop == props_.end()) return remove_piece(id, changes);
+  forget_joints_of(id, changes);
   props_.erase(prop);
   known_motions_.remove(id);
   changes.props_removed.push_back(id);

@@ -24,6 +24,21 @@ Refused no_memory(double used_bytes, double added_bytes, uint32_t max_mb) {
                       whole(used_bytes), max_mb, whole(added_bytes))};
 }
 
+/// The voxels that a request edits or reads; nothing: it does neither. Only a shape that an operation may
+/// have, and a joint that is valid, has a bounded box. The simulation refuses the others.
+std::optional<VoxelBox> box_of(const Request& request, float voxel_size_m) {
+  if (const auto* const add = std::get_if<AddJointRequest>(&request)) {
+    const glm::vec3* const anchor_m = anchor_of(request);
+    if (anchor_m == nullptr || !validate(add->joint)) return std::nullopt;
+    const glm::vec3 at = *anchor_m / voxel_size_m;
+    const VoxelCoord voxel{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
+    return VoxelBox{voxel, voxel + VoxelCoord{1, 1, 1}};
+  }
+  const std::optional<Shape> shape = shape_of(request);
+  if (!shape || !validate_edit(*shape)) return std::nullopt;
+  return band_box(in_voxels(*shape, voxel_size_m));
+}
+
 Reply refusal_of(const Command& command, const Refused& refused) {
   Reply reply{command.session, command.request, refused.message, 0};
   reply.reason = refused.reason;
@@ -36,10 +51,9 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, con
                                                            double now_s) {
   const auto& [world, pager, ahead, room_will_come] = ground;
   const WorldConfig& config = world.config();
-  const std::optional<Shape> shape = shape_of(held.command.body);
-  // Only a shape that an operation may have has a bounded box. The simulation refuses the others.
-  if (!shape || !validate_edit(*shape)) return admit_with(held.command, 0.0);
-  const VoxelBox box = band_box(in_voxels(*shape, config.terrain.voxel_size_m));
+  const std::optional<VoxelBox> asked = box_of(held.command.body, config.terrain.voxel_size_m);
+  if (!asked) return admit_with(held.command, 0.0);
+  const VoxelBox box = *asked;
   const VoxelBox around = box.grown(limits::admitted_margin_voxels);
   const double waited_s = now_s - held.since_s;
   const bool waited_long = waited_s > limits::held_seconds_max;
@@ -57,7 +71,8 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, con
     return Verdict::hold;
   const uint32_t max_mb = config.memory_max_mb;
   const double used = used_bytes(pager.memory(), max_mb) + reserved_sum_bytes_;
-  const double added = added_bytes(box, world.field());
+  const bool edits = shape_of(held.command.body) != nullptr;
+  const double added = edits ? added_bytes(box, world.field()) : 0.0;
   if (added == 0.0 || used + added <= max_mb * bytes_per_mb * (1.0 - limits::merge_memory_share))
     return admit_with(held.command, added);
   if (room_will_come && !waited_long) return Verdict::hold;

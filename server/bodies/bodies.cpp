@@ -111,9 +111,11 @@ void Bodies::set_motion(PieceId id, const std::optional<Pose>& pose,
   if (spin_rad_s) now.spin_rad_s = *spin_rad_s;
   const std::shared_ptr<const BodyShape> given = body.given;
   if (pose) {  // contacts are of where it was
-    remove(id);
+    s.leave_joints(id);
+    s.take_out(id);
     now.frozen = false;
     add(*given, now);
+    s.enter_joints(id);
     return;
   }
   if (body.is_fixed()) return;
@@ -140,14 +142,13 @@ void Bodies::push(PieceId id, glm::vec3 impulse_n_s, glm::vec3 at_m) {
 
 void Bodies::remove(PieceId id) {
   State& s = *state_;
-  const auto found = s.bodies.find(id);
-  CHECK(found != s.bodies.end());
-  Body& body = found->second;
-  s.pending.add(bounds_of(body));
-  s.leave(body);
-  if (body.frozen) --s.frozen;
-  s.bodies.erase(found);
-  CHECK(s.frozen <= s.bodies.size());
+  CHECK(contains(id));
+  while (is_joined(id)) {
+    const JointId joint = *s.joints_of.at(id).begin();
+    s.ended.push_back({joint, JointEnd::body_gone});
+    s.end_joint(joint);
+  }
+  s.take_out(id);
 }
 
 bool Bodies::contains(PieceId id) const {

@@ -13,6 +13,7 @@
 #include <glm/vec3.hpp>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "content/builtin_palette.h"
@@ -23,6 +24,7 @@
 #include "shared/base/result.h"
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
+#include "shared/prop/joint.h"
 
 namespace scree {
 
@@ -74,6 +76,12 @@ struct TerrainBlow {
   float energy_j() const { return 0.5F * impulse_n_s * speed_m_s; }
 };
 
+/// What a joint bore in the last step that moved its bodies, without its motor's part.
+struct JointLoad {
+  float force_n = 0.0F;
+  float torque_nm = 0.0F;
+};
+
 struct BodiesConfig {
   uint32_t tick_rate_hz = 60;
   float gravity_m_s2 = 9.81F;
@@ -103,10 +111,29 @@ class Bodies {
   /// Gives a body an impulse at a place, and wakes it. What does not move, but for a frozen piece, stays as
   /// it is. The body must be present. It does not become faster than a body may be.
   void push(PieceId id, glm::vec3 impulse_n_s, glm::vec3 at_m);
-  /// Removes a body, which must be present. In the next step the bodies that touch its bounds wake.
+  /// Removes a body, which must be present. In the next step the bodies that touch its bounds wake. Its
+  /// joints end (take_broken_joints).
   void remove(PieceId id);
   bool contains(PieceId id) const;
   size_t size() const;
+
+  /// Joins two bodies, or one to the terrain, and wakes them. The joint must be valid, its id new among
+  /// joints, and its bodies present. A body whose motion is set (set_motion) keeps its joints.
+  void add_joint(JointId id, const Joint& joint);
+  /// Ends a joint, which must be present, and wakes its bodies.
+  void remove_joint(JointId id);
+  /// Changes the motor of a joint, which must be present and of a kind that has one.
+  void set_motor(JointId id, const JointMotor& motor);
+  bool has_joint(JointId id) const;
+  size_t joints() const;
+  /// Number of joints of which a body is awake.
+  size_t awake_joints() const;
+  /// Whether a joint holds the body.
+  bool is_joined(PieceId id) const;
+  /// The joint must be present.
+  JointLoad joint_load(JointId id) const;
+  /// The joints that broke, or whose bodies were removed, since they were last taken; ordered by id.
+  std::vector<EndedJoint> take_broken_joints();
 
   /// Advances by one tick.
   void step();
@@ -177,9 +204,10 @@ class Bodies {
   /// What add() was given.
   std::shared_ptr<const BodyShape> shape(PieceId id) const;
   /// Gives bodies the shapes and motions that shape() and motions() told, bit for bit; awake, and without
-  /// contacts. There must be no body yet, and one shape for each motion. Refuses a value that no Bodies has.
+  /// contacts. There must be no body yet, and one shape for each motion. Joints begin without a load. Refuses
+  /// a value that no Bodies has.
   Result<void> restore(const std::vector<std::shared_ptr<const BodyShape>>& shapes,
-                       const MotionValue& motions);
+                       const MotionValue& motions, std::span<const KnownJoint> joints = {});
 
   /// Makes of these bodies what restore() makes of their shapes and motions: all wake, and contacts are gone.
   void renew();

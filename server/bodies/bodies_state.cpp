@@ -141,6 +141,7 @@ void Bodies::State::step() {
     batch.run_alone();
   };
   WorkBatch turning, copying, touching, moving;
+  list_joints();
   dynamics.begin(step_size.step_s);
   dynamics.foresee(turning);
   for_all(turning, [this](std::span<Body*> some) {
@@ -160,9 +161,11 @@ void Bodies::State::step() {
   run(touching);
   terrain.roughen(loose, *config.palette);
   dynamics.solve();
+  break_joints();
   keep_strongest(terrain_blows, list_terrain_blows(bodies, dispatcher, limits::struck_speed_min_m_s));
   for (Body* body : loose)
     if (body->awake && is_fast(*body, step_size)) sweep(*body, step_size);
+  stop_together();
   for_all(moving, [this](std::span<Body*> some) {
     for (Body* body : some) {
       dynamics.move(*body->rigid, body->hulls->step_share());
@@ -197,6 +200,15 @@ void Bodies::State::tell_changes() {
   for (Body* body : all)
     if (body->roused) wake(*body);
   pending.clear();
+}
+
+void Bodies::State::take_out(PieceId id) {
+  Body& body = bodies.at(id);
+  pending.add(bounds_of(body));
+  leave(body);
+  if (body.frozen) --frozen;
+  bodies.erase(id);
+  CHECK(frozen <= bodies.size());
 }
 
 void Bodies::State::enter(Body& body) {

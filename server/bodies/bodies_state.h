@@ -11,6 +11,8 @@
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <map>
 #include <memory>
+#include <set>
+#include <span>
 #include <vector>
 
 #include "server/bodies/bodies.h"
@@ -18,6 +20,7 @@
 #include "server/bodies/body_maker.h"
 #include "server/bodies/body_speeds.h"
 #include "server/bodies/hull_algorithm.h"
+#include "server/bodies/joint_rows.h"
 #include "server/bodies/pair_dispatcher.h"
 #include "server/bodies/pending_changes.h"
 #include "server/bodies/piece_world.h"
@@ -52,6 +55,27 @@ struct Bodies::State {
   void thaw_struck();
   /// Wakes the neighbours of a thawed body once it has moved by limits::thawed_leash_m.
   void wake_around_thawed(Body& body);
+  /// Takes a body out. Its joints go on, and must end, or get it back by enter_joints().
+  void take_out(PieceId id);
+
+  // bodies_joints.cpp:
+  /// Adds a joint, and wakes nothing.
+  void enter_joint(JointId id, const Joint& joint);
+  /// Takes a joint out, and wakes its bodies.
+  void end_joint(JointId id);
+  /// Tells Bullet's world which joints there are, if they are others than before.
+  void list_joints();
+  /// Two bodies that a joint keeps apart make no contacts.
+  void keep_apart(JointRows& joint, bool apart);
+  /// The joints of a body let its object in Bullet go, and hold its new one; their bodies wake.
+  void leave_joints(PieceId body);
+  void enter_joints(PieceId body);
+  /// Ends the joints that the last step's load breaks.
+  void break_joints();
+  /// Bodies that joints hold move by the same share of the step: the least of theirs.
+  void stop_together();
+  Result<void> restore_joints(std::span<const KnownJoint> known);
+
   BodiesConfig config;
   int steps_a_tick;  ///< a tick longer than limits::step_max_s takes several
   StepSize step_size;
@@ -65,6 +89,10 @@ struct Bodies::State {
   PieceWorld dynamics;
   TerrainBody terrain;
   std::map<PieceId, Body> bodies;
+  std::map<JointId, JointRows> joints;
+  std::map<PieceId, std::set<JointId>> joints_of;  ///< by body; none is empty
+  bool joints_listed = true;                       ///< as of list_joints()
+  std::vector<EndedJoint> ended;                   ///< that were not told yet
   PendingChanges pending;
   size_t frozen = 0;         ///< number of frozen bodies
   float moved_m = 0.0F;      ///< farthest that a point of any body moved in the last step, at most

@@ -34,7 +34,7 @@ std::shared_ptr<const BodyShape> Bodies::shape(PieceId id) const {
 }
 
 Result<void> Bodies::restore(const std::vector<std::shared_ptr<const BodyShape>>& shapes,
-                             const MotionValue& motions) {
+                             const MotionValue& motions, std::span<const KnownJoint> joints) {
   State& s = *state_;
   CHECK(s.bodies.empty());
   CHECK_EQ(shapes.size(), motions.bodies.size());
@@ -43,13 +43,16 @@ Result<void> Bodies::restore(const std::vector<std::shared_ptr<const BodyShape>>
     TRY(s.restore(motions.bodies[i], shapes[i]));
   }
   s.pending.restore(motions);
-  return {};
+  return s.restore_joints(joints);
 }
 
 void Bodies::renew() {
   const MotionValue now = motions();
   std::vector<std::pair<std::shared_ptr<const BodyShape>, std::vector<glm::vec3>>> known;
   for (auto& [id, body] : state_->bodies) known.emplace_back(body.given, std::move(body.points_m));
+  CHECK(state_->ended.empty());
+  std::vector<KnownJoint> joints;
+  for (const auto& [id, joint] : state_->joints) joints.push_back({id, joint.joint()});
   while (size() > 0) remove(state_->bodies.begin()->first);
   state_ = std::make_unique<State>(state_->terrain.field(), state_->config);
   for (size_t i = 0; i < known.size(); ++i) {
@@ -58,6 +61,7 @@ void Bodies::renew() {
     CHECK(restored.has_value());
   }
   state_->pending.restore(now);
+  CHECK(state_->restore_joints(joints).has_value());
 }
 
 uint64_t Bodies::state_hash() const {

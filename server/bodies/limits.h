@@ -101,13 +101,28 @@ inline constexpr float struck_speed_min_m_s = 1.0F;
 /// Iterations of the contact solver. Heaps of rubble need no exact stacking; each costs a tenth of a step.
 inline constexpr int solver_iterations = 8;
 
+/// Iterations where joints hold bodies: a chain of ten links hangs still by 24 that begin with the last
+/// step's impulses. They cost such bodies three times as much.
+inline constexpr int joint_iterations = 24;
+
+/// Share of what is off in a joint that a step undoes, and the greatest speeds at which it does: a joint that
+/// is added far from where its bodies are draws them together without a blow.
+inline constexpr float joint_undone_a_step = 0.2F;
+inline constexpr float joint_undo_m_s = 4.0F;
+inline constexpr float joint_undo_rad_s = 4.0F;
+
+/// Share of its speed at which a motor still moves its bodies, so that they stay awake: what it pushes
+/// against in vain may sleep.
+inline constexpr float joint_driven_share = 0.05F;
+
 /// Bodies, or pairs of bodies, that a thread looks at before it takes the next ones: some 30 µs of work, as
 /// much as it costs to wake a thread. As few in all are left to one thread.
 inline constexpr size_t bodies_per_part = 32;
 inline constexpr size_t pairs_per_part = 64;
 
 /// Cost of solving that is worth a thread, in bodies without contacts: groups of joined bodies that cost less
-/// are solved together. A manifold costs as much as so many bodies.
+/// are solved together. A manifold costs as much as so many bodies, and so
+/// does a joint.
 inline constexpr uint32_t solver_group_cost = 256;
 inline constexpr uint32_t bodies_per_manifold = 6;
 

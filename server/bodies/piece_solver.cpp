@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "server/bodies/hull_algorithm.h"
+#include "server/bodies/limits.h"
 #include "server/bodies/solver_rows.h"
 #include "shared/base/check.h"
 
@@ -73,7 +74,31 @@ btScalar PieceSolver::solveGroupCacheFriendlySetup(btCollisionObject** bodies, i
   m_resolveSingleConstraintRowLowerLimit = solve_from_limit;
   m_resolveSplitPenetrationImpulse = undo_overlap;
   add_rolling_rows(manifolds, manifold_count);
+  start_joints(info.m_timeStep);
   return result;
+}
+
+// The bodies that can move have their places in the pool as companion numbers.
+void PieceSolver::start_joints(float step_s) {
+  m_maxOverrideNumSolverIterations = joints_.empty() ? 0 : limits::joint_iterations;
+  const auto solved = [&](const btRigidBody* body) {
+    SolvedBody out;
+    if (body == nullptr || body->isStaticObject()) return out;
+    out.speed = body->getLinearVelocity();
+    out.spin = body->getAngularVelocity();
+    if (body->isKinematicObject()) return out;
+    CHECK_DEBUG(body->getCompanionId() >= 0 && body->getCompanionId() < m_tmpSolverBodyPool.size());
+    out.solver = &m_tmpSolverBodyPool[body->getCompanionId()];
+    out.speed = out.solver->m_linearVelocity + out.solver->m_externalForceImpulse;
+    out.spin = out.solver->m_angularVelocity + out.solver->m_externalTorqueImpulse;
+    out.inverse_mass = body->getInvMass();
+    out.inverse_inertia = body->getInvInertiaTensorWorld();
+    return out;
+  };
+  for (JointRows* joint : joints_) {
+    joint->prepare(solved(joint->body_a()), solved(joint->body_b()), step_s);
+    joint->start();
+  }
 }
 
 void PieceSolver::convertContacts(btPersistentManifold** manifolds, int count,
@@ -114,10 +139,20 @@ btScalar PieceSolver::solveSingleIteration(int iteration, btCollisionObject** bo
                                            btPersistentManifold** manifolds, int manifold_count,
                                            btTypedConstraint** joints, int joint_count,
                                            const btContactSolverInfo& info, btIDebugDraw* drawer) {
+  // To and fro: what one end of a chain bears reaches the other end in either direction.
+  const size_t count = joints_.size();
+  for (size_t i = 0; i < count; ++i) joints_[iteration % 2 == 0 ? i : count - 1 - i]->solve();
   const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
       iteration, bodies, body_count, manifolds, manifold_count, joints, joint_count, info, drawer);
   for (RollingRow& row : rolling_) row.solve(m_tmpSolverContactConstraintPool);
-  return residual;
+  return joints_.empty() ? residual : std::max(residual, 1.0F);  // it must not end before the joints do
+}
+
+btScalar PieceSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
+                                                    const btContactSolverInfo& info) {
+  for (JointRows* joint : joints_) joint->finish(info.m_timeStep);
+  joints_ = {};
+  return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, body_count, info);
 }
 
 }  // namespace scree

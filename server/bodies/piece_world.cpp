@@ -68,14 +68,14 @@ void PieceWorld::find_pairs() {
 }
 
 void PieceWorld::find_contacts(WorkBatch& batch) {
-  batch.add([this] { islands_.update(m_collisionObjects, *getPairCache()); });
+  batch.add([this] { islands_.update(m_collisionObjects, *getPairCache(), joints_); });
   pairs_.search(batch, step_s_);
 }
 
 void PieceWorld::gather() {
   groups_.clear();
   const auto is_awake = [&](const btCollisionObject* body) {
-    return !body->isStaticObject() && islands_.is_awake(*body);
+    return body != nullptr && !body->isStaticObject() && islands_.is_awake(*body);
   };
   for (int i = 0; i < m_collisionObjects.size(); ++i)
     if (is_awake(m_collisionObjects[i])) groups_.add(*m_collisionObjects[i]);
@@ -85,6 +85,8 @@ void PieceWorld::gather() {
     if (is_awake(manifold->getBody0()) || is_awake(manifold->getBody1()))
       groups_.add({order_of(*manifold), manifold});
   }
+  for (JointRows* joint : joints_)
+    if (is_awake(joint->body_a()) || is_awake(joint->body_b())) groups_.add(*joint);
 }
 
 void PieceWorld::solve() {
@@ -108,6 +110,7 @@ void PieceWorld::solve(const SolverGroups::Group& group) {
   }
   if (solver == nullptr) solver = std::make_unique<Solver>();
   solver->rows.set_fall(getGravity() * step_s_);
+  solver->rows.set_joints(group.joints);
   std::ranges::sort(group.contacts, {}, &SolverGroups::Contacts::order);
   solver->manifolds.clear();
   for (const SolverGroups::Contacts& contacts : group.contacts)
@@ -115,6 +118,10 @@ void PieceWorld::solve(const SolverGroups::Group& group) {
   solver->rows.solveGroup(group.bodies.data(), static_cast<int>(group.bodies.size()),
                           solver->manifolds.data(), static_cast<int>(solver->manifolds.size()), nullptr, 0,
                           getSolverInfo(), nullptr, m_dispatcher1);
+  for (const JointRows* joint : group.joints)
+    if (joint->is_driven())
+      for (btRigidBody* body : {joint->body_a(), joint->body_b()})
+        if (body != nullptr && !body->isStaticObject()) body->setDeactivationTime(0.0F);
   const std::scoped_lock lock(mutex_);
   idle_solvers_.push_back(std::move(solver));
 }

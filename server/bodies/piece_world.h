@@ -7,8 +7,10 @@
 #include <BulletDynamics/Dynamics/btDiscreteDynamicsWorld.h>
 #include <memory>
 #include <mutex>
+#include <utility>
 #include <vector>
 
+#include "server/bodies/joint_rows.h"
 #include "server/bodies/pair_dispatcher.h"
 #include "server/bodies/piece_solver.h"
 #include "server/bodies/sleep_islands.h"
@@ -17,7 +19,8 @@
 
 namespace scree {
 
-/// Holds rigid bodies alone, without Bullet's damping, its sweeps of fast bodies and its joints. A step is
+/// Holds rigid bodies alone, without Bullet's damping, its sweeps of fast bodies and its joints, for which it
+/// has its own (joint_rows.h). A step is
 /// begin() and what follows it here, in this order, instead of Bullet's stepSimulation(). What it does not
 /// touch of the bodies may be read and changed meanwhile, by other work of the same batch too.
 class PieceWorld final : public btDiscreteDynamicsWorld {
@@ -28,6 +31,9 @@ class PieceWorld final : public btDiscreteDynamicsWorld {
   ~PieceWorld() override;
 
   void begin(float step_s);
+  /// The joints from the next step on, in the order in which they are solved. They and their bodies must
+  /// outlive what follows.
+  void set_joints(std::vector<JointRows*> joints) { joints_ = std::move(joints); }
   /// Adds gravity, and the bounds of each body until the step's end.
   void foresee(WorkBatch& batch);
   /// Hands the bounds to the broadphase, which finds the pairs of bodies whose bounds meet: one thread's. It
@@ -55,6 +61,7 @@ class PieceWorld final : public btDiscreteDynamicsWorld {
   PairDispatcher& pairs_;
   Workers& workers_;
   float step_s_ = 0.0F;
+  std::vector<JointRows*> joints_;
   std::vector<Moving> moving_;  ///< the bodies that are awake, in Bullet's order
   SleepIslands islands_;
   SolverGroups groups_;

@@ -1,5 +1,7 @@
 #include "server/bodies/sleep_islands.h"
 
+#include "server/bodies/joint_rows.h"
+
 namespace scree {
 
 namespace {
@@ -14,7 +16,8 @@ bool keeps_awake(const btCollisionObject& body) {
 
 }  // namespace
 
-void SleepIslands::update(const btCollisionObjectArray& bodies, btOverlappingPairCache& pairs) {
+void SleepIslands::update(const btCollisionObjectArray& bodies, btOverlappingPairCache& pairs,
+                          std::span<JointRows* const> joints) {
   const auto count = static_cast<uint32_t>(bodies.size());
   islands_.reset(count);
   awake_.assign(count, 0);
@@ -26,6 +29,11 @@ void SleepIslands::update(const btCollisionObjectArray& bodies, btOverlappingPai
   for (int i = 0; i < all.size(); ++i) {
     const int a = object_of(all[i].m_pProxy0)->getIslandTag(),
               b = object_of(all[i].m_pProxy1)->getIslandTag();
+    if (a >= 0 && b >= 0) islands_.join(static_cast<uint32_t>(a), static_cast<uint32_t>(b));
+  }
+  for (const JointRows* joint : joints) {
+    if (joint->body_a() == nullptr || joint->body_b() == nullptr) continue;
+    const int a = joint->body_a()->getIslandTag(), b = joint->body_b()->getIslandTag();
     if (a >= 0 && b >= 0) islands_.join(static_cast<uint32_t>(a), static_cast<uint32_t>(b));
   }
   for (uint32_t i = 0; i < count; ++i)

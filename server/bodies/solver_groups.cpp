@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "server/bodies/joint_rows.h"
 #include "server/bodies/limits.h"
 #include "shared/base/check.h"
 
@@ -14,7 +15,7 @@ namespace {
 
 /// A kinematic body counts: the solver takes its speed, and one thread at a time.
 bool can_move(const btCollisionObject* body) {
-  return !body->isStaticObject();
+  return body != nullptr && !body->isStaticObject();
 }
 
 uint32_t place_of(const btCollisionObject* body) {
@@ -38,7 +39,7 @@ std::vector<std::span<Item>> sort_by_group(const std::vector<Item>& items, uint3
 }
 
 size_t cost_of(const SolverGroups::Group& group) {
-  return group.bodies.size() + limits::bodies_per_manifold * group.contacts.size();
+  return group.bodies.size() + limits::bodies_per_manifold * (group.contacts.size() + group.joints.size());
 }
 
 }  // namespace
@@ -46,6 +47,7 @@ size_t cost_of(const SolverGroups::Group& group) {
 void SolverGroups::clear() {
   bodies_.clear();
   contacts_.clear();
+  joints_.clear();
   groups_.clear();
 }
 
@@ -62,29 +64,36 @@ std::span<SolverGroups::Group> SolverGroups::divide() {
       bodies_, groups, [&](size_t i) { return group_of_[i]; }, grouped_bodies_);
   const auto contacts = sort_by_group(
       contacts_, groups, [&](size_t i) { return group_of_[body_of_[i]]; }, grouped_contacts_);
+  const auto joints = sort_by_group(
+      joints_, groups, [&](size_t i) { return group_of_[held_by_[i]]; }, grouped_joints_);
   groups_.clear();
-  for (uint32_t group = 0; group < groups; ++group) groups_.push_back({bodies[group], contacts[group]});
+  for (uint32_t group = 0; group < groups; ++group)
+    groups_.push_back({bodies[group], contacts[group], joints[group]});
   std::ranges::stable_sort(groups_, [](const Group& a, const Group& b) { return cost_of(a) > cost_of(b); });
   return groups_;
+}
+
+uint32_t SolverGroups::join(const btCollisionObject* a, const btCollisionObject* b) {
+  const uint32_t body = place_of(can_move(a) ? a : b);
+  CHECK_DEBUG(body < bodies_.size());
+  if (can_move(a) && can_move(b)) joined_.join(body, place_of(b));
+  return body;
 }
 
 void SolverGroups::join() {
   joined_.reset(bodies_.size());
   body_of_.clear();
-  for (const Contacts& contacts : contacts_) {
-    const btCollisionObject *a = contacts.manifold->getBody0(), *b = contacts.manifold->getBody1();
-    const bool both = can_move(a) && can_move(b);
-    const uint32_t body = place_of(can_move(a) ? a : b);
-    CHECK_DEBUG(body < bodies_.size());
-    body_of_.push_back(body);
-    if (both) joined_.join(body, place_of(b));
-  }
+  held_by_.clear();
+  for (const Contacts& contacts : contacts_)
+    body_of_.push_back(join(contacts.manifold->getBody0(), contacts.manifold->getBody1()));
+  for (const JointRows* joint : joints_) held_by_.push_back(join(joint->body_a(), joint->body_b()));
 }
 
 uint32_t SolverGroups::number_groups() {
   costs_.assign(bodies_.size(), 0);
   for (uint32_t body = 0; body < bodies_.size(); ++body) ++costs_[joined_.root_of(body)];
   for (const uint32_t body : body_of_) costs_[joined_.root_of(body)] += limits::bodies_per_manifold;
+  for (const uint32_t body : held_by_) costs_[joined_.root_of(body)] += limits::bodies_per_manifold;
   group_of_.resize(bodies_.size());
   uint32_t groups = 0, cost = limits::solver_group_cost;
   for (uint32_t body = 0; body < bodies_.size(); ++body) {

@@ -36,6 +36,7 @@ struct Reply {
   std::string host_name{};                       ///< of a Refusal::host that the host gave a name of its own
   std::optional<uint32_t> painted{};             ///< bricks whose rock a paint changed
   std::optional<PieceId> prop{};                 ///< that was added
+  std::optional<JointId> joint{};                ///< likewise
 };
 
 /// The name of the reply's refusal that clients get, which stays the same from version to version: that of

@@ -117,7 +117,10 @@ Role role_for(const Request& request) {
                                [](const MovePropRequest&) { return Role::director; },
                                [](const PushRequest&) { return Role::carver; },
                                [](const BreakRequest&) { return Role::carver; },
-                               [](const BlastRequest&) { return Role::carver; }},
+                               [](const BlastRequest&) { return Role::carver; },
+                               [](const AddJointRequest&) { return Role::director; },
+                               [](const RemoveJointRequest&) { return Role::director; },
+                               [](const SetMotorRequest&) { return Role::director; }},
                     request);
 }
 

@@ -8,6 +8,7 @@
 #include "proto/operation_codec.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"
+#include "server/formats/joint_lists.h"
 #include "server/formats/packed_lists.h"
 #include "server/formats/recording_values.h"
 #include "shared/base/check.h"
@@ -115,6 +116,7 @@ std::vector<uint8_t> encode(const RecordedFrame& frame) {
   write(*to.mutable_settings(), frame.settings);
   write_props(*to.mutable_props(), frame.props);
   to.set_props_gone(pack_ids(frame.props_gone));
+  write_joints(*to.mutable_joints(), frame.joints);
   return bytes_of(to);
 }
 
@@ -131,6 +133,7 @@ Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
   frame.settings = check.settings(from.settings());
   frame.props = read_props(from.props(), check);
   frame.props_gone = check.value_or_refuse(unpack_piece_ids(from.props_gone(), "props that are gone"));
+  frame.joints = read_joints(from.joints(), check);
   return checked(std::move(frame), check);
 }
 
@@ -151,6 +154,7 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
   write(*to.mutable_settings(), keyframe.settings);
   write(*to.mutable_materials(), keyframe.materials);
   write_props(*to.mutable_props(), keyframe.props);
+  write_joints(*to.mutable_joints(), JointsMessage{keyframe.joints, {}});
   return bytes_of(to);
 }
 
@@ -180,6 +184,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   keyframe.poses = check.value_or_refuse(unpack_transforms(as_span(from.poses())));
   keyframe.materials = read(from.materials(), check);
   keyframe.props = read_props(from.props(), check);
+  keyframe.joints = read_joints(from.joints(), check).here;
   return checked(std::move(keyframe), check);
 }
 

@@ -54,6 +54,7 @@ struct RecordedFrame {
   SettingValues settings;           ///< as TickDelta::settings
   std::vector<PropMessage> props;   ///< that were added, with their poses; ordered by id
   std::vector<PieceId> props_gone;  ///< of those that were there before; ordered
+  JointsMessage joints;             ///< added, or with another motor; and those that were there before
 };
 
 struct RecordedKeyframe {
@@ -67,6 +68,7 @@ struct RecordedKeyframe {
   std::vector<PieceState> poses;   ///< of the pieces whose volumes are rows of their own; ordered by id
   MaterialLedger materials;        ///< empty in recordings that keep none
   std::vector<PropMessage> props;  ///< all there are; ordered by id
+  std::vector<KnownJoint> joints;  ///< likewise
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);

@@ -8,6 +8,7 @@
 #include "proto/wire_values.h"
 #include "server/formats/packed_lists.h"
 #include "server/formats/recording_values.h"
+#include "server/formats/world_props.h"
 #include "shared/base/check.h"
 #include "shared/field/mass.h"
 
@@ -216,11 +217,7 @@ void write(kept::Moment& to, const WorldMoment& from) {
   to.set_buried(pack_ids(from.buried));
   to.set_sunk(pack_ids(from.sunk));
   write(*to.mutable_materials(), from.materials);
-  for (const PropRecord& prop : from.props) {
-    kept::Prop& added = *to.add_props();
-    added.set_here(to_string(encode_recorded_prop({prop.id, *prop.prop, {}})));
-    added.set_owner(prop.owner);
-  }
+  write_world_props(to, from);
   for (const StruckPlace& place : from.struck) {
     kept::StruckPlace& added = *to.add_struck();
     added.set_x(place.cell.x);
@@ -272,11 +269,7 @@ WorldMoment read(const kept::Moment& from, FieldChecker& check) {
   moment.buried = check.value_or_refuse(unpack_piece_ids(from.buried(), "buried pieces"));
   moment.sunk = check.value_or_refuse(unpack_piece_ids(from.sunk(), "sunk pieces"));
   moment.materials = scree::read(from.materials(), check);
-  for (const kept::Prop& one : from.props()) {
-    if (check.failed()) break;
-    PropMessage here = check.value_or_refuse(decode_recorded_prop(as_span(one.here())));
-    moment.props.push_back({here.id, one.owner(), std::make_shared<const Prop>(std::move(here.prop))});
-  }
+  read_world_props(from, moment, check);
   for (const kept::StruckPlace& one : from.struck())
     moment.struck.push_back(
         {{one.x(), one.y(), one.z()}, check.not_negative(one.energy_j(), "energy of blows"), one.at()});

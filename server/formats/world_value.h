@@ -22,6 +22,7 @@
 #include "proto/messages.h"
 #include "server/formats/recording_codec.h"
 #include "shared/field/piece.h"
+#include "shared/prop/joint.h"
 #include "shared/prop/prop.h"
 
 namespace scree {
@@ -85,6 +86,13 @@ struct PropRecord {
   PieceId id = 0;
   uint64_t owner = 0;  ///< party that added it (command.h)
   std::shared_ptr<const Prop> prop;
+};
+
+/// A joint, which is not null, as it stands.
+struct JointRecord {
+  JointId id = 0;
+  uint64_t owner = 0;  ///< party that added it (command.h)
+  std::shared_ptr<const Joint> joint;
 };
 
 struct BoundsM {
@@ -229,6 +237,7 @@ struct WorldMoment {
   uint64_t state_hash = 0;          ///< of field, bodies and ledger, as a tick publishes it
   std::vector<PieceRecord> pieces;  ///< ordered by id, as motion.bodies, which has those of props, too
   std::vector<PropRecord> props;    ///< ordered by id
+  std::vector<JointRecord> joints;  ///< ordered by id
   MotionValue motion;
   RestValue rest;
   RequestsValue requests;

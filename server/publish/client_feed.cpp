@@ -37,6 +37,7 @@ void ClientFeed::serve(const ServedTick& tick, const Backlog& backlog, ServedPar
   // Pieces first: by a slow link, chunks take all the room there is, and what merges unknown pieces comes as
   // bricks.
   if (with_poses) pieces_.serve(tick, view_, outlet_, part);
+  if (reads_along) joints_.serve(tick, with_poses, view_, outlet_, part);
   if (reads_along) chunks_.serve(tick, view_, outlet_, part);
   if (with_status) send_status(tick, part);
   if (reads_along) physics_feed_.serve(tick, view_, outlet_, part);
@@ -55,6 +56,7 @@ bool ClientFeed::ready(size_t backlog_bytes, ServedPart& part) {
     reset_due_ = false;
     view_.reset();
     chunks_.offer().forget();
+    joints_.forget();
     last_frame_ = 0;
     outlet_.send(share(ResetMessage{}), part);
   }

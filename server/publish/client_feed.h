@@ -10,6 +10,7 @@
 
 #include "server/publish/chunk_stream.h"
 #include "server/publish/client_view.h"
+#include "server/publish/joint_stream.h"
 #include "server/publish/outgoing.h"
 #include "server/publish/physics_feed.h"
 #include "server/publish/piece_stream.h"
@@ -54,6 +55,7 @@ class ClientFeed {
   ClientView view_;
   ChunkStream chunks_;
   PieceStream pieces_;
+  JointStream joints_;
   ReplayNews replay_;
   PhysicsFeed physics_feed_;
   bool stopped_ = false;

@@ -267,9 +267,10 @@ std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
   for (const Reply& reply : delta.replies) {
     ClientFeed* const client = find(reply.session);
     if (client == nullptr) continue;
-    client->outlet().send(share(ReplyMessage{reply.request, reply.refusal, reply.pieces, refusal_name(reply),
-                                             latency(reply), delta.tick, reply.painted}),
-                          replies);
+    client->outlet().send(
+        share(ReplyMessage{reply.request, reply.refusal, reply.pieces, refusal_name(reply), latency(reply),
+                           delta.tick, reply.painted, reply.prop, reply.joint}),
+        replies);
   }
   add(std::move(replies));
   return std::exchange(out_, {});

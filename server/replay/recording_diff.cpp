@@ -27,30 +27,34 @@ std::string text_of(const Shape& shape) {
 
 std::string text_of(const Command& command, const Palette& palette) {
   const std::string body = std::visit(
-      Overloaded{[](const CarveRequest& carve) {
-                   return fmt::format("carve a {}, {} seeds, random seed {}", text_of(carve.shape),
-                                      carve.seeds, carve.random_seed);
-                 },
-                 [](const FillRequest& fill) { return "fill a " + text_of(fill.shape); },
-                 [&](const PaintRequest& paint) {
-                   return fmt::format("paint a {} as {}", text_of(paint.shape),
-                                      palette.row_or_first(paint.material).name);
-                 },
-                 [](const SettingsRequest& request) {
-                   std::string set = "set";
-                   for (const SettingValue& value : request.settings)
-                     set += fmt::format(" {}={}", value.name, value.value);
-                   return set;
-                 },
-                 [](const LeaveRequest&) { return std::string("leave"); },
-                 [](const AddPropRequest& add) {
-                   return fmt::format("add a prop of {} parts", add.prop.parts.size());
-                 },
-                 [](const RemovePropRequest& remove) { return fmt::format("remove prop {}", remove.prop); },
-                 [](const MovePropRequest& move) { return fmt::format("move prop {}", move.prop); },
-                 [](const PushRequest& push) { return fmt::format("push body {}", push.body); },
-                 [](const BlastRequest& blast) { return fmt::format("a blast of {} J", blast.energy_j); },
-                 [](const BreakRequest& broken) { return fmt::format("break piece {}", broken.piece); }},
+      Overloaded{
+          [](const CarveRequest& carve) {
+            return fmt::format("carve a {}, {} seeds, random seed {}", text_of(carve.shape), carve.seeds,
+                               carve.random_seed);
+          },
+          [](const FillRequest& fill) { return "fill a " + text_of(fill.shape); },
+          [&](const PaintRequest& paint) {
+            return fmt::format("paint a {} as {}", text_of(paint.shape),
+                               palette.row_or_first(paint.material).name);
+          },
+          [](const SettingsRequest& request) {
+            std::string set = "set";
+            for (const SettingValue& value : request.settings)
+              set += fmt::format(" {}={}", value.name, value.value);
+            return set;
+          },
+          [](const LeaveRequest&) { return std::string("leave"); },
+          [](const AddPropRequest& add) {
+            return fmt::format("add a prop of {} parts", add.prop.parts.size());
+          },
+          [](const RemovePropRequest& remove) { return fmt::format("remove prop {}", remove.prop); },
+          [](const MovePropRequest& move) { return fmt::format("move prop {}", move.prop); },
+          [](const PushRequest& push) { return fmt::format("push body {}", push.body); },
+          [](const BreakRequest& broken) { return fmt::format("break piece {}", broken.piece); },
+          [](const BlastRequest& blast) { return fmt::format("a blast of {} J", blast.energy_j); },
+          [](const AddJointRequest& add) { return fmt::format("add a {} joint", name_of(add.joint.kind)); },
+          [](const RemoveJointRequest& remove) { return fmt::format("remove joint {}", remove.joint); },
+          [](const SetMotorRequest& set) { return fmt::format("set the motor of joint {}", set.joint); }},
       command.body);
   return fmt::format("session {}, request {}: {}", command.session, command.request, body);
 }

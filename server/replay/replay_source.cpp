@@ -34,6 +34,9 @@ void append(TickDelta& to, const TickDelta& next) {
   to.props_spawned.insert(to.props_spawned.end(), next.props_spawned.begin(), next.props_spawned.end());
   std::ranges::stable_sort(to.props_spawned, {}, &SpawnedProp::id);
   to.props = next.props;
+  to.joints_added.insert(to.joints_added.end(), next.joints_added.begin(), next.joints_added.end());
+  to.joints_removed.insert(to.joints_removed.end(), next.joints_removed.begin(), next.joints_removed.end());
+  sort_joints(to);
   if (!next.settings.empty()) to.settings = next.settings;
   to.ledger = next.ledger;
   to.materials = next.materials;
@@ -116,6 +119,7 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   BricksBefore before;
   const PieceTable pieces = state_->pieces;
   const auto props = state_->props;
+  const PublishedJoints joints = state_->joints;
   const SettingValues settings = state_->settings;
   TRY(state_->go_to(to, before));
   auto delta = state_->unchanged();
@@ -124,6 +128,11 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
     if (!pieces.contains(id)) delta->spawned.push_back({id, volume});
   for (const auto& [id, one] : state_->props)
     if (!props.contains(id)) delta->props_spawned.push_back({id, one.prop});
+  for (const auto& [id, joint] : state_->joints)
+    if (const auto known = joints.find(id); known == joints.end() || known->second != joint)
+      delta->joints_added.push_back({id, joint});
+  for (const auto& [id, joint] : joints)
+    if (!state_->joints.contains(id)) delta->joints_removed.push_back({id, JointEnd::removed});
   if (state_->settings != settings) delta->settings = state_->settings;
   state_->tell_spawn(*delta);
   return delta;

@@ -55,6 +55,8 @@ Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& bef
     if (pieces.contains(prop.id)) return damaged(fmt::format("prop {} has the id of a piece", prop.id));
     props[prop.id] = {std::make_shared<const Prop>(std::move(prop.prop)), prop.pose};
   }
+  joints.clear();
+  for (const auto& [id, joint] : keyframe.joints) joints[id] = std::make_shared<const Joint>(joint);
   for (PieceMessage& piece : keyframe.pieces) {
     poses[piece.id] = piece.pose;
     pieces[piece.id] = std::make_shared<const Volume>(std::move(piece.volume));
@@ -117,6 +119,20 @@ Result<void> ReplaySource::State::change_props(const RecordedFrame& frame, TickD
   return {};
 }
 
+Result<void> ReplaySource::State::change_joints(const RecordedFrame& frame, TickDelta& delta) {
+  for (const EndedJoint& gone : frame.joints.gone)
+    if (joints.erase(gone.id) == 0)
+      return damaged(fmt::format("joint {} is gone, and was not there", gone.id));
+  delta.joints_removed = frame.joints.gone;
+  for (const auto& [id, added] : frame.joints.here) {
+    if (pieces.contains(id) || props.contains(id))
+      return damaged(fmt::format("joint {} has the id of a body", id));
+    joints[id] = std::make_shared<const Joint>(added);
+    delta.joints_added.push_back({id, joints.at(id)});
+  }
+  return {};
+}
+
 void ReplaySource::State::tell_props(TickDelta& delta) const {
   for (const auto& [id, one] : props) delta.props.push_back({id, one.pose});
 }
@@ -145,7 +161,7 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   const auto frame = reader->frame(tick + 1);
   TRY(frame);
   PlayedTick undo;
-  if (undoable) undo = {{}, pieces, poses, props, ledger, materials, settings, state_hash};
+  if (undoable) undo = {{}, pieces, poses, props, joints, ledger, materials, settings, state_hash};
   const bool notes = before != nullptr || undoable;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++tick;
@@ -154,6 +170,7 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   for (const Operation& operation : frame->operations)
     TRY(apply_operation(operation, *delta, changed, notes ? &undo.bricks : nullptr));
   TRY(change_props(*frame, *delta));
+  TRY(change_joints(*frame, *delta));
   TRY(place_pieces(*frame, *delta));
   tell_props(*delta);
   TRY(check_hash(frame->field_hash));
@@ -181,6 +198,7 @@ void ReplaySource::State::revert_tick(BricksBefore& before) {
   pieces = std::move(last.pieces);
   poses = std::move(last.poses);
   props = std::move(last.props);
+  joints = std::move(last.joints);
   ledger = last.ledger;
   materials = std::move(last.materials);
   settings = std::move(last.settings);
@@ -224,6 +242,7 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
   std::ranges::sort(delta->bricks, {}, &BrickState::coord);
   for (const auto& [id, volume] : pieces) delta->spawned.push_back({id, volume});
   for (const auto& [id, one] : props) delta->props_spawned.push_back({id, one.prop});
+  for (const auto& [id, joint] : joints) delta->joints_added.push_back({id, joint});
   delta->settings = settings;
   delta->spawn = spawn();
   return delta;

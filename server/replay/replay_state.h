@@ -24,6 +24,7 @@ struct PlayedTick {
   PieceTable pieces;
   std::map<PieceId, QuantisedPose> poses;
   std::map<PieceId, PublishedProp> props;
+  PublishedJoints joints;
   Ledger ledger;
   std::optional<MaterialLedger> materials;
   SettingValues settings;
@@ -54,6 +55,7 @@ struct ReplaySource::State {
   PieceTable pieces;
   std::map<PieceId, QuantisedPose> poses;
   std::map<PieceId, PublishedProp> props;
+  PublishedJoints joints;
   Ledger ledger;
   std::optional<MaterialLedger> materials;  ///< nothing: a keyframe keeps none
   SettingValues settings;
@@ -77,6 +79,7 @@ struct ReplaySource::State {
   Result<void> apply_operation(const Operation& operation, TickDelta& delta, std::set<BrickCoord>& changed,
                                BricksBefore* before);
   Result<void> change_props(const RecordedFrame& frame, TickDelta& delta);
+  Result<void> change_joints(const RecordedFrame& frame, TickDelta& delta);
   void tell_props(TickDelta& delta) const;
   Result<void> place_pieces(const RecordedFrame& frame, TickDelta& delta);
   Result<void> check_hash(uint64_t recorded) const;

@@ -60,6 +60,18 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  },
                  [](const BreakRequest& broken) {
                    return Asked{"break", {}, fmt::format("piece {}", broken.piece)};
+                 },
+                 [](const AddJointRequest& add) {
+                   return Asked{"add_joint",
+                                {},
+                                fmt::format("{}, bodies {} and {}", name_of(add.joint.kind), add.joint.a.body,
+                                            add.joint.b.body)};
+                 },
+                 [](const RemoveJointRequest& remove) {
+                   return Asked{"remove_joint", {}, fmt::format("joint {}", remove.joint)};
+                 },
+                 [](const SetMotorRequest& set) {
+                   return Asked{"set_motor", {}, fmt::format("joint {}", set.joint)};
                  }},
       request);
 }

@@ -153,6 +153,7 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
   }
   pieces_ = std::move(alive);
   for (const auto& [id, prop] : state.props()) keyframe.props.push_back({id, *prop.prop, prop.pose});
+  for (const auto& [id, joint] : state.joints()) keyframe.joints.push_back({id, *joint});
   keyframe.tick = state.tick();
   keyframe.ledger = state.ledger();
   keyframe.materials = state.materials();

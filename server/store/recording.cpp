@@ -47,6 +47,17 @@ std::vector<PropMessage> props_of(const TickDelta& keyframe) {
   return props;
 }
 
+/// Enters the joints that changed and still are, and those that were there before and ended.
+void add_joints(RecordedFrame& frame, const TickDelta& delta, const PublishedState& before) {
+  const auto has_ended = [&](JointId id) {
+    return std::ranges::binary_search(delta.joints_removed, id, {}, &EndedJoint::id);
+  };
+  for (const AddedJoint& added : delta.joints_added)
+    if (!has_ended(added.id)) frame.joints.here.push_back({added.id, *added.joint});
+  for (const EndedJoint& ended : delta.joints_removed)
+    if (before.joints().contains(ended.id)) frame.joints.gone.push_back(ended);
+}
+
 }  // namespace
 
 RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) {
@@ -59,6 +70,7 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
     if (known == before.pieces().end() || known->second.pose != piece.pose) frame.moved.push_back(piece);
   }
   add_props(frame, delta, before);
+  add_joints(frame, delta, before);
   std::ranges::sort(frame.moved, {}, &PieceState::id);
   frame.ledger = delta.ledger;
   frame.field_hash = delta.field_hash;
@@ -79,6 +91,7 @@ RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
     keyframe.pieces.push_back({delta.spawned[i].id, *delta.spawned[i].volume, delta.pieces[i].pose});
   }
   keyframe.props = props_of(delta);
+  for (const AddedJoint& added : delta.joints_added) keyframe.joints.push_back({added.id, *added.joint});
   keyframe.ledger = delta.ledger;
   keyframe.materials = delta.materials;
   keyframe.field_hash = delta.field_hash;

@@ -42,6 +42,9 @@ struct Pricing {
     return edit_price_us(shape, field) + limits::blast_voxel_cost_us * voxels +
            cut_price_us(cutter_for(cutter, voxels), voxels, pieces_of_blast(request.energy_j));
   }
+  float operator()(const AddJointRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const RemoveJointRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const SetMotorRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
     return cut_price_us(cutter, limits::broken_voxels, request.seeds);

@@ -10,6 +10,7 @@ namespace scree {
 struct BodyCounts {
   size_t pieces = 0, awake = 0, ground_points = 0, contact_points = 0, pairs = 0, overlaps = 0;
   int steps = 0;
+  size_t joints = 0;  ///< of bodies that are awake
 };
 
 /// A tick's work by the model of server/work/work.h, and the counts of work that was put off or left out.

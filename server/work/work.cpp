@@ -10,7 +10,7 @@ namespace {
 
 BodyCounts counts_of(const Bodies& bodies) {
   return {bodies.size(),  bodies.awake(),    bodies.ground_points(), bodies.contact_points(),
-          bodies.pairs(), bodies.overlaps(), bodies.steps_a_tick()};
+          bodies.pairs(), bodies.overlaps(), bodies.steps_a_tick(),  bodies.awake_joints()};
 }
 
 float cost_of(const BodyCounts& bodies) {
@@ -18,7 +18,8 @@ float cost_of(const BodyCounts& bodies) {
                        limits::ground_point_cost_us * static_cast<float>(bodies.ground_points) +
                        limits::contact_cost_us * static_cast<float>(bodies.contact_points) +
                        limits::pair_cost_us * static_cast<float>(bodies.pairs) +
-                       limits::overlap_cost_us * static_cast<float>(bodies.overlaps);
+                       limits::overlap_cost_us * static_cast<float>(bodies.overlaps) +
+                       limits::joint_cost_us * static_cast<float>(bodies.joints);
   return a_step * static_cast<float>(bodies.steps);
 }
 

@@ -15,6 +15,10 @@ inline constexpr uint32_t pieces_max_max = 20000;
 /// created.
 inline constexpr uint32_t props_max_max = 10000;
 
+/// Joints that a world may be asked for. Above, no machine of today keeps the tick. Refused where a world is
+/// created.
+inline constexpr uint32_t joints_max_max = 10000;
+
 /// Place of a push from the body's bounding sphere, metres: clients see where a body was some ticks ago.
 /// Beyond: refused.
 inline constexpr float push_slack_m = 4.0F;

@@ -106,7 +106,8 @@ void settle(World::State& state, TickDelta& delta) {
   std::vector<PieceId> now = in_turn(state, ready, state.rest.layers(), merging ? for_merges : for_freezes);
   state.rest.put_off_more(ready.size() - now.size());
   if (!merging) {
-    for (const PieceId id : now) state.bodies.freeze(id);
+    for (const PieceId id : now)
+      if (!state.bodies.is_joined(id)) state.bodies.freeze(id);
     return;
   }
   delta.work.merges_put_off = static_cast<uint32_t>(state.rest.put_off());

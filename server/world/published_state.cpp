@@ -101,6 +101,8 @@ void PublishedState::apply(const TickDelta& delta) {
   CHECK(alive.size() == delta.pieces.size());
   pieces_ = std::move(alive);
   apply_props(delta);
+  for (const AddedJoint& joint : delta.joints_added) joints_[joint.id] = joint.joint;
+  for (const EndedJoint& joint : delta.joints_removed) joints_.erase(joint.id);
   pieces_made_ += delta.spawned.size();
   for (const AppliedOperation& applied : delta.operations)
     pieces_merged_ += pieces_merged_by(applied.operation);
@@ -175,6 +177,7 @@ TickDelta PublishedState::without_bricks() const {
     delta.props_spawned.push_back({id, one.prop});
     delta.props.push_back({id, one.pose});
   }
+  for (const auto& [id, joint] : joints_) delta.joints_added.push_back({id, joint});
   delta.ledger = ledger_;
   delta.materials = materials_;
   delta.settings = settings_;

@@ -57,6 +57,8 @@ struct PublishedProp {
   QuantisedPose pose;
 };
 
+using PublishedJoints = std::map<JointId, std::shared_ptr<const Joint>>;
+
 class PublishedState {
  public:
   /// Applies the next tick. The first may have any number, as a keyframe; then there is no gap.
@@ -83,6 +85,7 @@ class PublishedState {
   const std::unordered_map<ChunkCoord, PublishedChunk, CoordHash>& chunks() const { return chunks_; }
   const std::map<PieceId, PublishedPiece>& pieces() const { return pieces_; }
   const std::map<PieceId, PublishedProp>& props() const { return props_; }
+  const PublishedJoints& joints() const { return joints_; }
   const Ledger& ledger() const { return ledger_; }
   const MaterialLedger& materials() const { return materials_; }
   const SettingValues& settings() const { return settings_; }
@@ -113,6 +116,7 @@ class PublishedState {
   size_t bricks_in_ = 0;
   std::map<PieceId, PublishedPiece> pieces_;
   std::map<PieceId, PublishedProp> props_;
+  PublishedJoints joints_;
   Ledger ledger_;
   MaterialLedger materials_;
   SettingValues settings_;

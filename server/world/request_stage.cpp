@@ -12,6 +12,7 @@
 #include "server/world/buried_stage.h"
 #include "server/world/explosion.h"
 #include "server/world/fill_joints.h"
+#include "server/world/joint_requests.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
 #include "server/world/prop_requests.h"
@@ -259,12 +260,12 @@ bool may_begin(const World::State& state, float cost_us) {
 
 void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
   Reply reply{command.session, command.request, {}, 0};
-  if (outcome && std::holds_alternative<PaintRequest>(command.body)) {
-    reply.painted = *outcome;
-  } else if (outcome && std::holds_alternative<AddPropRequest>(command.body)) {
-    reply.prop = *outcome;
-  } else if (outcome) {
-    reply.pieces = *outcome;
+  if (outcome) {
+    std::visit(Overloaded{[&](const PaintRequest&) { reply.painted = *outcome; },
+                          [&](const AddPropRequest&) { reply.prop = *outcome; },
+                          [&](const AddJointRequest&) { reply.joint = *outcome; },
+                          [&](const auto&) { reply.pieces = *outcome; }},
+               command.body);
   } else {
     reply.refusal = outcome.error().message;
     reply.reason = outcome.error().reason;
@@ -313,11 +314,6 @@ void drop(World::State& state, uint64_t session, TickDelta& delta) {
 
 bool is_valid(const World::State& state, const Command& command) {
   return std::holds_alternative<SettingsRequest>(command.body) || check(state, command).has_value();
-}
-
-void publish_settings(const World::State& state, TickDelta& delta) {
-  delta.settings = print(state.config);
-  delta.service = state.config.service;
 }
 
 void enqueue_commands(World::State& state, std::span<const Command> commands, TickDelta& delta) {

@@ -118,6 +118,8 @@ constexpr std::array table{
                                             few_pieces),
     machine_limit<&WorldConfig::props_max>("props-max", "props there at once; further ones are refused",
                                            {0, limits::props_max_max, "props"}),
+    machine_limit<&WorldConfig::joints_max>("joints-max", "joints there at once; further ones are refused",
+                                            {0, limits::joints_max_max, "joints"}),
     machine_limit<&WorldConfig::memory_max_mb>(
         "memory-max", "memory of the terrain and the program; further edits are refused",
         {limits::memory_max_min_mb, limits::memory_max_max_mb, "megabytes"}),
@@ -142,8 +144,9 @@ constexpr std::array table{
 /// Each member is bound by name: a new member that is not in the table does not compile. The terrain, the
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
-  const auto& [terrain, tick_rate_hz, pieces_max, props_max, memory_max_mb, merges_per_tick_max, work_percent,
-               air_drag_percent, methods, service, spawn, ground, rules, palette, material_numbers] = world;
+  const auto& [terrain, tick_rate_hz, pieces_max, props_max, joints_max, memory_max_mb, merges_per_tick_max,
+               work_percent, air_drag_percent, methods, service, spawn, ground, rules, palette,
+               material_numbers] = world;
   static_cast<void>(ground);  // names the terrain's
   static_cast<void>(rules);   // fixed from the start, as these three
   static_cast<void>(palette);
@@ -154,8 +157,9 @@ constexpr std::array table{
   constexpr size_t fixed = 3;
   const std::array config{static_cast<double>(terrain.voxel_size_m), static_cast<double>(tick_rate_hz),
                           static_cast<double>(pieces_max),           static_cast<double>(props_max),
-                          static_cast<double>(memory_max_mb),        static_cast<double>(merges_per_tick_max),
-                          static_cast<double>(work_percent),         static_cast<double>(air_drag_percent)};
+                          static_cast<double>(joints_max),           static_cast<double>(memory_max_mb),
+                          static_cast<double>(merges_per_tick_max),  static_cast<double>(work_percent),
+                          static_cast<double>(air_drag_percent)};
   const std::array choices{
       static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
       static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),

@@ -18,16 +18,29 @@ uint64_t state_hash(const HashedState& state) {
                                          static_cast<uint64_t>(ledger.dust),
                                          static_cast<uint64_t>(ledger.poured),
                                          static_cast<uint64_t>(ledger.moved)};
-  const uint64_t hash = XXH3_64bits(words.data(), sizeof(words));
-  return state.props == 0 ? hash : XXH3_64bits_withSeed(&state.props, sizeof state.props, hash);
+  uint64_t hash = XXH3_64bits(words.data(), sizeof(words));
+  for (const uint64_t sum : {state.props, state.joints})
+    if (sum != 0) hash = XXH3_64bits_withSeed(&sum, sizeof sum, hash);
+  return hash;
 }
 
-uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner) {
+namespace {
+
+/// Puts the bytes of values one after the other.
+struct Putting {
   std::vector<uint8_t> bytes;
-  const auto put = [&](const auto& value) {
+
+  template <typename T>
+  void operator()(const T& value) {
     const auto* const first = reinterpret_cast<const uint8_t*>(&value);
     bytes.insert(bytes.end(), first, first + sizeof value);
-  };
+  }
+};
+
+}  // namespace
+
+uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner) {
+  Putting put;
   put(id);
   put(owner);
   for (const PropPart& part : prop.parts) {
@@ -44,8 +57,27 @@ uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner) {
   put(prop.material);
   put(prop.tag);
   if (prop.model) put(*prop.model);
-  bytes.insert(bytes.end(), prop.data.begin(), prop.data.end());
-  return XXH3_64bits(bytes.data(), bytes.size());
+  put.bytes.insert(put.bytes.end(), prop.data.begin(), prop.data.end());
+  return XXH3_64bits(put.bytes.data(), put.bytes.size());
+}
+
+uint64_t hash_of(JointId id, const Joint& joint, uint64_t owner) {
+  Putting put;
+  put(id);
+  put(owner);
+  put(joint.kind);
+  for (const JointSide* side : {&joint.a, &joint.b}) {
+    put(side->body);
+    put(side->place_m);
+    for (const float number : {side->turn.w, side->turn.x, side->turn.y, side->turn.z}) put(number);
+  }
+  if (joint.limits)
+    for (const float number : {joint.limits->low, joint.limits->high}) put(number);
+  for (const float number :
+       {joint.motor.speed, joint.motor.greatest, joint.length_m, joint.break_force_n, joint.break_torque_nm})
+    put(number);
+  put(joint.touches);
+  return XXH3_64bits(put.bytes.data(), put.bytes.size());
 }
 
 }  // namespace scree

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "server/world/tick_delta.h"
+#include "shared/prop/joint.h"
 
 namespace scree {
 
@@ -15,11 +16,15 @@ struct HashedState {
   uint64_t bodies = 0;  ///< Bodies::state_hash()
   PieceId next_piece = 0;
   Ledger ledger;
-  uint64_t props = 0;  ///< sum of hash_of() of the props; 0: there are none
+  uint64_t props = 0;   ///< sum of hash_of() of the props; 0: there are none
+  uint64_t joints = 0;  ///< the same of the joints
 };
 
 /// Of what a prop is, and whose. Its motion is the bodies'.
 uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner);
+
+/// The same of a joint.
+uint64_t hash_of(JointId id, const Joint& joint, uint64_t owner);
 
 uint64_t state_hash(const HashedState& state);
 

@@ -18,6 +18,7 @@
 #include "shared/base/spawn.h"
 #include "shared/operation/ledger.h"
 #include "shared/operation/operation.h"
+#include "shared/prop/joint.h"
 
 namespace scree {
 
@@ -58,6 +59,11 @@ struct SpawnedProp {
   std::shared_ptr<const Prop> prop;
 };
 
+struct AddedJoint {
+  JointId id = 0;
+  std::shared_ptr<const Joint> joint;
+};
+
 struct TickDelta {
   Tick tick = 0;
   std::vector<AppliedOperation> operations;  ///< in the order in which they were applied
@@ -71,6 +77,8 @@ struct TickDelta {
   std::vector<SpawnedProp> props_spawned;  ///< props added in this tick, ordered; some may be gone again
   std::vector<PieceState> props;           ///< every prop there is after the tick, ordered by id
   std::vector<ContactEvent> contacts;  ///< blows of props, the hardest first; never in a recording
+  std::vector<AddedJoint> joints_added;    ///< in this tick, and whose motor changed; ordered, once each
+  std::vector<EndedJoint> joints_removed;  ///< ordered; some may be among those that were added
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
   uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay
@@ -87,5 +95,8 @@ struct TickDelta {
   uint64_t field_hash = 0;                        ///< Field::hash()
   uint64_t state_hash = 0;                        ///< of the field, the ledger and every body's exact state
 };
+
+/// Puts the joints of a delta in order, the last state of each.
+void sort_joints(TickDelta& delta);
 
 }  // namespace scree

@@ -5,6 +5,7 @@
 #include "server/world/buried_stage.h"
 #include "server/world/impact_stage.h"
 #include "server/world/island_stage.h"
+#include "server/world/joint_requests.h"
 #include "server/world/merge_stage.h"
 #include "server/world/prop_contacts.h"
 #include "server/world/refracture_stage.h"
@@ -47,7 +48,8 @@ bool is_ordered(const TickDelta& delta) {
   };
   return ascend(delta.bricks, &BrickState::coord) && ascend(delta.pieces, &PieceState::id) &&
          ascend(delta.spawned, &SpawnedPiece::id) && ascend(delta.props, &PieceState::id) &&
-         ascend(delta.props_spawned, &SpawnedProp::id);
+         ascend(delta.props_spawned, &SpawnedProp::id) && ascend(delta.joints_added, &AddedJoint::id) &&
+         ascend(delta.joints_removed, &EndedJoint::id);
 }
 
 /// Enters the bodies' hulls and contacts, and the searches for islands, for display.
@@ -60,6 +62,7 @@ void describe_physics(World::State& state, TickDelta& delta) {
 }
 
 void publish(World::State& state, TickDelta& delta) {
+  end_joints(state, delta);
   for (const BrickCoord coord : state.changed) delta.bricks.push_back(state.brick_state(coord));
   if (state.field.pages()) {
     std::set<ChunkCoord> chunks;

@@ -45,9 +45,9 @@ TerrainSource without_rubble(TerrainSource source) {
 
 bool WorldConfig::operator==(const WorldConfig& other) const {
   const auto tied = [](const WorldConfig& c) {
-    return std::tie(c.tick_rate_hz, c.pieces_max, c.props_max, c.memory_max_mb, c.merges_per_tick_max,
-                    c.work_percent, c.air_drag_percent, c.methods, c.service, c.spawn, c.ground, c.rules,
-                    *c.palette, c.material_numbers);
+    return std::tie(c.tick_rate_hz, c.pieces_max, c.props_max, c.joints_max, c.memory_max_mb,
+                    c.merges_per_tick_max, c.work_percent, c.air_drag_percent, c.methods, c.service, c.spawn,
+                    c.ground, c.rules, *c.palette, c.material_numbers);
   };
   return tied(*this) == tied(other) && without_rubble(terrain) == without_rubble(other.terrain);
 }
@@ -81,6 +81,12 @@ Result<void> validate(const WorldConfig& config) {
        .name = "props_max",
        .limits = "limits.props_max_max",
        .option = "--props-max"},
+      {.value = static_cast<double>(config.joints_max),
+       .min = 0.0,
+       .max = limits::joints_max_max,
+       .name = "joints_max",
+       .limits = "limits.joints_max_max",
+       .option = "--joints-max"},
       {.value = static_cast<double>(config.memory_max_mb),
        .min = limits::memory_max_min_mb,
        .max = limits::memory_max_max_mb,

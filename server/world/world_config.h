@@ -24,6 +24,7 @@ struct WorldConfig {
   uint32_t tick_rate_hz = 60;
   uint32_t pieces_max = 2000;  ///< alive at once; carves beyond are refused
   uint32_t props_max = 1000;   ///< there at once; more are refused
+  uint32_t joints_max = 1000;  ///< likewise
   uint32_t memory_max_mb =
       4096;  ///< of the terrain and the program; the server keeps to it (server/app/terrain_pager.h)
   /// At once; the tick's budget allows fewer. 0: nothing merges, and nothing freezes either.

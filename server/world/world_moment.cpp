@@ -40,6 +40,7 @@ WorldMoment World::moment() const {
   for (const auto& [id, volume] : s.pieces)
     m.pieces.push_back({id, s.traits.at(id), volume, s.bodies.shape(id)});
   for (const auto& [id, one] : s.props) m.props.push_back({id, one.owner, one.prop});
+  for (const auto& [id, one] : s.joints) m.joints.push_back({id, one.owner, one.joint});
   m.motion = s.bodies.motions();
   m.rest = s.rest.value();
   m.requests = s.requests.value();
@@ -76,6 +77,7 @@ uint64_t first_free_session(const WorldMoment& moment) {
   uint64_t last = 0;
   for (const PieceRecord& piece : moment.pieces) last = std::max(last, piece.traits.owner);
   for (const PropRecord& prop : moment.props) last = std::max(last, prop.owner);
+  for (const JointRecord& joint : moment.joints) last = std::max(last, joint.owner);
   for (const PartyValue& party : moment.requests.parties) {
     last = std::max(last, party.party);
     for (const SessionValue& session : party.sessions) last = std::max(last, session.session);

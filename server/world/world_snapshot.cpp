@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "server/world/joint_requests.h"
 #include "server/world/limits.h"
 #include "server/world/recorded_values.h"
 #include "server/world/refracture_stage.h"
@@ -164,7 +165,8 @@ class Restoring {
     }
     for (const VoxelBox& box : m_.motion.changes)
       if (!is_sane(box)) return fail("terrain changed outside the world");
-    return s_.bodies.restore(shapes, m_.motion);
+    const std::vector<KnownJoint> joints = TRY(restore_joints(s_, m_.joints));
+    return s_.bodies.restore(shapes, m_.motion, joints);
   }
 
   /// Worlds of older programs have none, and who measures anew knows the whole alone.
@@ -336,6 +338,7 @@ Result<std::unique_ptr<World>> World::salvaged(WorldSnapshot value, const PagedT
   moment.pieces = std::move(pieces);
   moment.props = std::move(props);
   moment.motion.bodies = std::move(bodies);
+  drop_joints_without(moment.motion.bodies, moment.joints);
   auto state = TRY(state_of(value, 1, ground, terrain, true));
   return std::unique_ptr<World>(new World(Made{}, std::move(state)));
 }
@@ -368,35 +371,6 @@ ReadChunk reader_of(World& world) {
       return fail(unreadable.what());
     }
   };
-}
-
-TickDelta World::keyframe() {
-  State& s = *state_;
-  TickDelta delta = outline();
-  if (!s.field.pages()) delta.chunks.clear();
-  for (const ChunkCoord chunk : s.field.edited_chunks()) {
-    if (s.field.is_out(chunk)) continue;
-    for (const BrickCoord coord : s.field.edited_bricks(chunk)) delta.bricks.push_back(s.brick_state(coord));
-  }
-  std::ranges::sort(delta.bricks, {}, &BrickState::coord);
-  return delta;
-}
-
-TickDelta World::outline() {
-  State& s = *state_;
-  TickDelta delta;
-  delta.tick = s.tick;
-  for (const ChunkCoord chunk : s.field.edited_chunks()) delta.chunks.push_back(s.chunk_state(chunk));
-  for (const auto& [id, volume] : s.pieces) delta.spawned.push_back({id, volume});
-  for (const auto& [id, one] : s.props) delta.props_spawned.push_back({id, one.prop});
-  publish_poses(s, delta);
-  delta.ledger = s.ledger;
-  delta.materials = s.materials;
-  publish_settings(s, delta);
-  delta.spawn = s.spawn_place.find(s.field, s.config.spawn);
-  delta.field_hash = s.field.hash();
-  delta.state_hash = s.hash();
-  return delta;
 }
 
 }  // namespace scree

@@ -170,7 +170,10 @@ MassUnits World::State::mass_of_pieces() const {
 uint64_t World::State::hash() const {
   uint64_t sum_of_props = 0;
   for (const auto& [id, one] : props) sum_of_props += one.hash;
-  return state_hash({tick, field.hash(), bodies.state_hash(), next_piece, ledger, sum_of_props});
+  uint64_t sum_of_joints = 0;
+  for (const auto& [id, one] : joints) sum_of_joints += one.hash;
+  return state_hash(
+      {tick, field.hash(), bodies.state_hash(), next_piece, ledger, sum_of_props, sum_of_joints});
 }
 
 BodyShape World::State::enter_prop(PieceId id, std::shared_ptr<const Prop> prop, uint64_t owner) {
@@ -223,9 +226,11 @@ void World::State::check() const {
   CHECK(ledger.error() == 0);
   CHECK(ledger.pieces >= 0 && ledger.dust >= 0 && ledger.poured >= 0 && ledger.moved >= 0);
   CHECK_EQ(bodies.size(), pieces.size() + props.size());
+  CHECK_EQ(bodies.joints(), joints.size());
   CHECK_EQ(traits.size(), pieces.size());
   CHECK(pieces.empty() || pieces.rbegin()->first < next_piece);
   CHECK(props.empty() || props.rbegin()->first < next_piece);
+  CHECK(joints.empty() || joints.rbegin()->first < next_piece);
   CHECK(requests.size() <= limits::requests_waiting_max);
   CHECK(materials.agrees(ledger));
   CHECK_DEBUG(ledger.pieces == mass_of_pieces());

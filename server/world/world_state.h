@@ -5,7 +5,8 @@
 // terrain consistent with it.
 //
 // Invariants between stages: a piece has a volume in `pieces`, a body, and traits, or none of them; a prop
-// has a body; ids below next_piece are used up; the ledger's sum is right.
+// has a body; a joint is one of the bodies', too; ids below next_piece are used up; the ledger's sum is
+// right.
 #pragma once
 
 #include <map>
@@ -62,6 +63,13 @@ struct WorldProp {
   uint64_t hash = 0;  ///< of the prop, its id and its owner (state_hash.h)
 };
 
+/// A joint, and the party that added it.
+struct WorldJoint {
+  std::shared_ptr<const Joint> joint;
+  uint64_t owner = 0;
+  uint64_t hash = 0;  ///< of the joint, its id and its owner (state_hash.h)
+};
+
 struct World::State {
   State(const WorldConfig& world_config, size_t threads);
 
@@ -98,9 +106,11 @@ struct World::State {
   std::shared_ptr<const Palette> palette;  ///< as it stands; never null
   VdbField field;
   PieceTable pieces;
-  std::map<PieceId, WorldProp> props;     ///< ids are from the same numbers as pieces'
-  Bodies bodies;                          ///< one for each of `pieces` and of `props`
-  std::map<PieceId, PieceTraits> traits;  ///< one for each of `pieces`
+  std::map<PieceId, WorldProp> props;    ///< ids are from the same numbers as pieces'
+  std::map<JointId, WorldJoint> joints;  ///< ids likewise; within a tick some may have ended in `bodies`
+  std::map<BrickCoord, std::set<JointId>> anchors;  ///< joints by the brick of the rock that they hold
+  Bodies bodies;                                    ///< one for each of `pieces` and of `props`
+  std::map<PieceId, PieceTraits> traits;            ///< one for each of `pieces`
   RestDetector rest;
   Ledger ledger;
   MaterialLedger materials;  ///< the ledger by material

@@ -15,6 +15,7 @@
 #include "shared/fracture/seed_pattern.h"
 #include "shared/material/material.h"
 #include "shared/operation/blast.h"
+#include "shared/prop/joint.h"
 #include "shared/prop/prop.h"
 
 namespace scree {
@@ -104,6 +105,27 @@ struct BlastRequest {
   bool operator==(const BlastRequest&) const = default;
 };
 
+/// Joins two bodies, or one to the terrain; the reply has the joint's id.
+struct AddJointRequest {
+  Joint joint;
+
+  bool operator==(const AddJointRequest&) const = default;
+};
+
+struct RemoveJointRequest {
+  JointId joint = 0;
+
+  bool operator==(const RemoveJointRequest&) const = default;
+};
+
+/// Changes the motor of a joint that has an axis.
+struct SetMotorRequest {
+  JointId joint = 0;
+  JointMotor motor;
+
+  bool operator==(const SetMotorRequest&) const = default;
+};
+
 /// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
 struct SettingsRequest {
   SettingValues settings;
@@ -117,9 +139,9 @@ struct LeaveRequest {
   bool operator==(const LeaveRequest&) const = default;
 };
 
-using Request =
-    std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest, AddPropRequest,
-                 RemovePropRequest, MovePropRequest, PushRequest, BreakRequest, BlastRequest>;
+using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest,
+                             AddPropRequest, RemovePropRequest, MovePropRequest, PushRequest, BreakRequest,
+                             BlastRequest, AddJointRequest, RemoveJointRequest, SetMotorRequest>;
 
 /// The shape of a request that edits terrain, or in which it does; nothing: it edits none.
 inline std::optional<Shape> shape_of(const Request& request) {
@@ -132,6 +154,15 @@ inline std::optional<Shape> shape_of(const Request& request) {
                                },
                                [](const auto&) -> Found { return std::nullopt; }},
                     request);
+}
+
+/// The place in the terrain that a request joins a body to; null: it does not.
+inline const glm::vec3* anchor_of(const Request& request) {
+  const auto* const add = std::get_if<AddJointRequest>(&request);
+  if (add == nullptr) return nullptr;
+  for (const JointSide* side : {&add->joint.a, &add->joint.b})
+    if (side->holds_terrain()) return &side->place_m;
+  return nullptr;
 }
 
 /// The place in the world at which a request acts on a body by reach; null: it does not.

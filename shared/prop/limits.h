@@ -1,4 +1,4 @@
-// Bounds of props. Each says its unit, its reason, and what happens at the bound.
+// Bounds of props and joints. Each says its unit, its reason, and what happens at the bound.
 #pragma once
 
 #include <cstddef>
@@ -26,5 +26,25 @@ inline constexpr float prop_gravity_max = 4.0F;
 
 /// Bytes that a game may give a prop. Above: refused.
 inline constexpr size_t prop_data_bytes_max = 256;
+
+/// Place of a joint from the origin of its body, metres: of the largest island. Beyond: refused.
+inline constexpr float joint_place_max_m = 64.0F;
+
+/// Bounds of a hinge's angle, radians, short of half a turn, where an angle has no sign; and of a slider's
+/// way, metres. Beyond: refused.
+inline constexpr float joint_angle_max_rad = 3.0F;
+inline constexpr float joint_way_max_m = 256.0F;
+
+/// Length of a distance or a rope, metres. A shorter one is a ball joint. Beyond: refused.
+inline constexpr float joint_length_min_m = 0.01F;
+inline constexpr float joint_length_max_m = 256.0F;
+
+/// Speed of a motor: of a prop's spin, and of a fast lift. Beyond: refused.
+inline constexpr float joint_spin_max_rad_s = 120.0F;
+inline constexpr float joint_speed_max_m_s = 100.0F;
+
+/// Force or torque of a motor, and those at which a joint breaks, newtons and newton metres: the weight of a
+/// thousand of the heaviest props. Above: refused.
+inline constexpr float joint_force_max = 1e11F;
 
 }  // namespace scree::limits

@@ -156,6 +156,7 @@ class TrustingClient {
   void apply(const TileMessage& message) { tiles.push_back(message); }
   void apply(const ContentMessage&) {}
   void apply(const PaletteChangedMessage&) {}
+  void apply(const JointsMessage&) {}
   void apply(const ReplyMessage& message) { replies.push_back(message); }
   void apply(const StatusMessage& message) { statuses.push_back(message); }
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }

@@ -1,0 +1,257 @@
+#include "server/bodies/joint_rows.h"
+
+#include <algorithm>
+
+#include "server/bodies/limits.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+constexpr float no_bound = 1e30F;
+constexpr float half_turn = 3.14159265F;
+
+float magnitude(float value) {
+  return value < 0.0F ? -value : value;
+}
+
+/// The speed that undoes a part of what is off, but no faster than a bound.
+float undoing(float off, float most, float step_s) {
+  return std::clamp(-limits::joint_undone_a_step * off / step_s, -most, most);
+}
+
+/// The turn, as a vector, that takes one axis to another one: its sine's length, at most 1.
+btVector3 turn_between(const btVector3& from, const btVector3& to, const btVector3& aside) {
+  const btVector3 turn = from.cross(to);
+  if (from.dot(to) >= 0.0F) return turn;
+  const float length2 = turn.length2();
+  return length2 > 1e-12F ? turn / btSqrt(length2) : aside;
+}
+
+/// The turn, as a vector, that takes axes to other ones: twice the sine of half of its angle.
+btVector3 turn_between(const btMatrix3x3& from, const btMatrix3x3& to) {
+  const btMatrix3x3 between = to * from.transpose();
+  btQuaternion turn;
+  between.getRotation(turn);
+  const float twice = turn.w() < 0.0F ? -2.0F : 2.0F;
+  return btVector3(turn.x(), turn.y(), turn.z()) * twice;
+}
+
+const btVector3 nothing(0.0F, 0.0F, 0.0F);
+
+}  // namespace
+
+/// A minimax polynomial of the arcus tangens (Hastings, Approximations for Digital Computers, 1955).
+float angle_of(float cosine, float sine) {
+  const float c = magnitude(cosine), s = magnitude(sine);
+  const float ratio = std::min(c, s) / std::max({c, s, 1e-30F}), r2 = ratio * ratio;
+  float angle =
+      ratio *
+      (0.99997726F + r2 * (-0.33262347F +
+                           r2 * (0.19354346F + r2 * (-0.11643287F + r2 * (0.05265332F - r2 * 0.01172120F)))));
+  if (s > c) angle = 0.5F * half_turn - angle;
+  if (cosine < 0.0F) angle = half_turn - angle;
+  return sine < 0.0F ? -angle : angle;
+}
+
+/// Where the sides are in the world.
+struct JointRows::Places {
+  btVector3 arm_a, arm_b;  ///< from the bodies' centres of mass to their places
+  btVector3 off;           ///< from a's place to b's
+  btMatrix3x3 axes_a, axes_b;
+
+  btVector3 axis_a(int i) const { return axes_a.getColumn(i); }
+  btVector3 axis_b(int i) const { return axes_b.getColumn(i); }
+};
+
+void JointRows::replace(PieceId body, btRigidBody* now) {
+  CHECK(body != 0 && (body == joint_.a.body || body == joint_.b.body));
+  frames_[body == joint_.a.body ? 0 : 1].body = now;
+}
+
+void JointRows::weigh(HoldingRow& row) const {
+  row.gain_a = a_.inverse_inertia * row.turn_a;
+  row.gain_b = b_.inverse_inertia * row.turn_b;
+  const float ease = (a_.inverse_mass + b_.inverse_mass) * row.along.length2() + row.turn_a.dot(row.gain_a) +
+                     row.turn_b.dot(row.gain_b);
+  row.mass = ease > 0.0F ? 1.0F / ease : 0.0F;
+}
+
+HoldingRow& JointRows::add(const btVector3& along, const btVector3& turn_a, const btVector3& turn_b) {
+  CHECK_DEBUG(count_ < rows_max);
+  HoldingRow& row = rows_[count_++];
+  row = {along, turn_a, turn_b};
+  row.low = -no_bound;
+  row.high = no_bound;
+  weigh(row);
+  return row;
+}
+
+/// Three rows along the world's axes.
+void JointRows::add_point(const Places& at) {
+  for (int i = 0; i < 3; ++i) {
+    btVector3 along(0.0F, 0.0F, 0.0F);
+    along[i] = 1.0F;
+    add(along, at.arm_a.cross(along), at.arm_b.cross(along)).wanted =
+        undoing(at.off[i], limits::joint_undo_m_s, step_s_);
+  }
+}
+
+/// No turn about y and z of a's axes, nor, for a fixed joint and a slider, about x.
+void JointRows::add_turns(const Places& at, bool with_axis) {
+  const btVector3 off =
+      with_axis ? turn_between(at.axes_a, at.axes_b) : turn_between(at.axis_a(0), at.axis_b(0), at.axis_a(1));
+  for (int i = with_axis ? 0 : 1; i < 3; ++i) {
+    const btVector3 about = at.axis_a(i);
+    add(nothing, about, about).wanted = undoing(about.dot(off), limits::joint_undo_rad_s, step_s_);
+  }
+}
+
+/// No way along y and z of a's axes.
+void JointRows::add_slide(const Places& at) {
+  const btVector3 arm_a = at.arm_a + at.off;
+  for (int i = 1; i < 3; ++i) {
+    const btVector3 along = at.axis_a(i);
+    add(along, arm_a.cross(along), at.arm_b.cross(along)).wanted =
+        undoing(along.dot(at.off), limits::joint_undo_m_s, step_s_);
+  }
+}
+
+void JointRows::add_line(const Places& at) {
+  const float length = at.off.length();
+  const btVector3 along = length > 1e-6F ? at.off / length : at.axis_a(0);
+  HoldingRow& row = add(along, at.arm_a.cross(along), at.arm_b.cross(along));
+  const float longer_m = length - joint_.length_m;
+  row.wanted = undoing(longer_m, limits::joint_undo_m_s, step_s_);
+  if (joint_.kind != JointKind::rope) return;
+  row.high = 0.0F;                                        // a rope pulls, and does not push
+  if (longer_m < 0.0F) row.wanted = -longer_m / step_s_;  // it gets taut within the step, or not
+}
+
+/// The motor, and then the limits, so that these prevail. `value`: the angle, or the way.
+void JointRows::add_axis(const Places& at, float value) {
+  const bool slides = joint_.kind == JointKind::slider;
+  const btVector3 x = at.axis_a(0);
+  const btVector3 along = slides ? x : nothing;
+  const btVector3 turn_a = slides ? (at.arm_a + at.off).cross(x) : x, turn_b = slides ? at.arm_b.cross(x) : x;
+  motor_ = count_;
+  HoldingRow& motor = add(along, turn_a, turn_b);
+  motor.wanted = joint_.motor.speed;
+  motor.high = joint_.motor.greatest * step_s_;
+  motor.low = -motor.high;
+  HoldingRow& lower = add(along, turn_a, turn_b);
+  HoldingRow& upper = add(along, turn_a, turn_b);
+  lower.low = lower.high = upper.low = upper.high = 0.0F;
+  if (!joint_.limits) return;
+  const float undo = slides ? limits::joint_undo_m_s : limits::joint_undo_rad_s;
+  const float above = value - joint_.limits->low, below = joint_.limits->high - value;
+  lower.high = no_bound;
+  lower.wanted = above > 0.0F ? -above / step_s_ : undoing(above, undo, step_s_);
+  upper.low = -no_bound;
+  upper.wanted = below > 0.0F ? below / step_s_ : -undoing(below, undo, step_s_);
+}
+
+void JointRows::prepare(const SolvedBody& a, const SolvedBody& b, float step_s) {
+  a_ = a;
+  b_ = b;
+  step_s_ = step_s;
+  count_ = 0;
+  motor_ = rows_max;
+  Places at;
+  std::array<btVector3, 2> places;
+  for (size_t i = 0; i < 2; ++i) {
+    const HeldFrame& frame = frames_[i];
+    btVector3& arm = i == 0 ? at.arm_a : at.arm_b;
+    btMatrix3x3& axes = i == 0 ? at.axes_a : at.axes_b;
+    arm = nothing;
+    places[i] = frame.place;
+    axes = frame.axes;
+    if (frame.body == nullptr) continue;
+    const btTransform& pose = frame.body->getWorldTransform();
+    arm = pose.getBasis() * frame.place;
+    places[i] = pose.getOrigin() + arm;
+    axes = pose.getBasis() * frame.axes;
+  }
+  at.off = places[1] - places[0];
+  switch (joint_.kind) {
+    case JointKind::fixed:
+      add_turns(at, true);
+      return add_point(at);
+    case JointKind::hinge:
+      add_axis(at, angle_of(at.axis_b(1).dot(at.axis_a(1)), at.axis_b(1).dot(at.axis_a(2))));
+      add_turns(at, false);
+      return add_point(at);
+    case JointKind::slider:
+      add_axis(at, at.off.dot(at.axis_a(0)));
+      add_turns(at, true);
+      return add_slide(at);
+    case JointKind::ball:
+      return add_point(at);
+    case JointKind::distance:
+    case JointKind::rope:
+      return add_line(at);
+  }
+}
+
+float JointRows::speed_of(const HoldingRow& row) const {
+  return row.along.dot(b_.speed_now() - a_.speed_now()) + row.turn_b.dot(b_.spin_now()) -
+         row.turn_a.dot(a_.spin_now());
+}
+
+void JointRows::give(const HoldingRow& row, float impulse) {
+  if (a_.solver != nullptr) {
+    a_.solver->m_deltaLinearVelocity -= row.along * (impulse * a_.inverse_mass);
+    a_.solver->m_deltaAngularVelocity -= row.gain_a * impulse;
+  }
+  if (b_.solver != nullptr) {
+    b_.solver->m_deltaLinearVelocity += row.along * (impulse * b_.inverse_mass);
+    b_.solver->m_deltaAngularVelocity += row.gain_b * impulse;
+  }
+}
+
+void JointRows::start() {
+  for (size_t i = 0; i < count_; ++i) {
+    impulses_[i] = rows_[i].mass > 0.0F ? std::clamp(impulses_[i], rows_[i].low, rows_[i].high) : 0.0F;
+    give(rows_[i], impulses_[i]);
+  }
+}
+
+void JointRows::solve() {
+  for (size_t i = 0; i < count_; ++i) {
+    const HoldingRow& row = rows_[i];
+    if (row.low == row.high) continue;
+    const float before = impulses_[i];
+    impulses_[i] = std::clamp(before + (row.wanted - speed_of(row)) * row.mass, row.low, row.high);
+    give(row, impulses_[i] - before);
+  }
+}
+
+void JointRows::finish(float step_s) {
+  btVector3 force = nothing, torque = nothing;
+  for (size_t i = 0; i < count_; ++i) {
+    if (i == motor_) continue;
+    const HoldingRow& row = rows_[i];
+    if (row.along.isZero())
+      torque += row.turn_b * impulses_[i];
+    else
+      force += row.along * impulses_[i];
+  }
+  force_n_ = force.length() / step_s;
+  torque_nm_ = torque.length() / step_s;
+  is_driven_ = false;
+  if (motor_ < count_ && joint_.motor.greatest > 0.0F && joint_.motor.speed != 0.0F) {
+    const float share = speed_of(rows_[motor_]) / joint_.motor.speed;
+    is_driven_ = share > limits::joint_driven_share;
+  }
+  for (float& impulse : impulses_)
+    if (!(magnitude(impulse) < no_bound)) impulse = 0.0F;
+  a_.solver = b_.solver = nullptr;
+}
+
+bool JointRows::breaks() const {
+  return (joint_.break_force_n > 0.0F && force_n_ > joint_.break_force_n) ||
+         (joint_.break_torque_nm > 0.0F && torque_nm_ > joint_.break_torque_nm);
+}
+
+}  // namespace scree

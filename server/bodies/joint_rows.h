@@ -1,0 +1,111 @@
+// Joints in the solver: each as a few rows, which are solved by sequential impulses (Catto, Iterative
+// Dynamics with Temporal Coherence, 2005). Each step begins with the impulses of the last one, so that chains
+// and heavy loads hang still by few iterations. Private to this folder.
+//
+// Bullet's own joints are not used. They begin each step with no impulse, and they find their angles by atan2
+// and acos of the math library, whose last bits differ between systems. These rows use + − × ÷ and sqrt; the
+// angle is by a polynomial.
+//
+// prepare(), start(), solve() and finish() change the joint and its two bodies in the solver alone: threads
+// may solve joints of different groups at once.
+#pragma once
+
+#include <BulletDynamics/ConstraintSolver/btSolverBody.h>
+#include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <array>
+
+#include "shared/prop/joint.h"
+
+namespace scree {
+
+/// A joint's place and axes in the axes of a body of Bullet, or in the world's.
+struct HeldFrame {
+  btRigidBody* body = nullptr;  ///< null: the terrain
+  btVector3 place{0.0F, 0.0F, 0.0F};
+  btMatrix3x3 axes;  ///< x, y and z as columns
+};
+
+/// A body while it is solved.
+struct SolvedBody {
+  btSolverBody* solver = nullptr;                             ///< null: impulses do not move it
+  btVector3 speed{0.0F, 0.0F, 0.0F}, spin{0.0F, 0.0F, 0.0F};  ///< without what the solver adds
+  float inverse_mass = 0.0F;
+  btMatrix3x3 inverse_inertia = btMatrix3x3(0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F);
+
+  btVector3 speed_now() const { return solver == nullptr ? speed : speed + solver->m_deltaLinearVelocity; }
+  btVector3 spin_now() const { return solver == nullptr ? spin : spin + solver->m_deltaAngularVelocity; }
+};
+
+/// A row brings a speed of side b against side a to a wanted one, by an impulse within bounds.
+struct HoldingRow {
+  btVector3 along{0.0F, 0.0F, 0.0F};  ///< unit, or 0: the row is of spins alone
+  btVector3 turn_a{0.0F, 0.0F, 0.0F}, turn_b{0.0F, 0.0F, 0.0F};
+  btVector3 gain_a{0.0F, 0.0F, 0.0F}, gain_b{0.0F, 0.0F, 0.0F};  ///< spin by an impulse of 1
+  float mass = 0.0F;  ///< impulse that changes the speed by 1; 0: nothing does
+  float wanted = 0.0F, low = 0.0F, high = 0.0F;
+};
+
+class JointRows {
+ public:
+  JointRows(JointId id, const Joint& joint, const HeldFrame& a, const HeldFrame& b)
+      : id_(id), joint_(joint), frames_{a, b} {}
+
+  JointId id() const { return id_; }
+  const Joint& joint() const { return joint_; }
+  void set_motor(const JointMotor& motor) { joint_.motor = motor; }
+  /// Null: the terrain.
+  btRigidBody* body_a() const { return frames_[0].body; }
+  btRigidBody* body_b() const { return frames_[1].body; }
+  /// One of its bodies has another object in Bullet, of the same shape.
+  void replace(PieceId body, btRigidBody* now);
+
+  /// Finds the rows of a step of the simulation, for bodies as they stand.
+  void prepare(const SolvedBody& a, const SolvedBody& b, float step_s);
+  /// Gives the bodies the impulses of the last step.
+  void start();
+  /// Moves each row's impulse by what brings its speed to the wanted one, as far as its bounds allow.
+  void solve();
+  /// Measures force and torque. The bodies in the solver are not used from here on.
+  void finish(float step_s);
+
+  /// Of the last step that solved it, without the motor's.
+  float force_n() const { return force_n_; }
+  float torque_nm() const { return torque_nm_; }
+  /// Whether these break it.
+  bool breaks() const;
+  /// Whether its motor moved it in the last step.
+  bool is_driven() const { return is_driven_; }
+
+ private:
+  struct Places;
+  void add_point(const Places& at);
+  void add_turns(const Places& at, bool with_axis);
+  void add_slide(const Places& at);
+  void add_line(const Places& at);
+  void add_axis(const Places& at, float value);
+  HoldingRow& add(const btVector3& along, const btVector3& turn_a, const btVector3& turn_b);
+  void weigh(HoldingRow& row) const;
+  float speed_of(const HoldingRow& row) const;
+  void give(const HoldingRow& row, float impulse);
+
+  JointId id_;
+  Joint joint_;
+  std::array<HeldFrame, 2> frames_;
+  float force_n_ = 0.0F, torque_nm_ = 0.0F;
+  bool is_driven_ = false;
+
+  static constexpr size_t rows_max = 8;     ///< a hinge with limits and a motor: 3 + 2 + 2 + 1
+  std::array<float, rows_max> impulses_{};  ///< of each row, kept from step to step: the rows of a kind are
+                                            ///< always the same ones
+  // Of a step:
+  SolvedBody a_, b_;
+  std::array<HoldingRow, rows_max> rows_;
+  size_t count_ = 0;
+  size_t motor_ = rows_max;  ///< the motor's row; rows_max: there is none
+  float step_s_ = 0.0F;
+};
+
+/// Angle of a direction (cosine, sine), radians, from −π to π; of any length but 0. Within 1e-5.
+float angle_of(float cosine, float sine);
+
+}  // namespace scree

@@ -1,0 +1,187 @@
+#include "server/world/joint_requests.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "server/world/limits.h"
+#include "server/world/state_hash.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+/// Null: the joint holds no terrain.
+const JointSide* side_in_terrain(const Joint& joint) {
+  if (joint.a.holds_terrain()) return &joint.a;
+  return joint.b.holds_terrain() ? &joint.b : nullptr;
+}
+
+VoxelCoord anchor_voxel(const World::State& state, glm::vec3 place_m) {
+  const glm::vec3 at = place_m / state.config.terrain.voxel_size_m + 0.5F;
+  return {floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
+}
+
+/// By the nearest voxel, so that one brick decides.
+bool lies_in_rock(const World::State& state, glm::vec3 place_m) {
+  const VoxelCoord voxel = anchor_voxel(state, place_m);
+  const VoxelCoord first = first_voxel(brick_of(voxel));
+  const int index = Brick::index(voxel.x - first.x, voxel.y - first.y, voxel.z - first.z);
+  return state.field.brick(brick_of(voxel)).codes[static_cast<size_t>(index)] < 0;
+}
+
+CheckedRequest check_side(const World::State& state, const JointSide& side) {
+  if (side.holds_terrain()) {
+    if (lies_in_rock(state, side.place_m)) return {};
+    return refuse(Refusal::joint_invalid, "the joint's place in the terrain is no rock");
+  }
+  if (state.bodies.contains(side.body)) return {};
+  return refuse(Refusal::body_missing,
+                "there is no body " + std::to_string(side.body) + ": it may have become terrain");
+}
+
+bool can_be_moved(const World::State& state, const JointSide& side) {
+  if (side.holds_terrain()) return false;
+  const auto prop = state.props.find(side.body);
+  return prop == state.props.end() || prop->second.prop->motion == PropMotion::dynamic;
+}
+
+tl::unexpected<Refused> no_joint(JointId id) {
+  return refuse(Refusal::joint_missing,
+                "there is no joint " + std::to_string(id) + ": it may have broken, or lost a body");
+}
+
+void enter(World::State& state, JointId id, std::shared_ptr<const Joint> joint, uint64_t owner) {
+  if (const JointSide* const side = side_in_terrain(*joint))
+    state.anchors[brick_of(anchor_voxel(state, side->place_m))].insert(id);
+  const uint64_t hash = hash_of(id, *joint, owner);
+  const bool is_new = state.joints.try_emplace(id, WorldJoint{std::move(joint), owner, hash}).second;
+  CHECK(is_new);
+}
+
+void take_out(World::State& state, JointId id, JointEnd why, TickDelta& delta) {
+  const auto found = state.joints.find(id);
+  CHECK(found != state.joints.end());
+  if (const JointSide* const side = side_in_terrain(*found->second.joint)) {
+    const auto there = state.anchors.find(brick_of(anchor_voxel(state, side->place_m)));
+    CHECK(there != state.anchors.end());
+    there->second.erase(id);
+    if (there->second.empty()) state.anchors.erase(there);
+  }
+  state.joints.erase(found);
+  delta.joints_removed.push_back({id, why});
+}
+
+/// Only joints whose brick changed are looked at.
+void let_go(World::State& state, TickDelta& delta) {
+  if (state.anchors.empty()) return;
+  std::vector<JointId> loose;
+  for (const BrickCoord brick : state.changed) {
+    const auto there = state.anchors.find(brick);
+    if (there == state.anchors.end()) continue;
+    for (const JointId id : there->second)
+      if (!lies_in_rock(state, side_in_terrain(*state.joints.at(id).joint)->place_m)) loose.push_back(id);
+  }
+  for (const JointId id : loose) {
+    state.bodies.remove_joint(id);
+    take_out(state, id, JointEnd::let_go, delta);
+  }
+}
+
+}  // namespace
+
+CheckedRequest check(const World::State& state, const AddJointRequest& request) {
+  const Joint& joint = request.joint;
+  if (const Result<void> valid = validate(joint); !valid)
+    return refuse(Refusal::joint_invalid, valid.error().message);
+  TRY(check_side(state, joint.a));
+  TRY(check_side(state, joint.b));
+  if (!can_be_moved(state, joint.a) && !can_be_moved(state, joint.b))
+    return refuse(Refusal::joint_invalid, "neither side of the joint is a body that can be moved");
+  if (state.joints.size() < state.config.joints_max) return {};
+  return refuse(Refusal::joints_max, std::to_string(state.joints.size()) +
+                                         " joints are there, which is this server's limit (joints-max): "
+                                         "remove some, or have the limit raised (--joints-max)");
+}
+
+CheckedRequest check(const World::State& state, const RemoveJointRequest& request) {
+  if (!state.bodies.has_joint(request.joint)) return no_joint(request.joint);
+  return {};
+}
+
+CheckedRequest check(const World::State& state, const SetMotorRequest& request) {
+  if (!state.bodies.has_joint(request.joint)) return no_joint(request.joint);
+  const JointKind kind = state.joints.at(request.joint).joint->kind;
+  if (!traits_of(kind).has_axis)
+    return refuse(Refusal::joint_invalid,
+                  "a joint of kind " + std::string(name_of(kind)) + " has no axis for a motor");
+  if (const Result<void> valid = validate(request.motor, kind); !valid)
+    return refuse(Refusal::joint_invalid, valid.error().message);
+  return {};
+}
+
+uint32_t perform(World::State& state, const AddJointRequest& request, uint64_t party, TickDelta& delta) {
+  Joint joint = request.joint;
+  for (JointSide* side : {&joint.a, &joint.b})
+    side->turn = side->turn / std::sqrt(glm::dot(side->turn, side->turn));
+  const JointId id = state.next_piece++;
+  auto shared = std::make_shared<const Joint>(joint);
+  enter(state, id, shared, party);
+  state.bodies.add_joint(id, *shared);
+  delta.joints_added.push_back({id, std::move(shared)});
+  return id;
+}
+
+uint32_t perform(World::State& state, const RemoveJointRequest& request, uint64_t /*party*/,
+                 TickDelta& delta) {
+  state.bodies.remove_joint(request.joint);
+  take_out(state, request.joint, JointEnd::removed, delta);
+  return 0;
+}
+
+uint32_t perform(World::State& state, const SetMotorRequest& request, uint64_t /*party*/, TickDelta& delta) {
+  WorldJoint& known = state.joints.at(request.joint);
+  Joint joint = *known.joint;
+  joint.motor = request.motor;
+  known.joint = std::make_shared<const Joint>(joint);
+  known.hash = hash_of(request.joint, joint, known.owner);
+  state.bodies.set_motor(request.joint, request.motor);
+  delta.joints_added.push_back({request.joint, known.joint});
+  return 0;
+}
+
+void end_joints(World::State& state, TickDelta& delta) {
+  for (const auto& [id, why] : state.bodies.take_broken_joints()) take_out(state, id, why, delta);
+  let_go(state, delta);
+  sort_joints(delta);
+}
+
+Result<std::vector<KnownJoint>> restore_joints(World::State& state, const std::vector<JointRecord>& records) {
+  if (records.size() > limits::joints_max_max)
+    return fail("it has " + std::to_string(records.size()) + " joints; a world has at most " +
+                std::to_string(limits::joints_max_max) + " (limits.joints_max_max)");
+  std::vector<KnownJoint> known;
+  for (const auto& [id, owner, joint] : records) {
+    if (id == 0 || id >= state.next_piece || state.pieces.contains(id) || state.props.contains(id) ||
+        state.joints.contains(id))
+      return fail("joint " + std::to_string(id) + " is none yet, or has another's id");
+    if (const Result<void> valid = validate(*joint); !valid)
+      return fail("joint " + std::to_string(id) + ": " + valid.error().message);
+    enter(state, id, joint, owner);
+    known.push_back({id, *joint});
+  }
+  return known;
+}
+
+void drop_joints_without(const std::vector<BodyMotion>& bodies, std::vector<JointRecord>& records) {
+  const auto is_lost = [&](const JointSide& side) {
+    return !side.holds_terrain() && !std::ranges::binary_search(bodies, side.body, {}, &BodyMotion::id);
+  };
+  std::erase_if(records, [&](const JointRecord& record) {
+    return is_lost(record.joint->a) || is_lost(record.joint->b);
+  });
+}
+
+}  // namespace scree
