@@ -212,7 +212,8 @@ void JointRows::give(const HoldingRow& row, float impulse) {
 
 void JointRows::start() {
   for (size_t i = 0; i < count_; ++i) {
-    impulses_[i] = rows_[i].mass > 0.0F ? std::clamp(impulses_[i], rows_[i].low, rows_[i].high) : 0.0F;
+    const float before = limits::joint_warm_share * impulses_[i];
+    impulses_[i] = rows_[i].mass > 0.0F ? std::clamp(before, rows_[i].low, rows_[i].high) : 0.0F;
     give(rows_[i], impulses_[i]);
   }
 }
@@ -222,7 +223,8 @@ void JointRows::solve() {
     const HoldingRow& row = rows_[i];
     if (row.low == row.high) continue;
     const float before = impulses_[i];
-    impulses_[i] = std::clamp(before + (row.wanted - speed_of(row)) * row.mass, row.low, row.high);
+    const float change = limits::joint_relaxation * (row.wanted - speed_of(row)) * row.mass;
+    impulses_[i] = std::clamp(before + change, row.low, row.high);
     give(row, impulses_[i] - before);
   }
 }

@@ -107,9 +107,15 @@ inline constexpr int joint_iterations = 24;
 
 /// Share of what is off in a joint that a step undoes, and the greatest speeds at which it does: a joint that
 /// is added far from where its bodies are draws them together without a blow.
-inline constexpr float joint_undone_a_step = 0.2F;
+inline constexpr float joint_undone_a_step = 0.1F;
 inline constexpr float joint_undo_m_s = 4.0F;
 inline constexpr float joint_undo_rad_s = 4.0F;
+
+/// Share of its last impulses with which a joint begins a step, and by how much a row goes beyond what it
+/// wants (successive over-relaxation). Measured: a load of 100 kg on ten links of 5 kg hangs still, 1 cm low.
+/// By 1 and 1 it bounces at 0.7 m/s, and does not stop.
+inline constexpr float joint_warm_share = 0.95F;
+inline constexpr float joint_relaxation = 1.3F;
 
 /// Share of its speed at which a motor still moves its bodies, so that they stay awake: what it pushes
 /// against in vain may sleep.

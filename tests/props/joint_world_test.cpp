@@ -1,7 +1,6 @@
 // Joints as part of a world: requests and their refusals, terrain that lets go, snapshots, threads, messages.
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <glm/geometric.hpp>
 #include <limits>
 
