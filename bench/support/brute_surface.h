@@ -60,6 +60,8 @@ class BruteSurface {
   /// Distance of a segment of that axis to the surface, `most` at most.
   double distance(glm::dvec3 from, glm::dvec3 axis, double most) const {
     double best = most;
+    const bool is_long = glm::dot(axis, axis) > 0.0;
+    if (is_long) best = distance(from + axis * 0.5, glm::dvec3(0.0), most);
     for (const auto& [at, group] : groups_) {
       const glm::dvec3 lo = glm::min(from, from + axis) - best, hi = glm::max(from, from + axis) + best;
       if (!meets(lo, hi, group.lo, group.hi)) continue;

@@ -19,8 +19,8 @@ inline constexpr float query_radius_max_m = 8.0F;
 /// Length of a capsule's axis, metres.
 inline constexpr float query_axis_max_m = 16.0F;
 
-/// Volume that a cast of a sphere or a capsule may sweep, and volume of a box, m³: a ball of the largest
-/// radius goes 56 m, one of half a metre goes as far as a ray.
+/// Volume of the box that a cast of a sphere or a capsule sweeps, and volume of a box, m³: a ball of the
+/// largest radius goes 48 m, one of half a metre goes as far as a ray. Boxes of solids may be larger.
 inline constexpr float query_volume_max_m3 = 16384.0F;
 
 /// Side of a box, metres.
@@ -28,6 +28,16 @@ inline constexpr float query_box_side_max_m = 256.0F;
 
 /// How far a nearest surface is looked for, metres.
 inline constexpr float query_nearest_max_m = 8.0F;
+
+/// Convex parts of a body, points of one, and how far each point and a radius may reach from the body's
+/// place, metres.
+inline constexpr size_t query_parts_max = 64;
+inline constexpr size_t query_points_max = 64;
+inline constexpr float query_part_reach_max_m = 64.0F;
+/// Rounds of one distance between two convex bodies, and distances of one cast: as a rule there are four of
+/// each. What is found by then counts; a cast that has not ended has met the body.
+inline constexpr int query_distance_rounds = 64;
+inline constexpr int query_advances = 64;
 
 /// Ids that a mask may except.
 inline constexpr size_t query_excepted_max = 64;

@@ -163,27 +163,6 @@ class RayWalk {
   std::optional<SurfaceHit> best_;
 };
 
-/// The part of a line within the bounds of a surface; nothing where it passes them by.
-std::optional<std::pair<double, double>> within(const VoxelBox* bounds, const Line& line, double most) {
-  double lo = 0.0, hi = most;
-  if (bounds == nullptr) return std::pair{lo, hi};
-  if (bounds->empty()) return std::nullopt;
-  const glm::dvec3 least(bounds->lo.x - 2, bounds->lo.y - 2, bounds->lo.z - 2);
-  const glm::dvec3 top(bounds->hi.x + 1, bounds->hi.y + 1, bounds->hi.z + 1);
-  for (int axis = 0; axis < 3; ++axis) {
-    const double speed = line.unit[axis], from = line.from[axis];
-    if (speed == 0.0) {
-      if (from < least[axis] || from > top[axis]) return std::nullopt;
-      continue;
-    }
-    const double a = (least[axis] - from) / speed, b = (top[axis] - from) / speed;
-    lo = std::max(lo, std::min(a, b));
-    hi = std::min(hi, std::max(a, b));
-  }
-  if (lo > hi) return std::nullopt;
-  return std::pair{lo, hi};
-}
-
 VoxelCoord cell_at(const glm::dvec3& place) {
   return {floor_to_int(place.x), floor_to_int(place.y), floor_to_int(place.z)};
 }
@@ -195,8 +174,30 @@ bool is_crossed_cell(CellSource& cells, VoxelCoord cell) {
 
 }  // namespace
 
+std::optional<std::pair<double, double>> line_within(const VoxelBox* bounds, double distance,
+                                                     const Line& line, double most) {
+  double lo = 0.0, hi = most;
+  if (bounds == nullptr) return std::pair{lo, hi};
+  if (bounds->empty()) return std::nullopt;
+  const glm::dvec3 least(bounds->lo.x - 2, bounds->lo.y - 2, bounds->lo.z - 2);
+  const glm::dvec3 top(bounds->hi.x + 1, bounds->hi.y + 1, bounds->hi.z + 1);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double speed = line.unit[axis], from = line.from[axis];
+    const double near = least[axis] - distance, far = top[axis] + distance;
+    if (speed == 0.0) {
+      if (from < near || from > far) return std::nullopt;
+      continue;
+    }
+    const double a = (near - from) / speed, b = (far - from) / speed;
+    lo = std::max(lo, std::min(a, b));
+    hi = std::min(hi, std::max(a, b));
+  }
+  if (lo > hi) return std::nullopt;
+  return std::pair{lo, hi};
+}
+
 std::optional<SurfaceHit> first_on_line(CellSource& cells, const Line& line, double most, uint32_t& steps) {
-  const auto range = within(cells.bounds(), line, most);
+  const auto range = line_within(cells.bounds(), 0.0, line, most);
   if (!range) return std::nullopt;
   return RayWalk(cells, line, range->first, range->second, steps).run();
 }

@@ -9,6 +9,7 @@
 
 #include <glm/vec3.hpp>
 #include <optional>
+#include <utility>
 
 #include "shared/query/cell_block.h"
 
@@ -29,7 +30,12 @@ struct SurfaceHit {
   glm::dvec3 normal{0.0};  ///< of length 1
 };
 
-/// The first polygon that the line crosses from `most` voxels on at most, either way through; the normal is
+/// The part of a line, from 0 to `most`, within a distance of the bounds of a surface; nothing where it
+/// passes them by.
+std::optional<std::pair<double, double>> line_within(const VoxelBox* bounds, double distance,
+                                                     const Line& line, double most);
+
+/// The first polygon that the line crosses within `most` voxels, either way through; the normal is
 /// the polygon's, out of the rock. `steps` counts the blocks and polygons that were looked at.
 std::optional<SurfaceHit> first_on_line(CellSource& cells, const Line& line, double most, uint32_t& steps);
 
