@@ -40,6 +40,7 @@ inline glm::dvec3 across(const glm::dvec3& unit) {
 inline glm::dmat3 rotation_of(const glm::quat& rotation) {
   glm::dquat q(rotation.w, rotation.x, rotation.y, rotation.z);
   const double length = std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z);
+  CHECK(length > 0.0);
   q = glm::dquat(q.w / length, q.x / length, q.y / length, q.z / length);
   return glm::mat3_cast(q);
 }
