@@ -17,6 +17,13 @@ void FieldCells::begin() {
   exact_ = true;
 }
 
+void FieldCells::forget(const VoxelBox& changed) {
+  // A block has codes from `apron` voxels below its first one, and so many above.
+  constexpr int reach = CellBlock::side;
+  for_each_chunk(changed.grown(reach), [&](ChunkCoord coord) { chunks_.erase(coord); });
+  last_ = nullptr;
+}
+
 FieldCells::ChunkCells& FieldCells::chunk(ChunkCoord coord) {
   if (last_ != nullptr && last_coord_ == coord) return *last_;
   const auto [found, is_new] = chunks_.try_emplace(coord);
@@ -57,7 +64,15 @@ FieldCells::BrickSide FieldCells::side_of(BrickCoord coord) {
 }
 
 /// Whether the bricks of the block's voxels are not all air, nor all rock.
-bool FieldCells::may_be_crossed(BrickCoord coord) {
+bool FieldCells::may_be_crossed(const ChunkCells& cells, BrickCoord coord) {
+  // The eight bricks from one on, where all of them are the chunk's.
+  constexpr uint64_t eight = 0x330033U;
+  const int at = index_in_chunk(coord);
+  constexpr int last = chunk_bricks - 1;
+  if ((at & last) != last && ((at >> 2) & last) != last && (at >> 4) != last) {
+    const uint64_t around = eight << at;
+    if ((cells.air & around) == around || (cells.rock & around) == around) return false;
+  }
   const BrickSide first = side_of(coord);
   if (first == BrickSide::both) return true;
   for (int i = 1; i < 8; ++i)
@@ -78,16 +93,18 @@ const CellBlock* FieldCells::block(BrickCoord coord) {
   const uint64_t bit = uint64_t{1} << index;
   if ((cells.looked & bit) == 0) {
     cells.looked |= bit;
-    if (may_be_crossed(coord)) {
+    if (may_be_crossed(cells, coord)) {
       const Window window = gather(field_, CellBlock::box_of(coord));
       auto made = std::make_unique<CellBlock>(coord, window.codes.data());
       if (made->any()) {
-        cells.blocks[index] = std::move(made);
+        if (cells.blocks == nullptr)
+          cells.blocks.reset(new std::array<std::unique_ptr<CellBlock>, chunk_brick_count>);
+        (*cells.blocks)[index] = std::move(made);
         ++blocks_;
       }
     }
   }
-  return cells.blocks[index].get();
+  return cells.blocks == nullptr ? nullptr : (*cells.blocks)[index].get();
 }
 
 bool FieldCells::is_rock(VoxelCoord voxel) {

@@ -10,15 +10,19 @@
 
 namespace scree {
 
+/// Between questions the field may change, if it is told to forget. The field outlives it.
 /// Reading generates ground, and brings in chunks of a field that pages (ChunkUnreadable where that fails).
 class FieldCells final : public CellSource {
  public:
   explicit FieldCells(const Field& field) : field_(field) {}
 
+  const Field& field() const { return field_; }
   const CellBlock* block(BrickCoord coord) override;
   bool is_rock(VoxelCoord voxel) override;
   const VoxelBox* bounds() const override { return nullptr; }
 
+  /// Codes of these voxels have changed, or their ground has arrived: what was computed of them is no more.
+  void forget(const VoxelBox& changed);
   /// Begins a question: forgets what was kept if it has become too much, and begins the counts anew.
   void begin();
   /// Times that the question came from one chunk into another: it read no more chunks, but for those beside.
@@ -34,13 +38,13 @@ class FieldCells final : public CellSource {
     uint64_t rock = 0;
     uint64_t looked = 0;  ///< blocks that were made, or found to be without surface
     bool exact = true;
-    std::array<std::unique_ptr<CellBlock>, chunk_brick_count> blocks;
+    std::unique_ptr<std::array<std::unique_ptr<CellBlock>, chunk_brick_count>> blocks;  ///< null: none yet
   };
   enum class BrickSide : uint8_t { air, rock, both };
 
   ChunkCells& chunk(ChunkCoord coord);
   BrickSide side_of(BrickCoord coord);
-  bool may_be_crossed(BrickCoord coord);
+  bool may_be_crossed(const ChunkCells& cells, BrickCoord coord);
 
   const Field& field_;
   std::unordered_map<ChunkCoord, ChunkCells, CoordHash> chunks_;

@@ -42,9 +42,9 @@ inline constexpr int query_advances = 64;
 /// Ids that a mask may except.
 inline constexpr size_t query_excepted_max = 64;
 
-/// Blocks of 8³ cells with a surface, and chunks, that a scene keeps from one question to the next: 26 MB and
-/// 3 MB. Beyond: it forgets all before the next question.
+/// Blocks of 8³ cells with a surface, and chunks, that a scene keeps from one question to the next: 28 MB and
+/// 4 MB. Beyond: it forgets all before the next question.
 inline constexpr size_t query_blocks_kept = 4096;
-inline constexpr size_t query_chunks_kept = 4096;
+inline constexpr size_t query_chunks_kept = 32768;
 
 }  // namespace scree::limits

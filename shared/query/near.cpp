@@ -39,26 +39,40 @@ std::optional<double> touch_of_edge(const Line& line, double radius, const glm::
   return at < 0.0 || at > 1.0 ? std::nullopt : std::optional(along);
 }
 
-/// The same from the inner places of a triangle.
-std::optional<double> touch_of_face(const Line& line, double radius, const Corners& corners) {
-  const auto& [a, b, c] = corners;
-  glm::dvec3 out = glm::cross(b - a, c - a);
+/// A triangle's plane, turned so that a line starts above it; `out` is zero for a triangle without area.
+struct Plane {
+  glm::dvec3 out{0.0};  ///< of length 1
+  double height = 0.0;  ///< of the line's start
+  double sinks = 0.0;   ///< along the line
+  bool turned = false;
+};
+
+Plane plane_of(const Line& line, const Corners& corners) {
+  Plane plane;
+  const glm::dvec3 out = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double size = std::sqrt(squared(out));
-  if (size == 0.0) return std::nullopt;
-  out = out / size;
-  double height = glm::dot(line.from - a, out);
-  const bool is_behind = height < 0.0;
-  if (is_behind) {
-    out = -out;
-    height = -height;
+  if (size == 0.0) return plane;
+  plane.out = out / size;
+  plane.height = glm::dot(line.from - corners[0], plane.out);
+  plane.turned = plane.height < 0.0;
+  if (plane.turned) {
+    plane.out = -plane.out;
+    plane.height = -plane.height;
   }
-  const double sinks = -glm::dot(line.unit, out);
-  if (sinks <= 0.0 || height < radius) return std::nullopt;
-  const double along = (height - radius) / sinks;
-  const glm::dvec3 foot = line.at(along) - out * radius;
-  const double turn = is_behind ? -1.0 : 1.0;
+  plane.sinks = -glm::dot(line.unit, plane.out);
+  return plane;
+}
+
+/// The same from the inner places of a triangle.
+std::optional<double> touch_of_face(const Line& line, double radius, const Corners& corners,
+                                    const Plane& plane) {
+  if (plane.sinks <= 0.0 || plane.height < radius) return std::nullopt;
+  const auto& [a, b, c] = corners;
+  const double along = (plane.height - radius) / plane.sinks;
+  const glm::dvec3 foot = line.at(along) - plane.out * radius;
+  const double turn = plane.turned ? -1.0 : 1.0;
   const auto is_left = [&](const glm::dvec3& from, const glm::dvec3& to) {
-    return glm::dot(glm::cross(to - from, foot - from), out) * turn >= 0.0;
+    return glm::dot(glm::cross(to - from, foot - from), plane.out) * turn >= 0.0;
   };
   return is_left(a, b) && is_left(b, c) && is_left(c, a) ? std::optional(along) : std::nullopt;
 }
@@ -133,8 +147,11 @@ NearPair nearest_of_segment_and_triangle(const glm::dvec3& a, const glm::dvec3& 
 }
 
 std::optional<double> touch_of_ball(const Line& line, double most, double radius, const Corners& corners) {
+  const Plane plane = plane_of(line, corners);
+  // It does not come as near as that to the plane.
+  if (plane.height - std::max(plane.sinks, 0.0) * most > radius) return std::nullopt;
   // The inner places come first, if at all: they are where the line meets the face moved by the radius.
-  std::optional<double> best = touch_of_face(line, radius, corners);
+  std::optional<double> best = touch_of_face(line, radius, corners, plane);
   if (best) return *best <= most ? best : std::nullopt;
   const auto take = [&](const std::optional<double>& along) {
     if (along && *along >= 0.0 && *along <= most && (!best || *along < *best)) best = along;

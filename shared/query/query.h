@@ -48,7 +48,8 @@ struct Hit {
 };
 
 struct QueryCost {
-  /// Blocks, polygons, solids and rounds that were looked at: some 50 ns each (bench run query).
+  /// Blocks, polygons, solids and rounds that were looked at, 64 voxels of a box: 0.2 µs each or less (bench
+  /// run query). The same for the same question, whatever the scene kept.
   uint32_t steps = 0;
   /// Times that it came into another chunk: so many may have been generated, and some of those beside.
   uint32_t chunks = 0;

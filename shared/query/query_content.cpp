@@ -40,7 +40,7 @@ QueryResult<BoxContent> box_content(const QueryScene& scene, glm::vec3 lo_m, glm
     ++found.cost.chunks;
     found.cost.exact = found.cost.exact && field.chunk_bricks(chunk).generated.exact;
     const Window codes = gather(field, part);
-    found.cost.steps += static_cast<uint32_t>(1 + codes.codes.size() / brick_voxels);
+    found.cost.steps += static_cast<uint32_t>(1 + codes.codes.size() / 64);
     const MassUnits here = mass_of(codes);
     if (here == 0) return;
     filled += here;

@@ -51,11 +51,19 @@ SpaceBox bounds_of(const QuerySolid& solid, const SolidFrame& frame) {
 }  // namespace
 
 QueryScene::QueryScene(const Field& field, std::span<const QuerySolid> solids)
+    : QueryScene(field, solids, nullptr) {}
+
+QueryScene::QueryScene(const Field& field, std::span<const QuerySolid> solids, FieldCells& terrain)
+    : QueryScene(field, solids, &terrain) {}
+
+QueryScene::QueryScene(const Field& field, std::span<const QuerySolid> solids, FieldCells* kept)
     : field_(field),
       voxel_m_(static_cast<double>(field.source().voxel_size_m)),
       solids_(solids),
-      terrain_(std::make_unique<FieldCells>(field)),
+      own_(kept == nullptr ? std::make_unique<FieldCells>(field) : nullptr),
+      terrain_(kept == nullptr ? *own_ : *kept),
       cells_(solids.size()) {
+  CHECK(&terrain_.field() == &field);
   std::vector<SpaceBox> boxes;
   boxes.reserve(solids.size());
   frames_.reserve(solids.size());

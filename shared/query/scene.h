@@ -41,8 +41,10 @@ struct SolidFrame {
 /// const function reads ground.
 class QueryScene {
  public:
-  /// Ordered by id, each once.
+  /// Solids are ordered by id, each once.
   QueryScene(const Field& field, std::span<const QuerySolid> solids);
+  /// With the cells of that field, kept since scenes before; told to forget what has changed.
+  QueryScene(const Field& field, std::span<const QuerySolid> solids, FieldCells& terrain);
 
   const Field& field() const { return field_; }
   double voxel_m() const { return voxel_m_; }
@@ -50,17 +52,20 @@ class QueryScene {
   /// Boxes around the solids and their positions, by their places in the span, metres.
   const SolidTree& tree() const { return tree_; }
   const SolidFrame& frame(size_t index) const { return frames_[index]; }
-  FieldCells& terrain() const { return *terrain_; }
+  FieldCells& terrain() const { return terrain_; }
   /// Of a piece.
   VolumeCells& cells(size_t index) const;
 
  private:
+  QueryScene(const Field& field, std::span<const QuerySolid> solids, FieldCells* kept);
+
   const Field& field_;
   double voxel_m_;
   std::span<const QuerySolid> solids_;
   std::vector<SolidFrame> frames_;
   SolidTree tree_;
-  std::unique_ptr<FieldCells> terrain_;
+  std::unique_ptr<FieldCells> own_;
+  FieldCells& terrain_;
   mutable std::vector<std::unique_ptr<VolumeCells>> cells_;  ///< of pieces that questions came to
 };
 

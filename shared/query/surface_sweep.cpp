@@ -33,6 +33,13 @@ bool is_near_segment(const glm::dvec3& place, const glm::dvec3& a, const glm::dv
   return glm::dot(off, off) <= distance * distance;
 }
 
+/// How far a triangle's corners are from a place.
+double reach_of(const Corners& corners, const glm::dvec3& place) {
+  double most = 0.0;
+  for (const glm::dvec3& corner : corners) most = std::max(most, glm::dot(corner - place, corner - place));
+  return std::sqrt(most);
+}
+
 /// The mover's triangle of first touch, and when.
 struct Touch {
   double along = 0.0;
@@ -56,11 +63,14 @@ std::optional<Touch> first_touch(CellSource& cells, const Mover& mover, double m
         hull_of(owners_near(a, a + mover.axis, mover.radius), owners_near(b, b + mover.axis, mover.radius));
     const glm::dvec3 last = line.at(best ? best->along : most);
     const auto is_near = [&](const glm::dvec3& place, double size) {
-      return is_near_segment(place, line.from + middle, last + middle, reach + size);
+      return is_near_segment(place, line.from + middle, last + middle, reach + size + 1e-6);
     };
     for_each_quad(cells, owners, done, steps, is_near, [&](const SurfaceQuad& quad) {
       for (const SurfaceTriangle& triangle : quad) {
         const Corners corners = corners_of(triangle);
+        const glm::dvec3 centre = (corners[0] + corners[1] + corners[2]) / 3.0;
+        if (!is_near(centre, reach_of(corners, centre))) continue;
+        steps += half_axis > 0.0 ? 4 : 1;
         const auto touch =
             touch_of_capsule(line, mover.axis, best ? best->along : most, mover.radius, corners);
         if (touch && (!best || *touch < best->along)) best = Touch{*touch, corners};
