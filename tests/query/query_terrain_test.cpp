@@ -43,7 +43,7 @@ class QueryTerrain : public ::testing::Test {
 
   glm::vec3 place(Random& random, float part = 1.0F) const {
     const auto at = [&] { return (random.unit() * 2.0F - 1.0F) * half_m * part; };
-    return world().middle_m + glm::vec3(at(), at(), at());
+    return world().middle_m + glm::vec3{at(), at(), at()};
   }
   glm::dvec3 in_grid(glm::vec3 m) const { return glm::dvec3(m) / static_cast<double>(voxel_m); }
 
