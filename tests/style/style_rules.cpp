@@ -50,6 +50,7 @@ std::vector<Layer> other_layers() {
       {"shared/fracture/", {"shared/surface/"}},
       {"shared/recombine/", {"shared/surface/", "shared/falling/"}},
       {"shared/operation/", {"shared/fracture/", "shared/recombine/"}},
+      {"shared/query/", {"shared/surface/"}},
       {"proto/", {"shared/operation/"}},
       {"crypto/", {"shared/base/"}},
       {"ground/", {"proto/", "crypto/", "content/"}},
