@@ -7,6 +7,7 @@
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/prop_codec.h"
+#include "proto/query_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
@@ -54,6 +55,7 @@ struct Writing {
   void operator()(const PushMessage& from) const { write(*to.mutable_push(), from); }
   void operator()(const BreakMessage& from) const { write(*to.mutable_break_(), from); }
   void operator()(const BlastMessage& from) const { write(*to.mutable_blast(), from); }
+  void operator()(const QueryMessage& from) const { write(*to.mutable_query(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
@@ -184,6 +186,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read(from.break_(), check));
     case wire::ClientMessage::kBlast:
       return checked(read(from.blast(), check));
+    case wire::ClientMessage::kQuery:
+      return checked(read(from.query(), check));
     case wire::ClientMessage::kAdmin:
       return checked(read_admin(from.admin(), check));
     case wire::ClientMessage::KIND_NOT_SET:

@@ -15,6 +15,7 @@
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
 #include "proto/protocol_version.h"
+#include "proto/query.h"
 #include "proto/status_values.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
@@ -162,7 +163,7 @@ using ClientMessage =
                  AckMessage, AdminMessage, CursorMessage, PhysicsSubscriptionMessage, AskGroundMessage,
                  OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
                  AskContentMessage, AddPropMessage, RemovePropMessage, MovePropMessage, PushMessage,
-                 BreakMessage, BlastMessage, UnknownMessage>;
+                 BreakMessage, BlastMessage, QueryMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -376,7 +377,7 @@ using ServerMessage =
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
-                 PropMessage, UnknownMessage>;
+                 PropMessage, AnswerMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -13,6 +13,7 @@
 #include "proto/physics_codec.h"
 #include "proto/playback_codec.h"
 #include "proto/prop_codec.h"
+#include "proto/query_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"
@@ -129,6 +130,7 @@ struct Writing {
     piece.set_rotation(from.pose.rotation);
   }
   void operator()(const PropMessage& from) const { write(*to.mutable_prop(), from); }
+  void operator()(const AnswerMessage& from) const { write(*to.mutable_answer(), from); }
   void operator()(const ResetMessage&) const { to.mutable_reset(); }
   void operator()(const ReplyMessage& from) const {
     wire::Reply& reply = *to.mutable_reply();
@@ -333,6 +335,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.piece(), check));
     case wire::ServerMessage::kProp:
       return checked(read(from.prop(), check));
+    case wire::ServerMessage::kAnswer:
+      return checked(read(from.answer(), check));
     case wire::ServerMessage::kReset:
       return ResetMessage{};
     case wire::ServerMessage::kReply:

@@ -105,6 +105,8 @@ QueryResult<bool> is_solid(const QueryScene& scene, glm::vec3 place_m, const Que
 struct BoxContent {
   double rock_m3 = 0.0;   ///< terrain, by the ramp of a voxel's mass (field/mass.h)
   MaterialMasses masses;  ///< of the terrain, as the ledger counts it: of rubble that of its stones
+
+  bool operator==(const BoxContent&) const = default;
 };
 
 /// The terrain of the voxels whose places lie in the box (lo in it, hi not), which has

@@ -21,6 +21,7 @@
 #include "server/publish/limits.h"
 #include "tests/proto/message_words.h"
 #include "tests/proto/prop_words.h"
+#include "tests/proto/query_words.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {

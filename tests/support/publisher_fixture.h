@@ -48,6 +48,7 @@ class TrustingClient {
   size_t motion_bytes = 0, transform_bytes = 0;
   std::vector<ReplyMessage> replies;
   std::vector<StatusMessage> statuses;
+  std::vector<AnswerMessage> answers;
   std::vector<GroundMessage> grounds;
   std::vector<TileMessage> tiles;
   std::vector<PlaybackMessage> playbacks;
@@ -149,6 +150,8 @@ class TrustingClient {
   void apply(const TileMessage& message) { tiles.push_back(message); }
   void apply(const ContentMessage&) {}
   void apply(const PaletteChangedMessage&) {}
+  void apply(const AnswerMessage& message) { answers.push_back(message); }
+  void apply(const PropMessage&) {}
   void apply(const ReplyMessage& message) { replies.push_back(message); }
   void apply(const StatusMessage& message) { statuses.push_back(message); }
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }
