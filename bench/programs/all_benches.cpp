@@ -32,6 +32,8 @@ std::vector<Bench> benches_to_k() {
        true},
       {"fanout", "a storm seen by 100 to 3,000 viewers on this machine's cores: the age of their frames",
        run_fanout_bench},
+      {"bodies", "crates, capsules and hulls beside broken rock: ticks, the same hashes, bits on the wire",
+       run_bodies_bench},
       {"fights", "four fights far apart on one, two and four threads: throughput, the same hashes",
        run_fights_bench},
       {"heaps", "stones of three materials that fall into heaps and merge: pores, swell, angle at rest",

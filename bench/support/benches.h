@@ -14,6 +14,7 @@ BenchReport run_crowd_bench(const BenchOptions& options);
 BenchReport run_cutters_bench(const BenchOptions& options);
 BenchReport run_draw_bench(const BenchOptions& options);
 BenchReport run_fanout_bench(const BenchOptions& options);
+BenchReport run_bodies_bench(const BenchOptions& options);
 BenchReport run_fights_bench(const BenchOptions& options);
 BenchReport run_heaps_bench(const BenchOptions& options);
 BenchReport run_islands_bench(const BenchOptions& options);

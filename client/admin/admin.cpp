@@ -3,6 +3,8 @@
 #include "client/cache/received_content.h"
 #include "client/connection/connection.h"
 #include "client/connection/health_probe.h"
+#include "shared/base/check.h"
+#include "shared/base/overloaded.h"
 
 namespace scree {
 
@@ -76,11 +78,11 @@ class Talk {
   size_t at_ = 0;
 };
 
-Result<Talk> join(const AdminServer& server) {
+Result<Talk> join(const AdminServer& server, bool administers = true) {
   const Clock::time_point until = Clock::now() + server.within;
   HelloMessage hello;
   hello.client = "scree-admin";
-  hello.administers = true;
+  hello.administers = administers;
   auto connected = TRY(Connection::connect(server, hello, server.within));
   return Talk(std::move(connected), until);
 }
@@ -230,6 +232,17 @@ Result<void> ban_address(const AdminServer& server, const BanRequest& ban) {
 
 Result<void> lift_ban(const AdminServer& server, const LiftBanRequest& lift) {
   return done_by(server, lift);
+}
+
+Result<ReplyMessage> ask_world(const AdminServer& server, const Request& request) {
+  Talk talk = TRY(join(server, !shape_of(request)));
+  std::visit(Overloaded{[&](const auto& asked) {
+                          talk.send(RequestMessage<std::decay_t<decltype(asked)>>{asked, 1});
+                        },
+                        [](const SettingsRequest&) { CHECK(!"a request about bodies"); },
+                        [](const LeaveRequest&) { CHECK(!"a request about bodies"); }},
+             request);
+  return talk.answer<ReplyMessage>();
 }
 
 }  // namespace scree

@@ -91,4 +91,8 @@ Result<void> kick_session(const AdminServer& server, const KickRequest& kick);
 Result<void> ban_address(const AdminServer& server, const BanRequest& ban);
 Result<void> lift_ban(const AdminServer& server, const LiftBanRequest& lift);
 
+/// Asks for a request about bodies (AddPropRequest and others, BlastRequest), and returns the answer. A blast
+/// changes terrain, so it takes a place as any client does.
+Result<ReplyMessage> ask_world(const AdminServer& server, const Request& request);
+
 }  // namespace scree

@@ -229,7 +229,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
 
 /// A session that takes no place changes no terrain.
 tl::expected<void, Refused> NetHost::ask(ClientSession& session, uint32_t request, const Request& body) {
-  if (!sessions_.at(session.id()).administers) {
+  if (!sessions_.at(session.id()).administers || !shape_of(body)) {
     requests_.ask(session, request, body);
     return {};
   }

@@ -40,7 +40,7 @@ struct Pricing {
     const Shape shape = sphere(request.centre_m, blast_reach_m(request.energy_j));
     const float voxels = voxels_of(band_box(in_voxels(shape, field.source().voxel_size_m)));
     return edit_price_us(shape, field) + limits::blast_voxel_cost_us * voxels +
-           cut_price_us(cutter_for(cutter, voxels), voxels, blast_pieces(request.energy_j));
+           cut_price_us(cutter_for(cutter, voxels), voxels, pieces_of_blast(request.energy_j));
   }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);

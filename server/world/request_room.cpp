@@ -37,7 +37,7 @@ std::optional<CarveRequest> carve_in(const Request& request) {
   if (const auto* carve = std::get_if<CarveRequest>(&request)) return *carve;
   const auto* blast = std::get_if<BlastRequest>(&request);
   if (blast == nullptr) return std::nullopt;
-  return carve_of(*blast, blast_reach_m(blast->energy_j), blast_pieces(blast->energy_j));
+  return carve_of(*blast, blast_reach_m(blast->energy_j), pieces_of_blast(blast->energy_j));
 }
 
 PieceGrant grant_for(const World::State& state, const Command& command) {

@@ -40,7 +40,7 @@ inline float blast_reach_m(float energy_j) {
 }
 
 /// Pieces that a blast makes at most.
-inline uint32_t blast_pieces(float energy_j) {
+inline uint32_t pieces_of_blast(float energy_j) {
   if (!is_blast_energy(energy_j)) return 0;
   return static_cast<uint32_t>(std::clamp(8.0F + energy_j / 2e6F, 8.0F, 160.0F));
 }

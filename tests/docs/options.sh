@@ -52,7 +52,7 @@ check() {
   local word
   [[ $1 != --help ]] || return 0
   [[ " $commands " == *" $1 "* ]] || { fault "there is no command ./scree $1" && return; }
-  if [[ ${2:-} =~ ^[a-z]+$ ]]; then help_of "$1" "$2"; else help_of "$1"; fi
+  if [[ ${2:-} =~ ^[a-z][a-z-]*$ ]]; then help_of "$1" "$2"; else help_of "$1"; fi
   for word in "${@:2}"; do
     [[ $word == --?* && $word != --gtest_* ]] || continue
     checked=$((checked + 1))

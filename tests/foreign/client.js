@@ -13,7 +13,7 @@ import { Writer } from './packed.js';
 import { Requests } from './requests.js';
 import { World, bigOf, keyOf } from './world.js';
 
-const PROTOCOL = 5;
+const PROTOCOL = 6;
 const GROUND_WAITING_MAX = 1024;
 const text = (name, fallback) => ({ [name]: { type: 'string', default: fallback } });
 const { values: options } = parseArgs({
@@ -65,6 +65,7 @@ function receive(kind, message) {
     frame,
     chunk: () => world.chunk(message),
     piece,
+    prop: (message) => world.prop(message),
     reset: () => world.reset(),
     ground,
     reply: () => requests.answered(message),

@@ -122,6 +122,12 @@ export class World {
     this.counts.ground++;
   }
 
+  /** A prop of a game: its ids are from the same numbers, so it is moved and removed as a piece is. */
+  prop({ id, prop, x, y, z, rotation }) {
+    demand(!this.pieces.has(id), `prop ${id} comes a second time`);
+    this.pieces.set(id, { prop, position: [x, y, z], rotation });
+  }
+
   piece({ id, volume, x, y, z, rotation }) {
     demand(!this.pieces.has(id), `piece ${id} comes a second time`);
     this.pieces.set(id, { volume: unpackVolume(volume), position: [x, y, z], rotation });

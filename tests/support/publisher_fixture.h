@@ -34,6 +34,7 @@ class TrustingClient {
 
   MapField field{flat_terrain};
   PieceTable pieces;
+  std::map<PieceId, Prop> props;
   std::vector<Tick> ticks;
   size_t operations = 0, patches = 0, chunks = 0, piece_messages = 0, resets = 0, drops = 0, mismatches = 0;
   size_t operation_kinds_seen = 0;  ///< the highest number of a kind, and one
@@ -140,7 +141,13 @@ class TrustingClient {
     motions.add(message.id, message.volume);
     poses[message.id] = message.pose;
   }
+  void apply(const PropMessage& message) {
+    EXPECT_TRUE(props.emplace(message.id, message.prop).second);
+    motions.add(message.id, glm::vec3(0.0F));
+    poses[message.id] = message.pose;
+  }
   void apply(const ResetMessage&) {
+    props.clear();
     ++resets;
     for (const ChunkCoord chunk : field.edited_chunks()) field.forget_chunk(chunk);
     pieces.clear();

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "client/admin/admin.h"
+#include "client/admin/programs/prop_commands.h"
 #include "client/connection/endpoint_options.h"
 #include "proto/limits.h"
 #include "shared/base/near_name.h"
@@ -35,6 +36,7 @@ struct Options {
   std::optional<int64_t> steps;
   std::optional<double> time_s;
   bool next_event = false, previous_event = false;
+  scree::PropWords prop;
 };
 
 int complain(const scree::Error& error, int code) {
@@ -296,6 +298,15 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
           {unban, [](const Options& o) { return told(scree::lift_ban(o.server, {o.whom})); }}};
 }
 
+int ask_about_props(const scree::PropCommands& commands, const Options& options) {
+  const auto request = scree::request_of(commands, options.prop, options.server);
+  if (!request) return complain(request.error(), exit_usage);
+  const auto reply = scree::ask_world(options.server, *request);
+  if (!reply) return complain(reply.error(), exit_failed);
+  std::fputs(scree::answer_text(*reply, options.json).c_str(), stdout);
+  return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -312,6 +323,7 @@ int main(int argc, char** argv) {
   app.add_flag("--json", options.json, "prints JSON");
   app.fallthrough();
   const auto commands = add_commands(app, options);
+  const scree::PropCommands of_props = scree::add_prop_commands(app, options.prop);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
@@ -326,5 +338,5 @@ int main(int argc, char** argv) {
   options.server.within = std::chrono::milliseconds(static_cast<int64_t>(options.timeout_s * 1000.0));
   for (const auto& [command, run] : commands)
     if (command->parsed()) return run(options);
-  return exit_usage;
+  return ask_about_props(of_props, options);
 }
