@@ -158,7 +158,6 @@ class TrustingClient {
   void apply(const ContentMessage&) {}
   void apply(const PaletteChangedMessage&) {}
   void apply(const AnswerMessage& message) { answers.push_back(message); }
-  void apply(const PropMessage&) {}
   void apply(const ReplyMessage& message) { replies.push_back(message); }
   void apply(const StatusMessage& message) { statuses.push_back(message); }
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }
