@@ -81,10 +81,14 @@ inline constexpr size_t query_chunks_at_once = 4;
 /// Seconds back that questions may ask for, and for which poses and changed bricks are kept, as questions may
 /// wait. Older: refused.
 inline constexpr double query_past_s = 0.25;
-inline constexpr double query_past_kept_s = 0.5;
+inline constexpr double query_past_kept_s = 1.0;
 
 /// Seconds that a question waits for chunks that are out of memory. Then: refused, to be asked again.
 inline constexpr double query_wait_s = 1.0;
+
+/// Times that a message's questions are answered anew, because so much ground was generated for the first ones
+/// that their tick is not kept any more. Then: those that are left are refused, to be asked again.
+inline constexpr int query_anew_max = 3;
 
 /// Questions of a session that wait. Above: the message is refused.
 inline constexpr size_t queries_waiting_max = 512;

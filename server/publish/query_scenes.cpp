@@ -7,6 +7,7 @@
 #include "server/publish/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
+#include "shared/query/vectors.h"
 
 namespace scree {
 
@@ -23,13 +24,9 @@ Tick ticks_in(double seconds, uint32_t tick_rate_hz) {
   return std::max<Tick>(1, static_cast<Tick>(seconds * static_cast<double>(tick_rate_hz)));
 }
 
-int floor_of(double x) {
-  const int i = static_cast<int>(x);
-  return x < static_cast<double>(i) ? i - 1 : i;
-}
-
 VoxelCoord voxel_of(const glm::dvec3& place_m, double voxel_m) {
-  return {floor_of(place_m.x / voxel_m), floor_of(place_m.y / voxel_m), floor_of(place_m.z / voxel_m)};
+  return {floor_to_int(place_m.x / voxel_m), floor_to_int(place_m.y / voxel_m),
+          floor_to_int(place_m.z / voxel_m)};
 }
 
 VoxelBox voxels_about(const SpaceBox& box_m, double voxel_m) {

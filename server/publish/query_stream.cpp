@@ -100,6 +100,12 @@ bool QueryStream::go_on(Waiting& waiting, const ClientView& view, uint64_t& cost
       refuse(waiting, {Refusal::query_later, "terrain there is being read from the disk: ask again"});
       return true;
     case QueryScenes::Outcome::gone:
+      if (waiting.query.as_of == 0 && waiting.begun_anew < limits::query_anew_max) {
+        waiting.answer = {waiting.query.query, 0, {}};
+        waiting.progress = 0.0F;
+        ++waiting.begun_anew;
+        return true;
+      }
       refuse(waiting, {Refusal::query_later, "what was there in that tick is not kept any more: ask again"});
       return true;
   }

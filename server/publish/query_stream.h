@@ -2,6 +2,7 @@
 // (limits::queries_waiting_max a session), and so are the work and the bytes of a tick. Parties take turns at
 // the work, and the sessions of a party share its turns (SessionTurns). A message is answered when all of its
 // questions are, by one tick: by the newest when its first one's turn comes, or by the one that it asks for.
+// If so much ground is generated for it that the tick is gone meanwhile, it begins anew.
 // No sockets and no clock. Not thread-safe.
 #pragma once
 
@@ -51,6 +52,7 @@ class QueryStream {
     AnswerMessage answer;
     Tick since = 0;
     float progress = 0.0F;  ///< of the first question that has no answer
+    int begun_anew = 0;     ///< times that its tick was gone before all had an answer
   };
   struct Queue {
     uint64_t party = 0;

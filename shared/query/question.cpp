@@ -1,6 +1,7 @@
 #include "shared/query/question.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 
 #include "shared/base/overloaded.h"
 #include "shared/query/limits.h"
