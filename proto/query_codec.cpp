@@ -53,30 +53,30 @@ struct AskedWriting {
 
   void operator()(const UnknownQuestion&) const {}
   void operator()(const RayQuestion& from) const {
-    write(*to.mutable_ray()->mutable_from(), from.from_m);
+    scree::write(*to.mutable_ray()->mutable_from(), from.from_m);
     write_way(*to.mutable_ray(), from.unit, from.most_m);
   }
   void operator()(const SphereQuestion& from) const {
-    write(*to.mutable_ball()->mutable_from(), from.from_m);
+    scree::write(*to.mutable_ball()->mutable_from(), from.from_m);
     write_way(*to.mutable_ball(), from.unit, from.most_m);
     to.mutable_ball()->set_radius_m(from.radius_m);
   }
   void operator()(const CapsuleQuestion& from) const {
-    write(*to.mutable_capsule()->mutable_a(), from.a_m);
-    write(*to.mutable_capsule()->mutable_b(), from.b_m);
+    scree::write(*to.mutable_capsule()->mutable_a(), from.a_m);
+    scree::write(*to.mutable_capsule()->mutable_b(), from.b_m);
     write_way(*to.mutable_capsule(), from.unit, from.most_m);
     to.mutable_capsule()->set_radius_m(from.radius_m);
   }
   void operator()(const InSphereQuestion& from) const {
-    write(*to.mutable_in_ball()->mutable_centre(), from.centre_m);
+    scree::write(*to.mutable_in_ball()->mutable_centre(), from.centre_m);
     to.mutable_in_ball()->set_radius_m(from.radius_m);
   }
   void operator()(const InBoxQuestion& from) const { write_box(*to.mutable_in_box(), from.lo_m, from.hi_m); }
   void operator()(const NearestQuestion& from) const {
-    write(*to.mutable_nearest()->mutable_place(), from.place_m);
+    scree::write(*to.mutable_nearest()->mutable_place(), from.place_m);
     to.mutable_nearest()->set_most_m(from.most_m);
   }
-  void operator()(const SolidQuestion& from) const { write(*to.mutable_solid(), from.place_m); }
+  void operator()(const SolidQuestion& from) const { scree::write(*to.mutable_solid(), from.place_m); }
   void operator()(const ContentQuestion& from) const {
     write_box(*to.mutable_content(), from.lo_m, from.hi_m);
   }
