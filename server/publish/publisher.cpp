@@ -153,6 +153,7 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   allow_scans();
   serve_all(changes, backlog);
   take_palette(delta);
+  for (const ChunkCoord chunk : queries_.needed()) state_.use(chunk);
   pager_.page(state_, cache_);
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.kept_bytes + stats_.piece_bytes +

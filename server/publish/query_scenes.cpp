@@ -238,14 +238,4 @@ QueryScenes::Step QueryScenes::step(const Question& question, Tick tick, float& 
   return step;
 }
 
-std::vector<ChunkCoord> QueryScenes::take_missing() {
-  std::vector<ChunkCoord> missing;
-  for (const ChunkCoord chunk : missing_) {
-    const auto found = state_.chunks().find(chunk);
-    if (found != state_.chunks().end() && !found->second.is_whole()) missing.push_back(chunk);
-  }
-  missing_.clear();
-  return missing;
-}
-
 }  // namespace scree

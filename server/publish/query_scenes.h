@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "server/publish/published_field.h"
 #include "server/publish/query_past.h"
@@ -45,8 +46,8 @@ class QueryScenes {
   /// One step, between begin() and the next tick. The question is valid. `progress`: how far its ground was
   /// looked at, 0 at the first step.
   Step step(const Question& question, Tick tick, float& progress);
-  /// Chunks that were missing since the last call, and still are.
-  std::vector<ChunkCoord> take_missing();
+  /// Chunks that were missing since the last call.
+  std::vector<ChunkCoord> take_missing() { return std::exchange(missing_, {}); }
 
  private:
   /// A tick's scene, with a layer over the field where terrain has changed since.

@@ -74,6 +74,7 @@ void QueryStream::refuse(Waiting& waiting, const Refused& refused) {
   reply.refusal_name = std::string(name_of(refused.reason));
   waiting.answer.answers.push_back(std::move(reply));
   waiting.progress = 0.0F;
+  waiting.needs.clear();
 }
 
 bool QueryStream::go_on(Waiting& waiting, const ClientView& view, uint64_t& cost) {
@@ -91,6 +92,7 @@ bool QueryStream::go_on(Waiting& waiting, const ClientView& view, uint64_t& cost
       reply.answer = std::move(step.answer);
       waiting.answer.answers.push_back(std::move(reply));
       waiting.progress = 0.0F;
+      waiting.needs.clear();
       return true;
     }
     case QueryScenes::Outcome::goes_on:
@@ -112,8 +114,22 @@ bool QueryStream::go_on(Waiting& waiting, const ClientView& view, uint64_t& cost
   return true;
 }
 
-void QueryStream::want_missing(uint64_t session, const Queue& queue, std::vector<WantedChunk>& wanted) {
-  for (const ChunkCoord chunk : scenes_.take_missing()) wanted.push_back({session, queue.party, chunk});
+void QueryStream::want_missing(uint64_t session, Queue& queue, std::vector<WantedChunk>& wanted) {
+  std::set<ChunkCoord>& needs = queue.messages.front().needs;
+  for (const ChunkCoord chunk : scenes_.take_missing()) needs.insert(chunk);
+  for (const ChunkCoord chunk : needs) {
+    const auto found = state_.chunks().find(chunk);
+    if (found != state_.chunks().end() && !found->second.is_whole())
+      wanted.push_back({session, queue.party, chunk});
+  }
+}
+
+std::vector<ChunkCoord> QueryStream::needed() const {
+  std::vector<ChunkCoord> needed;
+  for (const auto& [session, queue] : queues_)
+    for (const ChunkCoord chunk : queue.messages.front().needs)
+      if (state_.chunks().contains(chunk)) needed.push_back(chunk);
+  return needed;
 }
 
 std::vector<WantedChunk> QueryStream::serve(const std::function<const ClientView*(uint64_t)>& reader,

@@ -9,6 +9,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -43,6 +44,8 @@ class QueryStream {
   std::vector<WantedChunk> serve(const std::function<const ClientView*(uint64_t)>& reader,
                                  const std::function<bool(uint64_t, const SharedBytes&)>& send);
 
+  /// Edited chunks that must stay in memory for questions which wait for more of them.
+  std::vector<ChunkCoord> needed() const;
   /// Questions that were refused since the last call, each by itself.
   std::vector<Refusal> take_refusals() { return std::exchange(refusals_, {}); }
 
@@ -51,8 +54,9 @@ class QueryStream {
     QueryMessage query;
     AnswerMessage answer;
     Tick since = 0;
-    float progress = 0.0F;  ///< of the first question that has no answer
-    int begun_anew = 0;     ///< times that its tick was gone before all had an answer
+    float progress = 0.0F;         ///< of the first question that has no answer
+    std::set<ChunkCoord> needs{};  ///< chunks that it missed
+    int begun_anew = 0;            ///< times that its tick was gone before all had an answer
   };
   struct Queue {
     uint64_t party = 0;
@@ -67,7 +71,8 @@ class QueryStream {
   /// Adds an answer to the message, if it has come so far; what that costs. False: it waits for a chunk.
   bool go_on(Waiting& waiting, const ClientView& view, uint64_t& cost);
   void refuse(Waiting& waiting, const Refused& refused);
-  void want_missing(uint64_t session, const Queue& queue, std::vector<WantedChunk>& wanted);
+  /// Notes what the first message missed, and wants all of it that is out.
+  void want_missing(uint64_t session, Queue& queue, std::vector<WantedChunk>& wanted);
 
   const PublishedState& state_;
   Tick wait_ticks_;

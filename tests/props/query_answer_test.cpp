@@ -94,7 +94,9 @@ TEST(QueryAnswers, are_those_of_the_world_in_the_tick_and_later_by_its_number) {
     carve.blast_speed_m_s = 5.0F;
     if (i % 15 == 3) commands.push_back({0, request++, carve});
     const std::vector<Question> questions = questions_about(top_m, static_cast<uint32_t>(i));
-    if (i % 2 == 0) ASSERT_TRUE(served.publisher().ask_query(asker, {++query, 0, questions}).has_value());
+    if (i % 2 == 0) {
+      ASSERT_TRUE(served.publisher().ask_query(asker, {++query, 0, questions}).has_value());
+    }
     served.step(commands);
     const Moment moment{served.world().last().tick, questions,
                         answers_of(served.world().world().scene(), questions)};

@@ -1,4 +1,5 @@
 // The scenes that a world and its mirrors give for questions about space.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "client/mirror/mirror.h"
@@ -13,9 +14,9 @@ namespace scree {
 namespace {
 
 /// A mirror that is told all of a world's ticks: operations, props whole, and poses as published.
-class Follower {
+class SceneFollower {
  public:
-  explicit Follower(const TerrainSource& terrain) : mirror_(welcome_to(terrain)) {}
+  explicit SceneFollower(const TerrainSource& terrain) : mirror_(welcome_to(terrain)) {}
 
   void follow(const TickDelta& delta) {
     FrameMessage frame;
@@ -98,7 +99,7 @@ void expect_same_answers(const QueryScene& a, const QueryScene& b, glm::vec3 abo
 
 TEST(Scene, a_world_and_a_mirror_that_follows_it_answer_with_the_same_bits) {
   PropWorld world(scene_config());
-  Follower follower(scene_config().terrain);
+  SceneFollower follower(scene_config().terrain);
   const auto step = [&](const std::vector<Command>& commands) { follower.follow(world.step(commands)); };
   step({});
   const auto ground = cast_ray(world.world().scene(), {0.0F, 200.0F, 0.0F}, {0.0F, -1.0F, 0.0F}, 400.0F);
