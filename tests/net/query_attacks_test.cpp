@@ -30,6 +30,29 @@ TEST_F(QueryAttacks, a_viewer_may_ask) {
   EXPECT_EQ(hit->kind, HitKind::terrain);
 }
 
+TEST_F(QueryAttacks, a_program_asks_by_its_client) {
+  open();
+  Client client(std::make_unique<ServerConnector>(ServerEndpoint{.port = server->port()}, patience));
+  EXPECT_EQ(client.query({}), 0U);  // not joined
+  ASSERT_TRUE(join_and_wait(client, {protocol_version, "asks", {0.0F, 2.0F, 0.0F}, 64.0F}).has_value());
+  const uint32_t number = client.query({{SolidQuestion{{0.0F, -3.0F, 0.0F}}}});
+  std::optional<AnswerMessage> answer;
+  for (int i = 0; i < 400 && !answer; ++i) {
+    tick();
+    client.wait(milliseconds(20));
+    client.poll(steady_now_s());
+    while (const auto event = client.next()) {
+      const auto* const applied = std::get_if<Client::Applied>(&*event);
+      if (applied == nullptr) continue;
+      if (const auto* found = std::get_if<AnswerMessage>(&applied->received.message)) answer = *found;
+    }
+  }
+  ASSERT_TRUE(answer.has_value());
+  EXPECT_EQ(answer->query, number);
+  ASSERT_EQ(answer->answers.size(), 1U);
+  EXPECT_EQ(answer->answers[0].answer, QuestionAnswer(true));
+}
+
 TEST_F(QueryAttacks, too_many_questions_are_refused_in_their_answers) {
   open();
   RawClient flood(server->port());
