@@ -8,6 +8,7 @@
 #include "proto/join_codec.h"
 #include "proto/joint_codec.h"
 #include "proto/prop_codec.h"
+#include "proto/query_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
@@ -58,6 +59,7 @@ struct Writing {
   void operator()(const AddJointMessage& from) const { write(*to.mutable_add_joint(), from); }
   void operator()(const RemoveJointMessage& from) const { write(*to.mutable_remove_joint(), from); }
   void operator()(const SetMotorMessage& from) const { write(*to.mutable_set_motor(), from); }
+  void operator()(const QueryMessage& from) const { write(*to.mutable_query(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
@@ -196,6 +198,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read(from.remove_joint(), check));
     case wire::ClientMessage::kSetMotor:
       return checked(read(from.set_motor(), check));
+    case wire::ClientMessage::kQuery:
+      return checked(read(from.query(), check));
     case wire::ClientMessage::kAdmin:
       return checked(read_admin(from.admin(), check));
     case wire::ClientMessage::KIND_NOT_SET:

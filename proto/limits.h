@@ -55,6 +55,12 @@ inline constexpr size_t content_part_bytes_max = size_t{32} << 10;
 /// Contents that a client may ask for in one message, and wait for. Above: refused, and the connection ends.
 inline constexpr size_t contents_wanted_max = 64;
 
+/// Questions in one message, 4 KiB or so, and ids in one answer: all answers together stay below
+/// message_bytes_max. Above: a client's message is refused, and the connection ends; of ids the rest is left
+/// out.
+inline constexpr size_t questions_max = 64;
+inline constexpr size_t query_ids_max = 1024;
+
 /// How deep a layer of the ground may reach, metres. Above: refused.
 inline constexpr float layer_depth_max_m = 50.0F;
 
@@ -122,7 +128,7 @@ inline constexpr size_t piece_voxels_max = size_t{1} << 28;
 
 /// Reasons for refusals that a status counts, and the length of one's name, bytes: more than twice what there
 /// are and need. Above: refused.
-inline constexpr size_t refusal_counts_max = 64;
+inline constexpr size_t refusal_counts_max = 128;
 inline constexpr size_t refusal_name_bytes_max = 32;
 
 /// Faults of a server's health: more than there are kinds. Above: refused.

@@ -88,6 +88,21 @@ size_t bytes_of(const Prop& prop) {
   return bytes;
 }
 
+size_t bytes_of(const AnswerMessage& message) {
+  size_t bytes = message.refusal.size() + message.refusal_name.size() + bytes_of(message.answers);
+  for (const QuestionReply& reply : message.answers) {
+    bytes += reply.refusal.size() + reply.refusal_name.size();
+    if (!reply.answer) continue;
+    bytes += std::visit(
+        Overloaded{[](const std::optional<Hit>&) { return size_t{0}; }, [](bool) { return size_t{0}; },
+                   [](const Overlapping& found) { return bytes_of(found.ids); },
+                   [](const BoxContent& content) { return bytes_of(content.masses); },
+                   [](const std::vector<PieceId>& ids) { return bytes_of(ids); }},
+        *reply.answer);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 size_t memory_bytes(const ServerMessage& message) {
@@ -105,6 +120,7 @@ size_t memory_bytes(const ServerMessage& message) {
                      [](const PropMessage& m) { return bytes_of(m.prop); },
                      [](const ContactsMessage& m) { return m.contacts.size() * sizeof(ContactEvent); },
                      [](const JointsMessage& m) { return bytes_of(m.here) + bytes_of(m.gone); },
+                     [](const AnswerMessage& m) { return bytes_of(m); },
                      [](const GroundMessage& m) { return bytes_of(m.bricks); },
                      [](const TileMessage& m) { return m.bytes.size(); },
                      [](const ContentMessage& m) { return m.part.size(); },

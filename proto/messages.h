@@ -16,6 +16,7 @@
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
 #include "proto/protocol_version.h"
+#include "proto/query.h"
 #include "proto/status_values.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
@@ -167,7 +168,8 @@ using ClientMessage =
                  AckMessage, AdminMessage, CursorMessage, PhysicsSubscriptionMessage, AskGroundMessage,
                  OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
                  AskContentMessage, AddPropMessage, RemovePropMessage, MovePropMessage, PushMessage,
-                 BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage, UnknownMessage>;
+                 BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage,
+                 QueryMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -329,7 +331,7 @@ struct StatusMessage {
 /// A blow in which a prop takes part.
 struct ContactEvent {
   PieceId body = 0;
-  PieceId other = 0;         ///< a piece or a prop, of a greater id than `body`; 0: the terrain
+  PieceId other = 0;  ///< a piece or a prop, of a greater id than `body`; 0: the terrain
   glm::vec3 place_m{0.0F};
   glm::vec3 normal{0.0F};    ///< unit, towards `body`
   float impulse_n_s = 0.0F;  ///< along the normal
@@ -401,7 +403,7 @@ using ServerMessage =
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
-                 PropMessage, ContactsMessage, JointsMessage, UnknownMessage>;
+                 PropMessage, ContactsMessage, JointsMessage, AnswerMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

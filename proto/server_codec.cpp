@@ -14,6 +14,7 @@
 #include "proto/physics_codec.h"
 #include "proto/playback_codec.h"
 #include "proto/prop_codec.h"
+#include "proto/query_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"
@@ -133,6 +134,7 @@ struct Writing {
   void operator()(const ContactsMessage& from) const { write(*to.mutable_contacts(), from); }
   void operator()(const PropMessage& from) const { write(*to.mutable_prop(), from); }
   void operator()(const JointsMessage& from) const { write(*to.mutable_joints(), from); }
+  void operator()(const AnswerMessage& from) const { write(*to.mutable_answer(), from); }
   void operator()(const ResetMessage&) const { to.mutable_reset(); }
   void operator()(const ReplyMessage& from) const {
     wire::Reply& reply = *to.mutable_reply();
@@ -344,6 +346,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.prop(), check));
     case wire::ServerMessage::kJoints:
       return checked(read(from.joints(), check));
+    case wire::ServerMessage::kAnswer:
+      return checked(read(from.answer(), check));
     case wire::ServerMessage::kReset:
       return ResetMessage{};
     case wire::ServerMessage::kReply:

@@ -29,6 +29,7 @@ BenchReport run_model_bench(const BenchOptions& options);
 BenchReport run_prices_bench(const BenchOptions& options);
 BenchReport run_quality_bench(const BenchOptions& options);
 BenchReport run_rates_bench(const BenchOptions& options);
+BenchReport run_query_bench(const BenchOptions& options);
 BenchReport run_raymarch_bench(const BenchOptions& options);
 BenchReport run_recombine_bench(const BenchOptions& options);
 BenchReport run_replay_bench(const BenchOptions& options);

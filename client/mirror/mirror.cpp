@@ -57,6 +57,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const UnknownMessage&) -> Done { return {}; },
           // For the person; nothing of the world.
           [](const ReplyMessage&) -> Done { return {}; },
+          [](const AnswerMessage&) -> Done { return {}; },
           [](const AdminListMessage&) -> Done { return {}; },
           [](const CursorsMessage&) -> Done { return {}; },
           [](const PersonsMessage&) -> Done { return {}; },
@@ -77,6 +78,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
       message);
   if (applied) applied = within_limits();
   TRY(applied);
+  for (const BrickCoord brick : changes.bricks) scenes_.forget(chunk_of(brick));
   return changes;
 }
 

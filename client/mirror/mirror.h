@@ -22,6 +22,7 @@
 #include "shared/material/palette.h"
 #include "shared/operation/operation.h"
 #include "shared/operation/per_operation.h"
+#include "shared/query/scene_maker.h"
 
 namespace scree {
 
@@ -106,6 +107,11 @@ class Mirror {
   /// Pose at a (fractional) tick, clamped to the known poses.
   Pose pose_at(const BetweenPoses& motion, double tick) const;
 
+  /// What questions about space (shared/query/query.h) are asked of, as of the last frame: the terrain that
+  /// is held, and the pieces and props that are known, at their last poses. Those of a client that gets
+  /// motions are within 2 mm of the server's. It holds until the next message is applied.
+  HeldScene scene();
+
   Field& field() { return field_; }
   const Field& field() const { return field_; }
   const TerrainSource& terrain() const { return field_.source(); }
@@ -185,6 +191,7 @@ class Mirror {
   std::unordered_map<ChunkCoord, Tick, CoordHash>
       repairs_awaited_;  ///< requested, of held chunks, with the tick of the check
   MirrorCounters counters_;
+  SceneMaker scenes_;
 };
 
 }  // namespace scree

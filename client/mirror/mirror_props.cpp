@@ -31,4 +31,12 @@ void Mirror::remove(PieceId id, MirrorChanges& changes) {
   changes.props_removed.push_back(id);
 }
 
+/// Tiles of the ground may arrive without a message: then nothing that was read is kept.
+HeldScene Mirror::scene() {
+  scenes_.begin(motions_.size() + props_.size());
+  for (const auto& [id, piece] : motions_) scenes_.add_piece(id, piece.to, *piece.volume);
+  for (const auto& [id, prop] : props_) scenes_.add_prop(id, prop.to, prop.prop);
+  return field_.source().heights == nullptr ? scenes_.make(field_) : scenes_.make_apart(field_);
+}
+
 }  // namespace scree

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "client/session/limits.h"
+#include "proto/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
 
@@ -152,6 +153,14 @@ void Client::ask(const Request& request, uint32_t number, double now_s) {
                         [](const LeaveRequest&) { CHECK(!"a request of clients"); }},
              request);
   if (predict_) foresee(request, number, now_s);
+}
+
+uint32_t Client::query(std::vector<Question> questions, Tick as_of) {
+  if (!channel_) return 0;
+  CHECK(questions.size() <= limits::questions_max);
+  if (++queries_ == 0) ++queries_;
+  channel_->send(QueryMessage{queries_, as_of, std::move(questions)});
+  return queries_;
 }
 
 void Client::follow(glm::vec3 eye_m, float radius_m) {

@@ -77,6 +77,11 @@ class Client {
   /// Sends a carve, a fill or a paint under a number, which the reply returns. With predict(), shows its
   /// probable result at once, where all that the request reads has arrived.
   void ask(const Request& request, uint32_t number, double now_s);
+  /// Asks questions about space: at most limits::questions_max, by the newest tick or by that of `as_of`, at
+  /// most a quarter of a second back. Returns the number that the AnswerMessage will have, which comes as any
+  /// message; 0, and nothing is asked, without a connection. What the mirror has is asked without the server:
+  /// Mirror::scene().
+  uint32_t query(std::vector<Question> questions, Tick as_of = 0);
   /// Moves the interest. Needs a connection.
   void follow(glm::vec3 eye_m, float radius_m);
 
@@ -134,6 +139,7 @@ class Client {
   bool over_ = false;     ///< the channel is closed and has nothing more
   bool answered_ = true;  ///< since the last poll()
   uint64_t world_ = 0;    ///< of the mirror; 0: none
+  uint32_t queries_ = 0;  ///< asked so far
   ConnectionCounters counters_;
   double now_s_ = 0.0;
   glm::vec3 eye_m_{0.0F};

@@ -46,6 +46,13 @@ enum class Refusal : uint8_t {
   role,
   admin_invalid,
   value_unknown,
+  // The network side refuses a question, or a message of them.
+  query_invalid,
+  query_far,
+  query_later,
+  query_tick,
+  queries_per_second,
+  queries_waiting,
   // The network side refuses an HTTP request.
   http_malformed,
   http_too_long,

@@ -49,6 +49,11 @@ inline constexpr double inert_seconds_max = 2.0;
 /// (ServiceLimits::requests_per_second). Above: each gets a reply that refuses it.
 inline constexpr double requests_burst_s = 2.0;
 
+/// Questions about space from one client, per second and at once; a message without any counts as one. Ten
+/// bodies that look about 50 times a second need half of it. Above: the message is refused in its answer.
+inline constexpr double queries_per_second_max = 1000.0;
+inline constexpr double queries_burst_max = 2000.0;
+
 /// Messages of any kind from one client, per second and at once. No client needs as many: refused and closed.
 inline constexpr double messages_per_second_max = 500.0;
 inline constexpr double messages_burst_max = 1000.0;

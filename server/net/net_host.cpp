@@ -11,6 +11,7 @@
 #include "server/doors/unix_time.h"
 #include "server/net/may_wait.h"
 #include "server/net/person_names.h"
+#include "server/net/queries.h"
 #include "server/net/talk_delivery.h"
 #include "server/net/welcome.h"
 #include "server/web/web_names.h"
@@ -219,6 +220,10 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return may_wait(publisher_.ask_content(session.id(), content), limits::contents_wanted_max,
                             "palettes and images", "contents_wanted_max");
           },
+          [&](const QueryMessage& query) -> Done {
+            pass_query(query, session, sessions_, publisher_, figures_.counts());
+            return {};
+          },
       },
       message);
 }
@@ -369,24 +374,7 @@ void NetHost::shut_down() {
   tick_timer();
 }
 
-// ---- what others are told
-
-HealthMessage NetHost::health() {
-  ServerHealth health = config_.health ? config_.health() : ServerHealth();
-  if (stopping_) health.add(HealthKind::stopping, "the server stops");
-  const double now_s = steady_now_s();
-  if (!room_.has_place(sessions_, returns_.tickets().reserved_places(now_s), now_s))
-    health.add(HealthKind::full,
-               fmt::format("all {} places are taken, or kept for lost connections (sessions-max)",
-                           room_.sessions_max()));
-  return health.as_of(publisher_.state().tick());
-}
-
-NetFigures NetHost::status_figures() {
-  update_stats();
-  return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s()),
-          health()};
-}
+// ---- counts
 
 void NetHost::update_stats() {
   NetStats& counts = figures_.counts();

@@ -1,4 +1,5 @@
-// NetHost's ticks: what each client is sent of them, and when.
+// NetHost's ticks: what each client is sent of them, and when; and what others are told.
+#include <fmt/format.h>
 #include <utility>
 
 #include "server/net/net_host.h"
@@ -31,6 +32,7 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   answer(delta, span);
   flush_queue_.send_turn(delta.tick, more);
   stream_ground();
+  for (const Refusal reason : publisher_.take_query_refusals()) refusals.add(reason);
   ground_pace_.ticked(steady_now_s() - begin_s, 1.0 / config_.tick_rate_hz, more);
   update_stats();
 }
@@ -94,6 +96,25 @@ void NetHost::answer(const TickDelta& delta, const TickSpan& span) {
   }
   for (const auto& session : answered) session->settle();
   figures_.show(requests_.times().counts());
+}
+
+// ---- what others are told
+
+HealthMessage NetHost::health() {
+  ServerHealth health = config_.health ? config_.health() : ServerHealth();
+  if (stopping_) health.add(HealthKind::stopping, "the server stops");
+  const double now_s = steady_now_s();
+  if (!room_.has_place(sessions_, returns_.tickets().reserved_places(now_s), now_s))
+    health.add(HealthKind::full,
+               fmt::format("all {} places are taken, or kept for lost connections (sessions-max)",
+                           room_.sessions_max()));
+  return health.as_of(publisher_.state().tick());
+}
+
+NetFigures NetHost::status_figures() {
+  update_stats();
+  return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s()),
+          health()};
 }
 
 }  // namespace scree

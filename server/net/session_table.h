@@ -15,6 +15,7 @@
 #include "server/doors/authorizer.h"
 #include "server/doors/bytes_out.h"
 #include "server/net/client_session.h"
+#include "server/net/limits.h"
 #include "server/net/outsider.h"
 #include "shared/base/rate_limit.h"
 
@@ -34,6 +35,8 @@ struct SessionEntry {
   bool administers = false;  ///< as of HelloMessage
   bool at_door = true;       ///< it has a place there (Door::enter), which it gives back
   ByteAccount bytes_out{};   ///< of a joined session
+
+  RateLimit queries{limits::queries_per_second_max, limits::queries_burst_max};  ///< of questions about space
 
   /// As it said last, with its interest or its cursor; who never did is at the origin.
   glm::vec3 eye_m{0.0F};

@@ -67,6 +67,42 @@ inline constexpr size_t content_part_bytes_min = 512;
 inline constexpr int ground_work_min = 8;
 inline constexpr int ground_work_max = 64;
 
+/// Work for questions about space that the network thread does in a tick for all clients together, in steps
+/// of 0.2 µs (QueryCost): 2 ms. A chunk that is generated counts as so many, about 0.8 ms. The last step of a
+/// question may go beyond, by 10 ms at most. Above: the rest waits, each party in turn.
+inline constexpr uint64_t query_steps_per_tick = 10'000;
+inline constexpr uint64_t query_chunk_steps = 4'000;
+
+/// Where ground is not generated yet, casts are tried so much farther at a time, metres, and other questions
+/// generate so many chunks at a time: so ground comes bit by bit, and none behind what is hit.
+inline constexpr float query_probe_m = 32.0F;
+inline constexpr size_t query_chunks_at_once = 4;
+
+/// Seconds back that questions may ask for, and for which poses and changed bricks are kept, as questions may
+/// wait. Older: refused.
+inline constexpr double query_past_s = 0.25;
+inline constexpr double query_past_kept_s = 1.0;
+
+/// Seconds that a question waits for chunks that are out of memory. Then: refused, to be asked again.
+inline constexpr double query_wait_s = 1.0;
+
+/// Times that a message's questions are answered anew, because so much ground was generated for the first ones
+/// that their tick is not kept any more. Then: those that are left are refused, to be asked again.
+inline constexpr int query_anew_max = 3;
+
+/// Questions of a session that wait. Above: the message is refused.
+inline constexpr size_t queries_waiting_max = 512;
+
+/// Bytes of answers sent to one client in a tick on average. Above: the rest waits.
+inline constexpr int64_t query_bytes_per_tick = 16 * 1024;
+
+/// Chunks in a tick that the field of questions takes up from the state: 4 ms at most, when the first
+/// question comes. Above: questions wait.
+inline constexpr size_t query_chunks_followed = 2048;
+
+/// Seconds after the last question for which that field is kept.
+inline constexpr double query_idle_s = 30.0;
+
 /// Bytes for which ground's work counts in the parties' turns, beside those that are sent.
 inline constexpr uint64_t ground_work_bytes = 16 * 1024;
 

@@ -31,6 +31,7 @@ Publisher::Publisher(const PublisherConfig& config, Workers& workers)
       ground_(config.terrain),
       tiles_(config.terrain.heights),
       content_(config.palette, config.images),
+      queries_(config.terrain, config.tick_rate_hz, state_),
       pager_(config.chunks),
       board_(config.tick_rate_hz) {}
 
@@ -59,6 +60,7 @@ void Publisher::leave(uint64_t session) {
   ground_.leave(session);
   tiles_.leave(session);
   content_.leave(session);
+  queries_.leave(session);
   scan_turns_.leave(session);
 }
 
@@ -114,6 +116,12 @@ bool Publisher::ask_content(uint64_t session, const AskContentMessage& request) 
   return client == nullptr || content_.ask(session, client->outlet().party(), request);
 }
 
+tl::expected<void, Refused> Publisher::ask_query(uint64_t session, const QueryMessage& query) {
+  ClientFeed* const client = find(session);
+  if (client == nullptr) return {};
+  return queries_.ask(session, client->outlet().party(), query);
+}
+
 const ClientView* Publisher::view(uint64_t session) const {
   const auto client = clients_.find(session);
   return client == clients_.end() ? nullptr : &client->second.view();
@@ -123,6 +131,7 @@ void Publisher::begin(const TickDelta& keyframe) {
   CHECK_EQ(state_.tick(), 0U, "the world begins once");
   CHECK(clients_.empty());
   state_.apply(keyframe);
+  queries_.restart();
   take_palette(keyframe);
   motions_.track(keyframe, state_, rates_.has_poses(keyframe.tick));
 }
@@ -133,7 +142,12 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   const bool restarted = state_.tick() != 0 && delta.tick != state_.tick() + 1;
   if (restarted) restart();
   const ChunkSet unedited = unedited_before(delta, state_);
+  if (!restarted) queries_.before(delta);
   state_.apply(delta);
+  if (restarted)
+    queries_.restart();
+  else
+    queries_.after(delta);
   pager_.page_in(state_);
   motions_.track(delta, state_, rates_.has_poses(delta.tick));
   const TickChanges changes(delta, unedited, state_, motions_, config_.terrain);
@@ -143,6 +157,7 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
   allow_scans();
   serve_all(changes, backlog);
   take_palette(delta);
+  for (const ChunkCoord chunk : queries_.needed()) state_.use(chunk);
   pager_.page(state_, cache_);
   CHECK(stats_.transform_bytes <= stats_.frame_bytes);
   CHECK(stats_.frame_bytes + stats_.chunk_bytes + stats_.kept_bytes + stats_.piece_bytes +
@@ -243,6 +258,7 @@ std::vector<Outgoing> Publisher::stream(const std::function<Backlog(uint64_t)>& 
     part.stats.content_bytes += bytes->size();
     return send_to(session, bytes);
   });
+  part.paged = queries_.serve(reader_of, send_to);
   add(std::move(part));
   return std::exchange(out_, {});
 }

@@ -2,10 +2,10 @@
 // selection share the encoded bytes; slow readers get less.
 //
 // It composes: PublishedState and Motions (what clients have in common), a ClientFeed for each client,
-// EncodeCache, GroundStream, TileStream and ContentStream, ChunkPager (chunks out of memory) and StatusBoard;
-// publish() and stream() are their order. Work that many clients can ask for, each as much as it likes, is
-// done in the parties' turns (SessionTurns): ground, tiles, content, chunks out of memory, and scans of
-// interests that moved.
+// EncodeCache, GroundStream, TileStream, ContentStream and QueryStream, ChunkPager (chunks out of memory) and
+// StatusBoard; publish() and stream() are their order. Work that many clients can ask for, each as much as it
+// likes, is done in the parties' turns (SessionTurns): ground, tiles, content, questions, chunks out of
+// memory, and scans of interests that moved.
 //
 // A client gets a frame of a tick in which something happened for it, and one every limits::heartbeat_s
 // anyway, by which it sees that time goes on. The frame of its tick comes
@@ -36,6 +36,7 @@
 #include "server/publish/ground_stream.h"
 #include "server/publish/limits.h"
 #include "server/publish/outgoing.h"
+#include "server/publish/query_stream.h"
 #include "server/publish/session_turns.h"
 #include "server/publish/status_board.h"
 #include "server/publish/tile_stream.h"
@@ -77,6 +78,9 @@ class Publisher {
 
   /// Queues content that the client asks for (ContentStream::ask).
   [[nodiscard]] bool ask_content(uint64_t session, const AskContentMessage& request);
+  /// Queues questions about space (QueryStream::ask).
+  tl::expected<void, Refused> ask_query(uint64_t session, const QueryMessage& query);
+  std::vector<Refusal> take_query_refusals() { return queries_.take_refusals(); }
   /// WelcomeMessage::palette.
   const std::optional<Digest>& palette() const { return content_.palette(); }
 
@@ -110,8 +114,8 @@ class Publisher {
   /// every client.
   std::vector<Outgoing> publish(const TickDelta& delta, const std::function<Backlog(uint64_t)>& backlog);
 
-  /// Ground, tiles and content of the tick that was just published: they take longer than its frames, and
-  /// follow them.
+  /// Ground, tiles, content and answers of the tick that was just published: they take longer than its
+  /// frames, and follow them.
   std::vector<Outgoing> stream(const std::function<Backlog(uint64_t)>& backlog);
 
   /// The replies of the tick that was just published: they follow its frames. `latency(reply)`: the stages
@@ -150,6 +154,7 @@ class Publisher {
   GroundStream ground_;
   TileStream tiles_;
   ContentStream content_;
+  QueryStream queries_;
   ChunkPager pager_;
   SessionTurns scan_turns_;
   StatusBoard board_;

@@ -63,7 +63,10 @@ void describe_physics(World::State& state, TickDelta& delta) {
 
 void publish(World::State& state, TickDelta& delta) {
   end_joints(state, delta);
-  for (const BrickCoord coord : state.changed) delta.bricks.push_back(state.brick_state(coord));
+  for (const BrickCoord coord : state.changed) {
+    delta.bricks.push_back(state.brick_state(coord));
+    state.scenes.forget(chunk_of(coord));
+  }
   if (state.field.pages()) {
     std::set<ChunkCoord> chunks;
     for (const BrickCoord coord : state.changed) chunks.insert(chunk_of(coord));
@@ -172,6 +175,19 @@ Tick World::tick() const {
 }
 const Field& World::field() const {
   return state_->field;
+}
+HeldScene World::scene() {
+  State& s = *state_;
+  s.scenes.begin(s.bodies.size());
+  const std::vector<BodyState> bodies = s.bodies.states();
+  const auto pose_of = [](const BodyState& body) { return dequantise(quantise(body.pose)); };
+  for (const BodyState& body : bodies)
+    if (const auto piece = s.pieces.find(body.id); piece != s.pieces.end())
+      s.scenes.add_piece(body.id, pose_of(body), *piece->second);
+  for (const BodyState& body : bodies)
+    if (const auto prop = s.props.find(body.id); prop != s.props.end())
+      s.scenes.add_prop(body.id, pose_of(body), prop->second.prop);
+  return s.scenes.make(s.field);
 }
 FieldPaging World::paging() {
   return FieldPaging(state_->field);

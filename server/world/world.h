@@ -14,6 +14,7 @@
 #include "server/world/tick_delta.h"
 #include "server/world/world_config.h"
 #include "shared/field/field_paging.h"
+#include "shared/query/scene_maker.h"
 
 namespace scree {
 
@@ -91,6 +92,10 @@ class World {
   TickDelta outline();
   /// The terrain, for reading by the thread of step(), between steps. Commands alone change it.
   const Field& field() const;
+  /// What questions about space (shared/query/query.h) are asked of: terrain, pieces and props, where the
+  /// last delta says that they are. By the thread of step(), between steps: it holds until the next step, and
+  /// one scene at a time is asked. Chunks that are out come in.
+  HeldScene scene();
   /// Moves the terrain's chunks in and out of memory, by the thread of step(), between steps.
   FieldPaging paging();
 

@@ -28,6 +28,7 @@
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
 #include "shared/material/palette.h"
+#include "shared/query/scene_maker.h"
 
 namespace scree {
 
@@ -137,6 +138,7 @@ struct World::State {
   StageTurns turns;              ///< empty between stages
   std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
   SpawnPlace spawn_place;        ///< where visitors begin
+  SceneMaker scenes;             ///< for questions; no tick depends on it
   bool wants_physics = false;    ///< a client wants to see the bodies
   StageStopwatch stopwatch;      ///< of the tick's stages
   ThreadCheck thread;            ///< that of step()

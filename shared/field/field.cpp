@@ -181,6 +181,20 @@ void Field::forget_chunk(ChunkCoord chunk) {
   CHECK(!edited_.empty() || hash_ == 0);
 }
 
+void Field::mark_chunk(ChunkCoord chunk, uint64_t bricks, uint64_t hash,
+                       std::map<int, BrickMaterials> materials) {
+  CHECK(below_ == nullptr && !pages());
+  EditedChunk& edited = edited_[chunk];
+  edited_bricks_ -= static_cast<size_t>(std::popcount(edited.bricks));
+  edited_bricks_ += static_cast<size_t>(std::popcount(bricks));
+  hash_ += hash - edited.hash;
+  edited.bricks = bricks;
+  edited.hash = hash;
+  edited.materials = std::move(materials);
+  if (bricks == 0) edited_.erase(chunk);
+  last_.reset();
+}
+
 uint64_t Field::chunk_hash(ChunkCoord chunk) const {
   const auto found = edited_.find(chunk);
   const uint64_t own = found == edited_.end() ? 0 : found->second.hash;

@@ -146,6 +146,9 @@ class Field {
   virtual const Brick* find_edited(BrickCoord coord) const = 0;
   virtual void store_edited(BrickCoord coord, const Brick& brick) = 0;
   virtual void erase_edited(BrickCoord coord) = 0;
+  /// Says what is edited of a chunk, where a derived field keeps the bricks elsewhere and never writes: bit i
+  /// for brick i, Σ brick_hash of these, and what they say of their materials. Not of a layer.
+  void mark_chunk(ChunkCoord chunk, uint64_t bricks, uint64_t hash, std::map<int, BrickMaterials> materials);
   /// No brick of the chunk is stored any more.
   virtual void chunk_left(ChunkCoord /*chunk*/) {}
 

@@ -64,4 +64,7 @@ inline QuantisedPose some_pose(glm::vec3 position_m, Random& random) {
 /// Prints the hashes of operations on terrain of several materials.
 void print_materials();
 
+/// Prints the hashes of answers to questions about space.
+void print_queries();
+
 }  // namespace scree

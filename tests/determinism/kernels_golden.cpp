@@ -384,5 +384,6 @@ int main() {
   for (const auto kind : {scree::TerrainKind::flat, scree::TerrainKind::noise, scree::TerrainKind::canyon})
     scree::print_session(kind);
   scree::print_materials();
+  scree::print_queries();
   return 0;
 }

@@ -279,7 +279,7 @@ TEST(Codec, counts_over_their_limit_are_refused_by_name) {
   EXPECT_TRUE(holds(server_refusal(status), "ticks_merging_sooner is 1001"));
   status.work = {};
   status.refusals.resize(limits::refusal_counts_max + 1);
-  EXPECT_TRUE(holds(server_refusal(status), "more than 64 reasons"));
+  EXPECT_TRUE(holds(server_refusal(status), "more than 128 reasons"));
 }
 
 TEST(Codec, bricks_twice_astray_or_too_many_are_refused) {

@@ -21,6 +21,7 @@
 #include "server/publish/limits.h"
 #include "tests/proto/message_words.h"
 #include "tests/proto/prop_words.h"
+#include "tests/proto/query_words.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {
@@ -130,7 +131,7 @@ TEST(ProtocolDocument, every_kind_of_message_and_act_has_an_example) {
   EXPECT_EQ(acts.size(), std::variant_size_v<AdminRequest>);
 }
 
-/// Limits of tiles and content that the document's table names.
+/// Limits of tiles, content and questions that the document's table names.
 std::map<std::string, double> stated_limits_of_streams() {
   return {{"tiles_wanted_max", limits::tiles_wanted_max},
           {"tiles_held_max", limits::tiles_held_max},
@@ -141,6 +142,15 @@ std::map<std::string, double> stated_limits_of_streams() {
           {"content_bytes_per_tick", limits::content_bytes_per_tick},
           {"content_bytes_per_tick_all", limits::content_bytes_per_tick_all},
           {"tile_bytes_per_tick", limits::tile_bytes_per_tick},
+          {"questions_max", limits::questions_max},
+          {"query_ids_max", limits::query_ids_max},
+          {"queries_per_second_max", limits::queries_per_second_max},
+          {"queries_burst_max", limits::queries_burst_max},
+          {"queries_waiting_max", limits::queries_waiting_max},
+          {"query_past_s", limits::query_past_s},
+          {"query_wait_s", limits::query_wait_s},
+          {"query_steps_per_tick", limits::query_steps_per_tick},
+          {"query_bytes_per_tick", limits::query_bytes_per_tick},
           {"tile_bytes_per_tick_all", limits::tile_bytes_per_tick_all}};
 }
 

@@ -49,6 +49,7 @@ class TrustingClient {
   size_t motion_bytes = 0, transform_bytes = 0;
   std::vector<ReplyMessage> replies;
   std::vector<StatusMessage> statuses;
+  std::vector<AnswerMessage> answers;
   std::vector<GroundMessage> grounds;
   std::vector<TileMessage> tiles;
   std::vector<PlaybackMessage> playbacks;
@@ -157,6 +158,7 @@ class TrustingClient {
   void apply(const ContentMessage&) {}
   void apply(const PaletteChangedMessage&) {}
   void apply(const JointsMessage&) {}
+  void apply(const AnswerMessage& message) { answers.push_back(message); }
   void apply(const ReplyMessage& message) { replies.push_back(message); }
   void apply(const StatusMessage& message) { statuses.push_back(message); }
   void apply(const WelcomeMessage&) { ADD_FAILURE() << "a welcome is not the publisher's"; }

@@ -113,6 +113,51 @@ AdminMessage any_admin(FuzzInput& input) {
   return admin;
 }
 
+/// A direction mostly of length 1.
+glm::vec3 any_direction(FuzzInput& input) {
+  const uint32_t axis = input.below(4);
+  if (axis == 3) return input.place(1.0F);
+  glm::vec3 unit(0.0F);
+  unit[static_cast<int>(axis)] = input.flag() ? 1.0F : -1.0F;
+  return unit;
+}
+
+AskedFor any_asked(FuzzInput& input) {
+  const glm::vec3 a = any_place(input);
+  const float size_m = input.coordinate(8.0F);
+  switch (input.below(9)) {
+    case 0:
+      return SphereQuestion{a, any_direction(input), 4.0F * size_m, 0.5F};
+    case 1:
+      return CapsuleQuestion{a, any_place(input), any_direction(input), size_m, 0.5F};
+    case 2:
+      return InSphereQuestion{a, size_m};
+    case 3:
+      return InBoxQuestion{a, a + size_m};
+    case 4:
+      return NearestQuestion{a, size_m};
+    case 5:
+      return SolidQuestion{a};
+    case 6:
+      return ContentQuestion{a, a + size_m};
+    case 7:
+      return BodiesQuestion{a - size_m, a + size_m};
+    default:
+      return RayQuestion{a, any_direction(input), 8.0F * size_m};
+  }
+}
+
+QueryMessage any_query(FuzzInput& input, uint32_t number) {
+  QueryMessage query{number, input.below(4) == 3 ? input.below(64) : 0, {}};
+  for (uint32_t count = input.below(5); count > 0; --count) {
+    Question question{any_asked(input)};
+    question.mask.terrain = input.below(4) != 3;
+    if (input.below(16) == 15) question.mask.except = {input.byte()};
+    query.questions.push_back(question);
+  }
+  return query;
+}
+
 ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
   switch (input.below(15)) {
     case 0:
@@ -159,6 +204,7 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       const uint32_t kind = input.below(8);
       const uint32_t number = input.byte();
       if (kind == 0) return FillMessage{{known(any_shape(input)), any_fill(input)}, number};
+      if (kind == 2) return any_query(input, number);
       if (kind == 1) return PaintMessage{{known(any_shape(input)), any_material(input)}, number};
       return CarveMessage{known(any_carve(input)), number};
     }
