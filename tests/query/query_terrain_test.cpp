@@ -243,6 +243,31 @@ TEST_F(QueryTerrain, answers_and_costs_are_the_same_again) {
   }
 }
 
+TEST_F(QueryTerrain, cells_that_are_kept_forget_what_changed) {
+  MapField field({TerrainKind::noise, 3, voxel_m});
+  FieldCells kept(field);
+  Random random(12);
+  int differ = 0;
+  for (int round = 0; round < 12; ++round) {
+    // One carve a round, at the corners of chunks as well.
+    const glm::vec3 at = round % 2 == 0 ? place(random, 0.5F) : glm::vec3{8.0F, world().middle_m.y, 0.0F};
+    const Shape hole = in_voxels(sphere(at, 0.4F + 0.1F * static_cast<float>(round)), voxel_m);
+    Window window = gather(field, band_box(hole));
+    carve(window, codes_of(hole, window.box));
+    scatter(field, window);
+    kept.forget(window.box);
+    const QueryScene with(field, {}, kept), fresh(field, {});
+    for (int i = 0; i < 300; ++i) {
+      const glm::vec3 unit = direction(random), from = at - unit * 3.0F;
+      const auto one = cast_ray(with, from, unit, 6.0F), two = cast_ray(fresh, from, unit, 6.0F);
+      ASSERT_TRUE(one->answer == two->answer) << round;
+      EXPECT_EQ(one->cost.steps, two->cost.steps);
+      differ += one->answer && !one->answer->inside ? 1 : 0;
+    }
+  }
+  EXPECT_GT(differ, 300);
+}
+
 TEST_F(QueryTerrain, odd_numbers_are_refused) {
   const float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
   const glm::vec3 origin(0.0F), up(0.0F, 1.0F, 0.0F);
