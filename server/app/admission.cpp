@@ -71,7 +71,7 @@ tl::expected<Admission::Verdict, Refused> Admission::judge(const Held& held, con
     return Verdict::hold;
   const uint32_t max_mb = config.memory_max_mb;
   const double used = used_bytes(pager.memory(), max_mb) + reserved_sum_bytes_;
-  const bool edits = shape_of(held.command.body) != nullptr;
+  const bool edits = shape_of(held.command.body).has_value();
   const double added = edits ? added_bytes(box, world.field()) : 0.0;
   if (added == 0.0 || used + added <= max_mb * bytes_per_mb * (1.0 - limits::merge_memory_share))
     return admit_with(held.command, added);

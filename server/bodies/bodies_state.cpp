@@ -65,6 +65,14 @@ int steps_in(float tick_s) {
 
 }  // namespace
 
+bool MeetingFilter::needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const {
+  const auto is_still = [](const btBroadphaseProxy& proxy) {
+    return static_cast<const btCollisionObject*>(proxy.m_clientObject)->isStaticObject();
+  };
+  return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
+         (b->m_collisionFilterGroup & a->m_collisionFilterMask) != 0 && !(is_still(*a) && is_still(*b));
+}
+
 Bodies::State::State(Field& field, const BodiesConfig& c)
     : config(c),
       steps_a_tick(steps_in(1.0F / static_cast<float>(c.tick_rate_hz))),
@@ -77,6 +85,7 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
       terrain(field, c.terrain_collider, dispatcher, {step_size.voxel_size_m, step_size.step_s}) {
   CHECK(std::isfinite(step_size.step_s) && std::isfinite(c.gravity_m_s2));
   CHECK(c.palette != nullptr);
+  broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&meeting);
   dispatcher.registerCollisionCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE,
                                          &hull_algorithm);
   dynamics.setGravity(btVector3(0.0F, -c.gravity_m_s2, 0.0F));

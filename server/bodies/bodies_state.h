@@ -8,6 +8,7 @@
 #pragma once
 
 #include <BulletCollision/BroadphaseCollision/btDbvtBroadphase.h>
+#include <BulletCollision/BroadphaseCollision/btOverlappingPairCache.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
 #include <map>
 #include <memory>
@@ -29,6 +30,12 @@
 #include "shared/base/workers.h"
 
 namespace scree {
+
+/// Which bodies meet: those whose groups meet each other, and of which one can move. Frozen pieces of a heap
+/// lie one on another by hundreds.
+struct MeetingFilter final : btOverlapFilterCallback {
+  bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override;
+};
 
 struct Bodies::State {
   State(Field& field, const BodiesConfig& c);
@@ -85,6 +92,7 @@ struct Bodies::State {
   btDefaultCollisionConfiguration collision_configuration;
   Workers workers;
   PairDispatcher dispatcher;
+  MeetingFilter meeting;
   btDbvtBroadphase broadphase;
   PieceWorld dynamics;
   TerrainBody terrain;

@@ -76,7 +76,7 @@ struct TickDelta {
   std::vector<PieceState> pieces;          ///< every piece alive after the tick, ordered by id
   std::vector<SpawnedProp> props_spawned;  ///< props added in this tick, ordered; some may be gone again
   std::vector<PieceState> props;           ///< every prop there is after the tick, ordered by id
-  std::vector<ContactEvent> contacts;  ///< blows of props, the hardest first; never in a recording
+  std::vector<ContactEvent> contacts;      ///< blows of props, the hardest first; never in a recording
   std::vector<AddedJoint> joints_added;    ///< in this tick, and whose motor changed; ordered, once each
   std::vector<EndedJoint> joints_removed;  ///< ordered; some may be among those that were added
   std::vector<Reply> replies;

@@ -122,7 +122,7 @@ class Restoring {
                   " pieces (limits.pieces_max_max)");
     for (const PieceRecord& piece : m_.pieces) {
       if (piece.id == 0 || piece.id >= m_.next_piece)
-        return fail("piece " + std::to_string(piece.id) + " is none yet");
+        return fail("piece " + std::to_string(piece.id) + " has no body, or is none yet");
       const auto within = [&](const std::vector<glm::vec3>& points) { return is_within(piece, points); };
       const BodyShape& shape = *piece.shape;
       if (!within(shape.hull_m) || !within(shape.surface_m) || !std::ranges::all_of(shape.parts_m, within))

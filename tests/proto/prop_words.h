@@ -67,4 +67,39 @@ inline Lines describe(const PropMessage& m) {
   return lines;
 }
 
+inline std::string words(const JointSide& side) {
+  return fmt::format("body {}, place {}, turn {}", side.body, words(side.place_m), words(side.turn));
+}
+inline Lines words(const Joint& joint) {
+  Lines lines{"a: " + words(joint.a), "b: " + words(joint.b)};
+  if (joint.limits) lines.push_back(fmt::format("from {} to {}", joint.limits->low, joint.limits->high));
+  lines.push_back(fmt::format("motor {} by {} at most, length {} m", joint.motor.speed, joint.motor.greatest,
+                              joint.length_m));
+  lines.push_back(fmt::format("breaks at {} N, {} N m; {}", joint.break_force_n, joint.break_torque_nm,
+                              joint.touches ? "its bodies touch" : "its bodies do not touch"));
+  return lines;
+}
+inline Lines describe(const AddJointMessage& m) {
+  Lines lines{fmt::format("add joint: request {}, {}", m.request, name_of(m.joint.kind))};
+  append(lines, words(m.joint));
+  return lines;
+}
+inline Lines describe(const RemoveJointMessage& m) {
+  return {fmt::format("remove joint: request {}, joint {}", m.request, m.joint)};
+}
+inline Lines describe(const SetMotorMessage& m) {
+  return {fmt::format("set motor: request {}, joint {}, {} by {} at most", m.request, m.joint, m.motor.speed,
+                      m.motor.greatest)};
+}
+inline Lines describe(const JointsMessage& m) {
+  Lines lines;
+  for (const KnownJoint& one : m.here) {
+    lines.push_back(fmt::format("joint {}: {}", one.id, name_of(one.joint.kind)));
+    append(lines, words(one.joint));
+  }
+  for (const EndedJoint& one : m.gone)
+    lines.push_back(fmt::format("joint {} is gone: {}", one.id, name_of(one.why)));
+  return lines;
+}
+
 }  // namespace scree

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include "server/formats/recording_codec.h"
 #include "server/replay/replay_source.h"
 #include "server/store/database.h"
 #include "server/store/limits.h"
@@ -40,9 +41,9 @@ TEST_F(RecordingTest, newer_and_foreign_sqlite_files_are_refused) {
   record();
   const std::vector<char> good = read_file(path);
   std::vector<char> newer = good;
-  newer[63] = 9;  // PRAGMA user_version (SQLite file format, 1.3)
+  newer[63] = recording_format + 1;  // PRAGMA user_version (SQLite file format, 1.3)
   write_file(path, newer);
-  expect_refused("format 9");
+  expect_refused("format " + std::to_string(recording_format + 1));
   std::vector<char> foreign = good;
   foreign[68] = 0;  // PRAGMA application_id
   write_file(path, foreign);

@@ -147,6 +147,19 @@ inline Prop prop() {
   return prop;
 }
 
+inline Joint joint() {
+  Joint joint;
+  joint.kind = JointKind::hinge;
+  joint.a = {32, {1.0F, -2.0F, 3.5F}, {0.5F, 0.5F, -0.5F, 0.5F}};
+  joint.b = {0, {40.0F, -1.0F, 0.0F}};
+  joint.limits = JointLimits{-1.0F, 2.0F};
+  joint.motor = {0.5F, 1000.0F};
+  joint.break_force_n = 1e5F;
+  joint.break_torque_nm = 2e5F;
+  joint.touches = true;
+  return joint;
+}
+
 inline QueryMessage query() {
   const glm::vec3 a(1.0F, 2.0F, 3.0F), b(4.0F, -5.0F, 6.0F), x(1.0F, 0.0F, 0.0F);
   QueryMask mask;
@@ -220,6 +233,7 @@ inline std::vector<ServerMessage> server_messages() {
       PropMessage{32, prop(), {1, -2, 3, 4}},
       ContactsMessage{
           66, {{32, 0, {1, 2, 3}, {0, 1, 0}, 12.5F, 99.5F}, {5, 32, {4, 5, 6}, {1, 0, 0}, 0.0F, 1.0F}}},
+      JointsMessage{{{33, joint()}}, {{2, JointEnd::let_go}, {3, JointEnd::broken}}},
       answer(),
       AnswerMessage{10, 0, {}, "more than 1000 questions a second", "queries_per_second"},
       ResetMessage{},
@@ -306,6 +320,9 @@ inline std::vector<ClientMessage> client_messages() {
           PushMessage{{32, {1.0F, -2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}}, 24},
           BreakMessage{{31, {4.0F, 5.0F, 6.0F}, 6, 0xFFFFFFFFU}, 25},
           BlastMessage{{{4.0F, 5.0F, 6.0F}, 4.2e6F, 7}, 26},
+          AddJointMessage{{joint()}, 28},
+          RemoveJointMessage{{33}, 29},
+          SetMotorMessage{{33, {-1.0F, 50.0F}}, 30},
           query(),
           GoodbyeMessage{},
           AskHealthMessage{},
