@@ -86,8 +86,8 @@ inline constexpr double query_past_kept_s = 1.0;
 /// Seconds that a question waits for chunks that are out of memory. Then: refused, to be asked again.
 inline constexpr double query_wait_s = 1.0;
 
-/// Times that a message's questions are answered anew, because so much ground was generated for the first ones
-/// that their tick is not kept any more. Then: those that are left are refused, to be asked again.
+/// Times that a message's questions are answered anew, because so much ground was generated for the first
+/// ones that their tick is not kept any more. Then: those that are left are refused, to be asked again.
 inline constexpr int query_anew_max = 3;
 
 /// Questions of a session that wait. Above: the message is refused.

@@ -258,7 +258,7 @@ TEST_F(QueryStreamTest, chunks_out_of_memory_are_read_first_or_the_question_is_t
   paged.join(session, {70.0F, 2.0F, 0.0F}, 60.0F, operation_kinds);  // it wants none of these chunks itself
   const Question question{RayQuestion{{0.0F, 5.0F, 0.0F}, down, 9.0F}, {.pieces = false}};
   ASSERT_TRUE(paged.ask_query(session, {1, 0, {question}}).has_value());
-  for (int i = 0; i < 8 && followers.at(session).answers.empty(); ++i) play();
+  for (int i = 0; i < 50 && followers.at(session).answers.empty(); ++i) play();
   ASSERT_EQ(followers.at(session).answers.size(), 1U);
   const QuestionReply reply = followers.at(session).answers.back().answers.at(0);
   ASSERT_TRUE(reply.answer.has_value()) << reply.refusal;
