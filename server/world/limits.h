@@ -23,8 +23,8 @@ inline constexpr uint32_t joints_max_max = 10000;
 /// Beyond: refused.
 inline constexpr float push_slack_m = 4.0F;
 
-/// The blows of props that a tick tells of change a body's speed by at least so much, m/s, and take at least so
-/// much energy, J: a crate that lies still makes none.
+/// The blows of props that a tick tells of change a body's speed by at least so much, m/s, and take at least
+/// so much energy, J: a crate that lies still makes none.
 inline constexpr float contact_event_min_m_s = 0.5F;
 inline constexpr float contact_event_min_j = 1.0F;
 

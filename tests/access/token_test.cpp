@@ -239,7 +239,8 @@ TEST(Roles, what_is_open_to_everybody_is_said_except_on_this_machine) {
     EXPECT_TRUE(open_doors(config, here).empty()) << here;
   auto open = open_doors(config, "0.0.0.0");
   ASSERT_EQ(open.size(), 2U);
-  EXPECT_TRUE(holds(open[0], "anyone who reaches 0.0.0.0 may look, carve, push and break, fill and paint without a token"));
+  EXPECT_TRUE(holds(
+      open[0], "anyone who reaches 0.0.0.0 may look, carve, push and break, fill and paint without a token"));
   EXPECT_TRUE(holds(open[1], "--tls-cert"));
   config.anonymous = std::nullopt;
   config.tls_certificate_path = config.tls_key_path = "file";

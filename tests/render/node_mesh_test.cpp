@@ -30,9 +30,9 @@ ForestShape shape_of(float voxel_m) {
   return {levels, 16.0F * voxel_m, 64.0F * voxel_m, 280.0F * voxel_m, -20.0F, 36.0F};
 }
 
-class World {
+class MeshedWorld {
  public:
-  World(Polygoniser polygoniser, float voxel_m)
+  MeshedWorld(Polygoniser polygoniser, float voxel_m)
       : polygoniser_(polygoniser), field_(TerrainSource{TerrainKind::canyon, 1, voxel_m}) {}
 
   float voxel_m() const { return field_.source().voxel_size_m; }
@@ -108,14 +108,14 @@ class World {
 };
 
 void expect_watertight(Polygoniser polygoniser, int edits, int every, float voxel_m) {
-  World world(polygoniser, voxel_m);
+  MeshedWorld world(polygoniser, voxel_m);
   Random random(17);
   for (int edit = 1; edit <= edits; ++edit) {
     world.edit(random);
     if (edit % every != 0) continue;
     const float within_m = 80.0F * voxel_m;
     world.set_eye({random.unit() * within_m, random.unit() * 16.0F, random.unit() * within_m});
-    const World::Leaks leaks = world.mesh_all();
+    const MeshedWorld::Leaks leaks = world.mesh_all();
     EXPECT_EQ(leaks.open, 0U) << "of " << leaks.edges << " edges, after edit " << edit;
     EXPECT_EQ(leaks.triangles_of_level.size(), static_cast<size_t>(levels));
     for (const auto& [level, triangles] : leaks.triangles_of_level)
