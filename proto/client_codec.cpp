@@ -124,6 +124,34 @@ RepairMessage read(const wire::Repair& from, FieldChecker& check) {
   return repair;
 }
 
+/// The requests about props, pieces and joints.
+template <typename Checked>
+Result<ClientMessage> read_about_bodies(const wire::ClientMessage& from, FieldChecker& check,
+                                        const Checked& checked) {
+  switch (from.kind_case()) {
+    case wire::ClientMessage::kAddProp:
+      return checked(read(from.add_prop(), check));
+    case wire::ClientMessage::kRemoveProp:
+      return checked(read(from.remove_prop(), check));
+    case wire::ClientMessage::kMoveProp:
+      return checked(read(from.move_prop(), check));
+    case wire::ClientMessage::kPush:
+      return checked(read(from.push(), check));
+    case wire::ClientMessage::kBreak:
+      return checked(read(from.break_(), check));
+    case wire::ClientMessage::kBlast:
+      return checked(read(from.blast(), check));
+    case wire::ClientMessage::kAddJoint:
+      return checked(read(from.add_joint(), check));
+    case wire::ClientMessage::kRemoveJoint:
+      return checked(read(from.remove_joint(), check));
+    case wire::ClientMessage::kSetMotor:
+      return checked(read(from.set_motor(), check));
+    default:
+      return UnknownMessage{};
+  }
+}
+
 }  // namespace
 
 std::vector<uint8_t> encode(const ClientMessage& message) {
@@ -181,23 +209,15 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
     case wire::ClientMessage::kAddProp:
-      return checked(read(from.add_prop(), check));
     case wire::ClientMessage::kRemoveProp:
-      return checked(read(from.remove_prop(), check));
     case wire::ClientMessage::kMoveProp:
-      return checked(read(from.move_prop(), check));
     case wire::ClientMessage::kPush:
-      return checked(read(from.push(), check));
     case wire::ClientMessage::kBreak:
-      return checked(read(from.break_(), check));
     case wire::ClientMessage::kBlast:
-      return checked(read(from.blast(), check));
     case wire::ClientMessage::kAddJoint:
-      return checked(read(from.add_joint(), check));
     case wire::ClientMessage::kRemoveJoint:
-      return checked(read(from.remove_joint(), check));
     case wire::ClientMessage::kSetMotor:
-      return checked(read(from.set_motor(), check));
+      return read_about_bodies(from, check, checked);
     case wire::ClientMessage::kQuery:
       return checked(read(from.query(), check));
     case wire::ClientMessage::kAdmin:

@@ -146,7 +146,7 @@ class Mirror {
   void apply_patches(const std::vector<BrickPatch>& patches, ChunkSet& changed, MirrorChanges& changes);
   Result<void> apply_transforms(const std::vector<uint8_t>& packed, Tick tick);
   Result<void> apply_motions(const std::vector<uint8_t>& motions, Tick tick);
-  /// Of a piece or a prop; null: it is not known here.
+  /// What a piece or a prop has; null: it is not known here.
   BetweenPoses* find_moving(PieceId id);
   void move(BetweenPoses& motion, const Pose& to, Tick tick) const;
   Result<void> apply_chunk(const ChunkMessage& message, MirrorChanges& changes);

@@ -13,7 +13,7 @@ struct Rock {
 
 uniform highp sampler2D u_materials;
 
-// Of what was made as it is, such as a barrel: none of its faces is broken, whichever way it looks.
+// What was made as it is, such as a barrel, has no broken faces, whichever way it looks.
 bool is_whole = false;
 
 // As shared/material/palette.h numbers them.

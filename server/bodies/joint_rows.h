@@ -68,7 +68,7 @@ class JointRows {
   /// Measures force and torque. The bodies in the solver are not used from here on.
   void finish(float step_s);
 
-  /// Of the last step that solved it, without the motor's.
+  /// In the last step that solved it, without the motor's.
   float force_n() const { return force_n_; }
   float torque_nm() const { return torque_nm_; }
   /// Whether these break it.

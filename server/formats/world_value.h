@@ -54,7 +54,7 @@ struct BodyShape {
   /// Convex parts that collide with other bodies, for a large concave piece: each has corners as `hull_m`
   /// has. Empty: the hull collides.
   std::vector<std::vector<glm::vec3>> parts_m{};
-  /// Of each of parts_m, where any is rounded: the radius of a ball that goes around its points, which may be
+  /// For each of parts_m, where any is rounded: the radius of a ball that goes around its points, which may be
   /// fewer than four then; 0: it is as it is.
   std::vector<float> part_radii_m{};
   BodyNature nature{};

@@ -8,7 +8,7 @@
 namespace scree {
 
 /// Radius of the ball about the centre in which the blast breaks all rock: the energy that this takes, from
-/// the middle outward, is the blast's; but no farther than a half ball of that ground would reach, because
+/// the middle outward, is the blast's. It is no farther than a half ball of that ground would reach, because
 /// what goes off in the air breaks little. Nothing: there is no rock so near.
 std::optional<float> blast_radius_m(const World::State& state, const BlastRequest& blast);
 

@@ -5,7 +5,7 @@
 
 namespace scree {
 
-/// Of each pair the hardest, at least limits::contact_event_min_j, the hardest first, at most
+/// The hardest of each pair, at least limits::contact_event_min_j, the hardest first, at most
 /// limits::contact_events_max. Call after the bodies' step.
 std::vector<ContactEvent> contacts_of_props(const World::State& state);
 

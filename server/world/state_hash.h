@@ -20,7 +20,7 @@ struct HashedState {
   uint64_t joints = 0;  ///< the same of the joints
 };
 
-/// Of what a prop is, and whose. Its motion is the bodies'.
+/// The hash of what a prop is, and whose. Its motion is the bodies'.
 uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner);
 
 /// The same of a joint.

@@ -5,7 +5,7 @@
 // terrain consistent with it.
 //
 // Invariants between stages: a piece has a volume in `pieces`, a body, and traits, or none of them; a prop
-// has a body; a joint is one of the bodies', too; ids below next_piece are used up; the ledger's sum is
+// has a body; a joint is one of the bodies', too. Ids below next_piece are used up; the ledger's sum is
 // right.
 #pragma once
 

@@ -11,7 +11,7 @@ namespace scree {
 
 /// Energy that it takes to throw out a cubic metre of loose ground, and the share of a material's hardness
 /// (MaterialRow::dent_resistance_j_m3) that it takes besides to break it. So a kilogram of TNT, 4.2 MJ, makes
-/// a crater of 2 m³ in soil and of 0.6 m³ in rock, and benches of rock, which break to the open side, need
+/// a crater of 2 m³ in soil and of 0.6 m³ in rock. Benches of rock, which break to the open side, need
 /// 0.3 to 0.6 kg of explosive a cubic metre (P. Darling, ed., SME Mining Engineering Handbook, 2011, 9.2).
 inline constexpr float blast_loosening_j_m3 = 2e6F, blast_hardness_share = 0.1F;
 
@@ -31,7 +31,7 @@ inline bool is_blast_energy(float energy_j) {
   return energy_j >= blast_energy_min_j && energy_j <= blast_energy_max_j;
 }
 
-/// The farthest that a blast breaks anything: the radius of its crater in loose ground. Of an energy that no
+/// The farthest that a blast breaks anything: the radius of its crater in loose ground. An energy that no
 /// blast has, as of the least.
 inline float blast_reach_m(float energy_j) {
   const float sound_j = is_blast_energy(energy_j) ? energy_j : blast_energy_min_j;

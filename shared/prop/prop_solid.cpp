@@ -41,7 +41,7 @@ bool is_ring(PropPartKind kind) {
   return kind == PropPartKind::capsule || kind == PropPartKind::cylinder;
 }
 
-/// Of a part in its own axes.
+/// For a part in its own axes.
 struct Measured {
   float volume_m3 = 0.0F;
   glm::vec3 middle_m{0.0F};

@@ -101,7 +101,7 @@ size_t farthest(std::span<const glm::dvec3> points, const glm::dvec3& direction)
   return best;
 }
 
-/// Of two hulls, the first of which is moved by `by`. Nothing where they meet.
+/// Two hulls, the first of which is moved by `by`. Nothing where they meet.
 std::optional<Simplex> nearest_difference(std::span<const glm::dvec3> first, const glm::dvec3& by,
                                           std::span<const glm::dvec3> second, uint32_t& steps) {
   constexpr double close_enough = 1e-12;

@@ -7,7 +7,7 @@
 // most that it can cost. Every answer tells what it cost. Reading generates ground that nobody read before,
 // which costs more than all else (QueryCost::chunks). All lengths in metres, world axes.
 //
-// Of two things hit at the same distance the terrain comes first, then the smaller id. A start that lies in
+// Among things hit at the same distance the terrain comes first, then the smaller id. A start that lies in
 // rock or in a body hits it at 0 (`inside`). A ray from a place on a surface hits it only where it goes in,
 // and a ball that touches a surface may leave it. A hit's place is rounded to floats: a ray back from it
 // starts a little out along the normal.

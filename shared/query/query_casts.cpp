@@ -23,7 +23,7 @@ namespace {
 
 /// So much beyond the best one a solid may be hit and yet be as near, units of its frame: rounding.
 constexpr double as_near = 1e-9;
-/// Of bodies, metres.
+/// Where bodies are, metres.
 constexpr double body_slack_m = 1.0 / 65536.0;
 
 /// One cast: its mover in metres; a radius of 0 makes it a ray.
@@ -76,7 +76,7 @@ class Caster {
     take(kind, id, 0.0, mover_.line.from, -mover_.line.unit, true);
   }
 
-  /// Of polygons, in a frame of voxels.
+  /// Where polygons are, in a frame of voxels.
   std::optional<SweptHit> first_of_polygons(CellSource& cells, const Mover& mover, double most) {
     if (mover.radius > 0.0) return first_of_mover(cells, mover, most, steps_);
     if (is_in_rock(cells, mover.line.from, steps_)) return SweptHit{{}, true};

@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// Of a later release: asked for nothing that this one knows.
+/// A later release has it: asked for nothing that this one knows.
 struct UnknownQuestion {
   bool operator==(const UnknownQuestion&) const = default;
 };
@@ -95,7 +95,7 @@ struct Question {
   bool operator==(const Question&) const = default;
 };
 
-/// Of casts and the nearest surface; of overlaps; whether a place is solid; of a box's content; of the bodies
+/// Answers to casts and the nearest surface; to overlaps; whether a place is solid; of a box's content; of the bodies
 /// in a box.
 using QuestionAnswer = std::variant<std::optional<Hit>, Overlapping, bool, BoxContent, std::vector<PieceId>>;
 
@@ -105,10 +105,10 @@ Result<void> validate(const Question& question);
 /// Asks. The cost is as the function says.
 QueryResult<QuestionAnswer> ask(const QueryScene& scene, const Question& question);
 
-/// How far from a place the question reaches at most. Of one that validate() has passed.
+/// How far from a place the question reaches at most. validate() has passed it.
 double reach_from(const Question& question, const glm::dvec3& place_m);
 
-/// A box around all that decides the answer. Of one that validate() has passed.
+/// A box around all that decides the answer. validate() has passed it.
 SpaceBox bounds_of(const Question& question);
 
 }  // namespace scree

@@ -53,7 +53,7 @@ class QueryScene {
   const SolidTree& tree() const { return tree_; }
   const SolidFrame& frame(size_t index) const { return frames_[index]; }
   FieldCells& terrain() const { return terrain_; }
-  /// Of a piece.
+  /// A piece has them.
   VolumeCells& cells(size_t index) const;
 
  private:

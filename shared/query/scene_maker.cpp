@@ -21,7 +21,7 @@ void SceneMaker::begin(size_t bodies) {
   solids_.reserve(bodies);
   parts_.clear();
   pieces_ = 0;
-  // Of props that are gone the parts stay for a while.
+  // The parts of props that are gone stay for a while.
   constexpr size_t spare = 256;
   if (known_.size() > 2 * bodies + spare) known_.clear();
 }

@@ -2,7 +2,7 @@
 //
 // The ray walks over the layers of cells along its longest axis, and tests the polygons in the cells that it
 // comes within 1/4096 voxel of. Blocks of 8³ cells without surface cost one look. Corners are projected along
-// the ray onto multiples of 2^-20 voxel, where which side of an edge the ray passes is decided in integers,
+// the ray onto multiples of 2^-20 voxel. There, which side of an edge the ray passes is decided in integers,
 // the same for both triangles of the edge (after Woop, Benthin and Wald 2013): no ray slips through between
 // triangles. Units: voxels. + − × ÷ and sqrt alone.
 #pragma once
@@ -39,7 +39,7 @@ std::optional<std::pair<double, double>> line_within(const VoxelBox* bounds, dou
 /// the polygon's, out of the rock. `steps` counts the blocks and polygons that were looked at.
 std::optional<SurfaceHit> first_on_line(CellSource& cells, const Line& line, double most, uint32_t& steps);
 
-/// Whether a place is on the rock's side of the polygons. Of places on a polygon, either.
+/// Whether a place is on the rock's side of the polygons. Places on a polygon may have either.
 bool is_in_rock(CellSource& cells, glm::dvec3 place, uint32_t& steps);
 
 }  // namespace scree

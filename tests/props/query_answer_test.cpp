@@ -45,7 +45,7 @@ std::vector<Question> questions_about(glm::vec3 place_m, uint32_t seed) {
   Random random(seed);
   const auto part = [&] { return random.unit() * 2.0F - 1.0F; };
   std::vector<Question> questions;
-  for (int i = 0; i < 9; ++i) {
+  for (int i = 0; i < 3; ++i) {
     const float x = part(), y = part(), z = part();
     const glm::vec3 at = place_m + 6.0F * glm::vec3(x, 0.4F * y, z);
     const glm::vec3 unit = glm::normalize(glm::vec3(z, x - 0.8F, y) + glm::vec3(0.0F, 0.001F, 0.0F));

@@ -180,7 +180,9 @@ inline Lines describe(const CursorMessage& m) {
   return {fmt::format("cursor: eye {}, aim {}", words(m.eye_m), words(m.aim_m))};
 }
 inline Lines describe(const PhysicsSubscriptionMessage& m) {
-  return {fmt::format("watch: physics {}", m.physics)};
+  const std::string contacts =
+      m.contacts_j > 0.0F ? fmt::format(", contacts of {} J and more", m.contacts_j) : "";
+  return {fmt::format("watch: physics {}{}", m.physics, contacts)};
 }
 inline Lines describe(const SayMessage& m) {
   return {fmt::format("say: '{}'", m.text)};

@@ -89,7 +89,7 @@ class Props : public OffscreenTest, public testing::WithParamInterface<std::stri
     }
     return image;
   }
-  /// Of a place in the world.
+  /// The pixel at which a place in the world is drawn.
   std::array<int, 2> pixel_of(glm::vec3 above_ground_m) const {
     const glm::vec3 off = above_ground_m + glm::vec3(0.0F, ground_m_, 0.0F) - camera_.eye_m;
     const float scale = 0.5F * height / (std::tan(camera_.field_of_view * 0.5F) * -off.z);

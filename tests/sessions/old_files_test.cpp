@@ -74,6 +74,16 @@ const std::vector<OldFiles>& old_files() {
        0x61957F713B65D4BA,
        0x843344DF45FC3BF4,
        true,
+       false},
+      {"format_4",
+       "hills",
+       "scree-server 0.2.0",
+       "3789ee47b86fbddc90db3458edcca89ed71a599d2959dd6b7cded9ace17916bc",
+       {"hills.scree", "hills_cut.scree"},
+       119,
+       0x04297E4806BDE10E,
+       0xC57CAA1B6BA96C71,
+       true,
        true}};
   return all;
 }

@@ -55,7 +55,7 @@ Result<Request> addition_of(const PropWords& words, const AdminServer& server) {
 }
 
 CLI::Option* add_vector(CLI::App* command, const char* name, std::array<float, 3>& to, const char* what) {
-  return command->add_option(name, to, what)->expected(3);
+  return command->add_option(name, to, what);
 }
 
 }  // namespace
