@@ -26,31 +26,27 @@ MaterialLook even_look(std::array<float, 3> colour) {
 }
 
 /// The built-in palette, with two rows of these colours.
-std::shared_ptr<const Palette> two_colours(std::array<float, 3> first,
-                                           std::array<float, 3> second) {
+std::shared_ptr<const Palette> two_colours(std::array<float, 3> first, std::array<float, 3> second) {
   auto palette = std::make_shared<Palette>(builtin_palette());
   palette->rows[row_number(scarlet)].look = even_look(first);
   palette->rows[row_number(azure)].look = even_look(second);
   return palette;
 }
-constexpr std::array<float, 3> deep_red{0.7F, 0.02F, 0.02F},
-    deep_blue{0.02F, 0.05F, 0.8F};
+constexpr std::array<float, 3> deep_red{0.7F, 0.02F, 0.02F}, deep_blue{0.02F, 0.05F, 0.8F};
 
-bool is_red(const Image &image, int x, int y) {
-  const uint8_t *pixel =
-      &image.rgb[static_cast<size_t>(3 * (y * image.width + x))];
+bool is_red(const Image& image, int x, int y) {
+  const uint8_t* pixel = &image.rgb[static_cast<size_t>(3 * (y * image.width + x))];
   return pixel[0] > 2 * pixel[1] && pixel[0] > 2 * pixel[2];
 }
-bool is_blue(const Image &image, int x, int y) {
-  const uint8_t *pixel =
-      &image.rgb[static_cast<size_t>(3 * (y * image.width + x))];
+bool is_blue(const Image& image, int x, int y) {
+  const uint8_t* pixel = &image.rgb[static_cast<size_t>(3 * (y * image.width + x))];
   return pixel[2] > 2 * pixel[0] && pixel[2] > 3 * pixel[1] / 2;
 }
-template <typename Is> size_t pixels(const Image &image, const Is &is) {
+template <typename Is>
+size_t pixels(const Image& image, const Is& is) {
   size_t count = 0;
   for (int y = 0; y < image.height; ++y)
-    for (int x = 0; x < image.width; ++x)
-      count += is(image, x, y) ? 1 : 0;
+    for (int x = 0; x < image.width; ++x) count += is(image, x, y) ? 1 : 0;
   return count;
 }
 
@@ -67,14 +63,12 @@ PropPart box_of(glm::vec3 half_m, glm::vec3 place_m = glm::vec3(0.0F)) {
 
 /// Flat ground before the camera, which stands at its usual place and looks
 /// level.
-class Props : public OffscreenTest,
-              public testing::WithParamInterface<std::string> {
-protected:
+class Props : public OffscreenTest, public testing::WithParamInterface<std::string> {
+ protected:
   Props() : OffscreenTest(GetParam(), {TerrainKind::flat, 3, 0.25F}, 16.0F) {}
   void SetUp() override {
     OffscreenTest::SetUp();
-    if (method_ == nullptr)
-      return;
+    if (method_ == nullptr) return;
     renderer_->set_terrain(field_.source());
     renderer_->set_palette(two_colours(deep_red, deep_blue));
     ground_m_ = ground_height_m(field_.source(), 0.0F, 0.0F);
@@ -82,32 +76,23 @@ protected:
     camera_.pitch = 0.0F;
     finish();
   }
-  void put(PieceId id, const Prop &prop, glm::vec3 above_ground_m,
-           glm::quat turn = unturned) {
+  void put(PieceId id, const Prop& prop, glm::vec3 above_ground_m, glm::quat turn = unturned) {
     const auto known = props_.find(id);
-    const auto shared = known == props_.end()
-                            ? std::make_shared<const Prop>(prop)
-                            : known->second.prop;
-    props_[id] = {shared,
-                  {above_ground_m + glm::vec3(0.0F, ground_m_, 0.0F), turn}};
+    const auto shared = known == props_.end() ? std::make_shared<const Prop>(prop) : known->second.prop;
+    props_[id] = {shared, {above_ground_m + glm::vec3(0.0F, ground_m_, 0.0F), turn}};
   }
-  Image show(const std::string &name) {
+  Image show(const std::string& name) {
     EXPECT_TRUE(renderer_->set_props(props_));
     const Image image = draw();
-    if (const char *folder = std::getenv("SCREE_PICTURES"))
-      EXPECT_TRUE(write_png(std::string(folder) + "/props_" + GetParam() + "_" +
-                                name + ".png",
-                            image));
+    if (const char* folder = std::getenv("SCREE_PICTURES"))
+      EXPECT_TRUE(write_png(std::string(folder) + "/props_" + GetParam() + "_" + name + ".png", image));
     return image;
   }
   /// Of a place in the world.
   std::array<int, 2> pixel_of(glm::vec3 above_ground_m) const {
-    const glm::vec3 off =
-        above_ground_m + glm::vec3(0.0F, ground_m_, 0.0F) - camera_.eye_m;
-    const float scale =
-        0.5F * height / (std::tan(camera_.field_of_view * 0.5F) * -off.z);
-    return {static_cast<int>(0.5F * width + off.x * scale),
-            static_cast<int>(0.5F * height - off.y * scale)};
+    const glm::vec3 off = above_ground_m + glm::vec3(0.0F, ground_m_, 0.0F) - camera_.eye_m;
+    const float scale = 0.5F * height / (std::tan(camera_.field_of_view * 0.5F) * -off.z);
+    return {static_cast<int>(0.5F * width + off.x * scale), static_cast<int>(0.5F * height - off.y * scale)};
   }
 
   SceneProps props_;
@@ -128,17 +113,14 @@ TEST_P(Props, have_the_colour_of_their_row_where_they_are) {
     const auto [column, row] = pixel_of({x, 1.0F, 0.5F});
     EXPECT_TRUE(is_blue(image, column, row)) << x;
   }
-  const float metre = static_cast<float>(pixel_of({1.0F, 1.0F, 0.5F})[0] -
-                                         pixel_of({0.0F, 1.0F, 0.5F})[0]);
-  EXPECT_NEAR(static_cast<float>(pixels(image, is_red)), metre * metre,
-              0.2F * metre * metre);
-  EXPECT_NEAR(static_cast<float>(pixels(image, is_blue)), 0.5F * metre * metre,
-              0.25F * metre * metre);
+  const float metre = static_cast<float>(pixel_of({1.0F, 1.0F, 0.5F})[0] - pixel_of({0.0F, 1.0F, 0.5F})[0]);
+  EXPECT_NEAR(static_cast<float>(pixels(image, is_red)), metre * metre, 0.2F * metre * metre);
+  EXPECT_NEAR(static_cast<float>(pixels(image, is_blue)), 0.5F * metre * metre, 0.25F * metre * metre);
 
   renderer_->set_palette(two_colours(deep_blue, deep_red));
   const Image swapped = show("swapped");
-  EXPECT_NEAR(static_cast<float>(pixels(swapped, is_blue)),
-              static_cast<float>(pixels(image, is_red)), 120.0F);
+  EXPECT_NEAR(static_cast<float>(pixels(swapped, is_blue)), static_cast<float>(pixels(image, is_red)),
+              120.0F);
 }
 
 TEST_P(Props, move_turn_and_go) {
@@ -147,12 +129,10 @@ TEST_P(Props, move_turn_and_go) {
   put(3, plank, {0.0F, 1.5F, 0.0F});
   const Image first = show("plank");
   EXPECT_GT(differing_pixels(first, bare, 24), 100U);
-  const auto right = pixel_of({0.8F, 1.5F, 0.3F}),
-             above = pixel_of({0.0F, 2.2F, 0.3F});
+  const auto right = pixel_of({0.8F, 1.5F, 0.3F}), above = pixel_of({0.0F, 2.2F, 0.3F});
   EXPECT_TRUE(is_red(first, right[0], right[1]));
   EXPECT_FALSE(is_red(first, above[0], above[1]));
-  put(3, plank, {0.0F, 1.5F, 0.0F},
-      glm::angleAxis(1.5707963F, glm::vec3(0.0F, 0.0F, 1.0F)));
+  put(3, plank, {0.0F, 1.5F, 0.0F}, glm::angleAxis(1.5707963F, glm::vec3(0.0F, 0.0F, 1.0F)));
   const Image upright = show("plank_upright");
   EXPECT_FALSE(is_red(upright, right[0], right[1]));
   EXPECT_TRUE(is_red(upright, above[0], above[1]));
@@ -176,22 +156,17 @@ TEST_P(Props, another_prop_of_the_same_number_takes_its_place) {
 
 TEST_P(Props, are_of_all_their_parts) {
   std::vector<PropPart> parts{box_of({0.8F, 0.1F, 0.1F}, {0.0F, 0.5F, 0.0F})};
-  parts.push_back({.kind = PropPartKind::sphere,
-                   .place_m = {-0.6F, -0.2F, 0.0F},
-                   .half_m = glm::vec3(0.25F)});
   parts.push_back(
-      {.kind = PropPartKind::cylinder,
-       .place_m = {0.6F, -0.2F, 0.0F},
-       .turn = glm::angleAxis(1.5707963F, glm::vec3(0.0F, 0.0F, 1.0F)),
-       .half_m = {0.1F, 0.3F, 0.0F}});
+      {.kind = PropPartKind::sphere, .place_m = {-0.6F, -0.2F, 0.0F}, .half_m = glm::vec3(0.25F)});
+  parts.push_back({.kind = PropPartKind::cylinder,
+                   .place_m = {0.6F, -0.2F, 0.0F},
+                   .turn = glm::angleAxis(1.5707963F, glm::vec3(0.0F, 0.0F, 1.0F)),
+                   .half_m = {0.1F, 0.3F, 0.0F}});
+  parts.push_back({.kind = PropPartKind::capsule, .half_m = {0.1F, 0.2F, 0.0F}});
   parts.push_back(
-      {.kind = PropPartKind::capsule, .half_m = {0.1F, 0.2F, 0.0F}});
-  parts.push_back({.kind = PropPartKind::hull,
-                   .place_m = {0.0F, -0.7F, 0.0F},
-                   .corners_m = {{-0.4F, 0.0F, 0.2F},
-                                 {0.4F, 0.0F, 0.2F},
-                                 {0.0F, 0.3F, 0.2F},
-                                 {0.0F, 0.0F, -0.3F}}});
+      {.kind = PropPartKind::hull,
+       .place_m = {0.0F, -0.7F, 0.0F},
+       .corners_m = {{-0.4F, 0.0F, 0.2F}, {0.4F, 0.0F, 0.2F}, {0.0F, 0.3F, 0.2F}, {0.0F, 0.0F, -0.3F}}});
   put(3, of(scarlet, std::move(parts)), {0.0F, 1.5F, 0.0F});
   const Image image = show("parts");
   for (const glm::vec3 at : {glm::vec3(0.7F, 2.0F, 0.1F),
@@ -202,11 +177,9 @@ TEST_P(Props, are_of_all_their_parts) {
     const auto [column, row] = pixel_of(at);
     EXPECT_TRUE(is_red(image, column, row)) << at.x << " " << at.y;
   }
-  for (const glm::vec3 at :
-       {glm::vec3(0.3F, 1.5F, 0.0F), {-0.3F, 1.0F, 0.0F}, {0.6F, 1.6F, 0.1F}}) {
+  for (const glm::vec3 at : {glm::vec3(0.3F, 1.5F, 0.0F), {-0.3F, 1.0F, 0.0F}, {0.6F, 1.6F, 0.1F}}) {
     const auto [column, row] = pixel_of(at);
-    EXPECT_FALSE(is_red(image, column, row))
-        << at.x << " " << at.y << " is between its parts";
+    EXPECT_FALSE(is_red(image, column, row)) << at.x << " " << at.y << " is between its parts";
   }
 }
 
@@ -219,9 +192,8 @@ TEST_P(Props, are_hidden_by_ground_and_cast_a_shadow_on_it) {
   put(3, of(scarlet, {box_of({0.6F, 0.1F, 0.6F})}), {1.0F, 2.0F, 2.0F});
   const Image shaded = show("shadow");
   const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
-  const auto [column, row] =
-      pixel_of(glm::vec3(1.0F, 2.0F, 2.0F) - sun * (2.0F / sun.y));
-  const auto brightness = [&](const Image &image) {
+  const auto [column, row] = pixel_of(glm::vec3(1.0F, 2.0F, 2.0F) - sun * (2.0F / sun.y));
+  const auto brightness = [&](const Image& image) {
     const auto at = 3 * static_cast<size_t>(row * width + column);
     return image.rgb[at] + image.rgb[at + 1] + image.rgb[at + 2];
   };
@@ -230,31 +202,26 @@ TEST_P(Props, are_hidden_by_ground_and_cast_a_shadow_on_it) {
 
 std::vector<std::string> every_method() {
   std::vector<std::string> names;
-  for (const MethodEntry &entry : all_methods())
-    names.emplace_back(entry.name);
+  for (const MethodEntry& entry : all_methods()) names.emplace_back(entry.name);
   return names;
 }
 INSTANTIATE_TEST_SUITE_P(methods, Props, testing::ValuesIn(every_method()),
-                         [](const auto &tested) { return tested.param; });
+                         [](const auto& tested) { return tested.param; });
 
 /// Where a picture shows the prop and not the ground.
 class PropSilhouettes : public OffscreenTest {
-protected:
-  PropSilhouettes()
-      : OffscreenTest("mesh", {TerrainKind::canyon, 1, 0.25F}, 16.0F) {}
+ protected:
+  PropSilhouettes() : OffscreenTest("mesh", {TerrainKind::canyon, 1, 0.25F}, 16.0F) {}
 
   /// Pixels of what is nearer with props than without, by that method.
-  std::vector<bool> silhouette(std::string_view method,
-                               const SceneProps &props) {
+  std::vector<bool> silhouette(std::string_view method, const SceneProps& props) {
     method_name_ = method;
     method_ = make_method();
     finish();
     EXPECT_TRUE(renderer_->set_props({}));
-    const Result<DepthImage> bare =
-        renderer_->draw_depths(*method_, camera_, width, height);
+    const Result<DepthImage> bare = renderer_->draw_depths(*method_, camera_, width, height);
     EXPECT_TRUE(renderer_->set_props(props));
-    const Result<DepthImage> shown =
-        renderer_->draw_depths(*method_, camera_, width, height);
+    const Result<DepthImage> shown = renderer_->draw_depths(*method_, camera_, width, height);
     EXPECT_TRUE(bare && shown);
     std::vector<bool> mask;
     if (bare && shown)
@@ -269,30 +236,26 @@ TEST_F(PropSilhouettes, agree_between_methods) {
   camera_.eye_m = {8.0F, ground_m + 2.5F, 6.0F};
   camera_.pitch = -0.25F;
   SceneProps props;
-  const auto put = [&](PieceId id, const Prop &prop, glm::vec3 off_m) {
-    props[id] = {std::make_shared<const Prop>(prop),
-                 {glm::vec3(8.0F, ground_m, 0.0F) + off_m,
-                  glm::normalize(glm::quat(0.9F, 0.2F, 0.3F, 0.1F))}};
+  const auto put = [&](PieceId id, const Prop& prop, glm::vec3 off_m) {
+    props[id] = {
+        std::make_shared<const Prop>(prop),
+        {glm::vec3(8.0F, ground_m, 0.0F) + off_m, glm::normalize(glm::quat(0.9F, 0.2F, 0.3F, 0.1F))}};
   };
   put(1, crate(0.5F), {-1.2F, 0.6F, 0.0F});
   put(2, ball(0.5F, 100.0F), {0.3F, 1.2F, 0.0F});
-  put(3,
-      of(azure,
-         {{.kind = PropPartKind::cylinder, .half_m = {0.4F, 0.6F, 0.0F}}}),
-      {1.6F, 0.2F, 0.5F});
+  put(3, of(azure, {{.kind = PropPartKind::cylinder, .half_m = {0.4F, 0.6F, 0.0F}}}), {1.6F, 0.2F, 0.5F});
   const std::vector<bool> first = silhouette("mesh", props);
   const auto covered = static_cast<size_t>(std::ranges::count(first, true));
   EXPECT_GT(covered, 400U);
-  for (const MethodEntry &entry : all_methods()) {
+  for (const MethodEntry& entry : all_methods()) {
     const std::vector<bool> other = silhouette(entry.name, props);
     ASSERT_EQ(other.size(), first.size());
     size_t apart = 0;
-    for (size_t i = 0; i < first.size(); ++i)
-      apart += first[i] != other[i] ? 1 : 0;
+    for (size_t i = 0; i < first.size(); ++i) apart += first[i] != other[i] ? 1 : 0;
     // Their ground differs by a part of a voxel, where they stand in it.
     EXPECT_LT(apart, covered / (entry.name == "grid" ? 8 : 15)) << entry.name;
   }
 }
 
-} // namespace
-} // namespace scree
+}  // namespace
+}  // namespace scree
