@@ -57,6 +57,7 @@ class Film {
   /// Builds the scene that the configuration is of.
   void build(const SceneSetup& scene) {
     if (const Result<void> built = build_scene(world_, scene); !built) give_up(built.error().message);
+    follow_props(world_.keyframe());
   }
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) step({});
@@ -108,12 +109,15 @@ class Film {
     pieces_.clear();
     for (const PieceState& piece : delta->pieces)
       pieces_[piece.id] = {volumes_.at(piece.id), dequantise(piece.pose)};
-    for (const SpawnedProp& prop : delta->props_spawned) props_of_[prop.id] = prop.prop;
-    props_.clear();
-    for (const PieceState& prop : delta->props)
-      props_[prop.id] = {props_of_.at(prop.id), dequantise(prop.pose)};
+    follow_props(*delta);
     if (delta->physics) physics_ = delta->physics;
     dust_.add(piece_events_.step(scene(), now_s(), *world_.config().palette), now_s());
+  }
+  void follow_props(const TickDelta& delta) {
+    for (const SpawnedProp& prop : delta.props_spawned) props_of_[prop.id] = prop.prop;
+    props_.clear();
+    for (const PieceState& prop : delta.props)
+      props_[prop.id] = {props_of_.at(prop.id), dequantise(prop.pose)};
   }
   Scene scene() const { return {world_.field(), pieces_, props_}; }
   double now_s() const { return static_cast<double>(world_.tick()) / world_.config().tick_rate_hz; }
