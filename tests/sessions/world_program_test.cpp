@@ -26,7 +26,7 @@ class WorldProgramTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* name : {"hills.ground", "hills.world", "hills.scree", "hills_cut.scree"})
-      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_3" / name, folder / name);
+      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_4" / name, folder / name);
     ::setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
   }
   void TearDown() override { ::unsetenv("XDG_DATA_HOME"); }
