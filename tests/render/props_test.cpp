@@ -198,8 +198,9 @@ TEST_P(Props, are_hidden_by_ground_and_cast_a_shadow_on_it) {
     const auto at = 3 * static_cast<size_t>(row * width + column);
     return image.rgb[at] + image.rgb[at + 1] + image.rgb[at + 2];
   };
-  if (GetParam() != "raymarch")  // whose shadows are marched through the field alone
+  if (GetParam() != "raymarch") {  // whose shadows are marched through the field alone
     EXPECT_LT(brightness(shaded), brightness(bare) * 8 / 10);
+  }
 }
 
 std::vector<std::string> every_method() {
