@@ -54,8 +54,8 @@ struct BodyShape {
   /// Convex parts that collide with other bodies, for a large concave piece: each has corners as `hull_m`
   /// has. Empty: the hull collides.
   std::vector<std::vector<glm::vec3>> parts_m{};
-  /// For each of parts_m, where any is rounded: the radius of a ball that goes around its points, which may be
-  /// fewer than four then; 0: it is as it is.
+  /// For each of parts_m, where any is rounded: the radius of a ball that goes around its points, which may
+  /// be fewer than four then; 0: it is as it is.
   std::vector<float> part_radii_m{};
   BodyNature nature{};
   glm::vec3 centre_m{0.0F};   ///< the centre of mass, from the volume's centre, in the volume's axes

@@ -95,8 +95,8 @@ struct Question {
   bool operator==(const Question&) const = default;
 };
 
-/// Answers to casts and the nearest surface; to overlaps; whether a place is solid; of a box's content; of the bodies
-/// in a box.
+/// Answers to casts and the nearest surface; to overlaps; whether a place is solid; of a box's content; of
+/// the bodies in a box.
 using QuestionAnswer = std::variant<std::optional<Hit>, Overlapping, bool, BoxContent, std::vector<PieceId>>;
 
 /// Refuses what the function would refuse, and what is unknown.
