@@ -193,9 +193,9 @@ TEST_P(Props, are_hidden_by_ground_and_cast_a_shadow_on_it) {
   put(3, of(scarlet, {box_of({0.6F, 0.1F, 0.6F})}), {1.0F, 2.0F, 2.0F});
   const Image shaded = show("shadow");
   const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
-  const auto [column, row] = pixel_of(glm::vec3(1.0F, 2.0F, 2.0F) - sun * (2.0F / sun.y));
+  const auto foot = pixel_of(glm::vec3(1.0F, 2.0F, 2.0F) - sun * (2.0F / sun.y));
   const auto brightness = [&](const Image& image) {
-    const auto at = 3 * static_cast<size_t>(row * width + column);
+    const auto at = 3 * static_cast<size_t>(foot.second * width + foot.first);
     return image.rgb[at] + image.rgb[at + 1] + image.rgb[at + 2];
   };
   if (GetParam() != "raymarch") {  // whose shadows are marched through the field alone
