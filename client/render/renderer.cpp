@@ -226,6 +226,7 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
                    reach_m,
                    nowhere_in_shadow(),
                    shadows ? shadows->texture() : 0,
+                   props.count() > 0,
                    materials.texture(),
                    images.texture(),
                    layers,

@@ -2,7 +2,7 @@ uniform usampler2D u_tiles;
 uniform int u_tile;
 uniform float u_pixel;  // metres a pixel covers at one metre
 uniform mat4 u_view_projection;
-uniform bool u_pieces;  // there are some, and the shadow map is theirs
+uniform bool u_bodies;  // there are pieces or props, and the shadow map is theirs
 in vec3 v_direction;
 out vec4 o_colour;
 
@@ -40,6 +40,6 @@ void main() {
   float sunlight = max(dot(rock.normal, u_sun), 0.0);
   float voxel = 1.0 / u_voxels_per_m[hit.level];
   if (sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel), u_sun, hit.level);
-  if (u_pieces && sunlight > 0.0) sunlight *= lit(world, normal);
+  if (u_bodies && sunlight > 0.0) sunlight *= lit(world, normal);
   o_colour = vec4(tone(in_fog(lit_rock(rock, rock.normal, open * rock.open, sunlight, -direction), world, hit.along)), 1.0);
 }

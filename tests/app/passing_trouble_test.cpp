@@ -128,6 +128,8 @@ TEST_F(PassingTroubleTest, a_world_that_stays_held_ends_the_server_with_words_an
 TEST_F(PassingTroubleTest, a_world_that_nobody_touched_is_not_lost_while_its_file_is_held) {
   start();
   ASSERT_TRUE(server->step_once());
+  // The first tick has the settings.
+  ASSERT_TRUE(steps_until([&] { return server->report().saving.saved_tick >= 1; }));
   auto holder = Database::open(world_path);
   ASSERT_TRUE(holder && holder->execute("BEGIN EXCLUSIVE").has_value());
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(server->step_once());

@@ -12,6 +12,7 @@
 #include "server/replay/replay_source.h"
 #include "server/store/database.h"
 #include "server/store/world_file.h"
+#include "shared/base/regular_file.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_folder.h"
 

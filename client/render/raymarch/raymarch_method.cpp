@@ -173,7 +173,7 @@ void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse,
   program.set("u_inverse_view_projection", inverse);
   program.set("u_view_projection", pass.view_projection);
   set_lighting(program, pass, raymarch_shadow_unit);
-  program.set("u_pieces", pieces_.count() > 0 ? 1 : 0);
+  program.set("u_bodies", pieces_.count() > 0 || pass.lighting.props_cast ? 1 : 0);
   program.set("u_pixel", pixel);
   program.set("u_tile", MarchTargets::tile);
   program.set("u_tiles", 2);
