@@ -24,7 +24,10 @@ Result<void> Mirror::apply_joints(const JointsMessage& message, MirrorChanges& c
 
 void Mirror::forget_joint(const EndedJoint& gone, MirrorChanges& changes) {
   const auto known = joints_.find(gone.id);
-  if (known == joints_.end()) return;
+  if (known == joints_.end()) {  // it ended before it was told
+    changes.joints_removed.push_back(gone);
+    return;
+  }
   for (const JointSide* side : {&known->second.a, &known->second.b}) {
     const auto of_body = joints_of_.find(side->body);
     if (of_body == joints_of_.end()) continue;

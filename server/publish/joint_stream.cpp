@@ -26,7 +26,9 @@ void JointStream::serve(const ServedTick& tick, bool with_poses, const ClientVie
                         ServedPart& part) {
   const PublishedJoints& joints = tick.changes.state.joints();
   const std::vector<EndedJoint>& ended = tick.changes.delta.joints_removed;
-  if (told_.empty() && (joints.empty() || !with_poses)) return;
+  for (const AddedJoint& added : tick.changes.delta.joints_added)
+    if (!told_.contains(added.id)) untold_[added.id] = added.joint;
+  if (told_.empty() && untold_.empty() && (joints.empty() || !with_poses)) return;
   if (!with_poses && ended.empty()) return;
   JointsMessage message;
   const auto is_lost = [&](const auto& told) {
@@ -40,6 +42,15 @@ void JointStream::serve(const ServedTick& tick, bool with_poses, const ClientVie
     return true;
   };
   std::erase_if(told_, is_lost);
+  if (!untold_.empty()) flush(message, 1, outlet, part);  // the ids of a message ascend
+  for (const EndedJoint& end : ended) {
+    const auto untold = untold_.find(end.id);
+    if (untold == untold_.end()) continue;
+    if (knows_both(view, *untold->second)) message.gone.push_back(end);
+    untold_.erase(untold);
+    flush(message, limits::joints_a_message, outlet, part);
+  }
+  if (with_poses) untold_.clear();
   if (with_poses)
     for (const auto& [id, joint] : joints) {
       if (outlet.room_bytes() <= 0) break;

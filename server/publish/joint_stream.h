@@ -15,10 +15,14 @@ class JointStream {
   void serve(const ServedTick& tick, bool with_poses, const ClientView& view, Outlet& outlet,
              ServedPart& part);
   /// The client has no joints any more.
-  void forget() { told_.clear(); }
+  void forget() {
+    told_.clear();
+    untold_.clear();
+  }
 
  private:
-  PublishedJoints told_;  ///< as the client has them
+  PublishedJoints told_;    ///< as the client has them
+  PublishedJoints untold_;  ///< added since the last poses: whoever knows the bodies is told of their end
 };
 
 }  // namespace scree

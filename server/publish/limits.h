@@ -80,7 +80,7 @@ inline constexpr size_t query_chunks_at_once = 4;
 
 /// Seconds back that questions may ask for, and for which poses and changed bricks are kept, as questions may
 /// wait. Older: refused.
-inline constexpr double query_past_s = 0.25;
+inline constexpr double query_past_s = 0.75;
 inline constexpr double query_past_kept_s = 1.0;
 
 /// Seconds that a question waits for chunks that are out of memory. Then: refused, to be asked again.

@@ -24,6 +24,11 @@ bool is_number(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// A bound that is a whole number.
+std::string whole(double bound) {
+  return std::to_string(static_cast<int64_t>(bound));
+}
+
 CheckedRequest check_place(glm::vec3 place_m) {
   if (std::max(std::abs(place_m.x), std::abs(place_m.z)) <= limits::world_half_width_m &&
       std::abs(place_m.y) <= limits::world_half_height_m)
@@ -42,12 +47,10 @@ CheckedRequest check_speeds(glm::vec3 velocity_m_s, glm::vec3 spin_rad_s) {
   if (!is_number(velocity_m_s) || !is_number(spin_rad_s))
     return refuse(Refusal::prop_invalid, "the prop's speed is not finite");
   if (!(glm::dot(velocity_m_s, velocity_m_s) <= limits::prop_speed_max_m_s * limits::prop_speed_max_m_s))
-    return refuse(Refusal::prop_invalid, "the prop is faster than " +
-                                             std::to_string(limits::prop_speed_max_m_s) +
+    return refuse(Refusal::prop_invalid, "the prop is faster than " + whole(limits::prop_speed_max_m_s) +
                                              " m/s (limits.prop_speed_max_m_s)");
   if (!(glm::dot(spin_rad_s, spin_rad_s) <= limits::prop_spin_max_rad_s * limits::prop_spin_max_rad_s))
-    return refuse(Refusal::prop_invalid, "the prop spins faster than " +
-                                             std::to_string(limits::prop_spin_max_rad_s) +
+    return refuse(Refusal::prop_invalid, "the prop spins faster than " + whole(limits::prop_spin_max_rad_s) +
                                              " rad/s (limits.prop_spin_max_rad_s)");
   return {};
 }
@@ -99,7 +102,7 @@ CheckedRequest check(const World::State& state, const PushRequest& request) {
       !(glm::dot(request.impulse_n_s, request.impulse_n_s) <=
         limits::push_impulse_max_n_s * limits::push_impulse_max_n_s))
     return refuse(Refusal::push_invalid, "the push is no number, or of more than " +
-                                             std::to_string(limits::push_impulse_max_n_s) +
+                                             whole(limits::push_impulse_max_n_s) +
                                              " newton seconds (limits.push_impulse_max_n_s)");
   const glm::vec3 off_m = request.at_m - state.bodies.state(request.body).pose.position_m;
   const float most_m = state.bodies.reach_m(request.body) + limits::push_slack_m;
@@ -109,6 +112,9 @@ CheckedRequest check(const World::State& state, const PushRequest& request) {
 }
 
 CheckedRequest check(const World::State& state, const BreakRequest& request) {
+  if (state.props.contains(request.piece))
+    return refuse(Refusal::body_missing,
+                  "body " + std::to_string(request.piece) + " is a prop, which never breaks");
   if (!state.pieces.contains(request.piece))
     return refuse(Refusal::body_missing,
                   "there is no piece " + std::to_string(request.piece) + ": it may have become terrain");
@@ -123,8 +129,8 @@ CheckedRequest check(const World::State& /*state*/, const BlastRequest& request)
   if (!is_number(request.centre_m) || !check_place(request.centre_m))
     return refuse(Refusal::blast_invalid, "the blast's place lies outside the world");
   if (is_blast_energy(request.energy_j)) return {};
-  return refuse(Refusal::blast_invalid, "a blast has from " + std::to_string(blast_energy_min_j) + " to " +
-                                            std::to_string(blast_energy_max_j) + " J");
+  return refuse(Refusal::blast_invalid,
+                "a blast has from " + whole(blast_energy_min_j) + " to " + whole(blast_energy_max_j) + " J");
 }
 
 uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta) {

@@ -139,6 +139,23 @@ TEST(JointWire, a_mirror_has_the_joints_of_the_bodies_that_it_has) {
   EXPECT_EQ(watched.ended().back(), (EndedJoint{hinge, JointEnd::removed}));
 }
 
+TEST(JointWire, a_joint_that_breaks_before_it_is_told_is_told_as_broken) {
+  JointWorld world(rock_world());
+  const PieceId above = world.add(crate(), {0.0F, 12.0F, 0.0F});
+  Watched watched(world, 40.0F);
+  watched.steps(6);
+  Joint thread = line_between(JointKind::distance, world.frame(above), world.place_m(above), {},
+                              world.place_m(above) - glm::vec3(0.0F, 12.5F, 0.0F));
+  thread.length_m = 11.0F;
+  thread.break_force_n = 1.0F;
+  const JointId weak = world.join(thread);
+  watched.follow();
+  watched.steps(6);
+  EXPECT_TRUE(watched.mirror().joints().empty());
+  ASSERT_FALSE(watched.ended().empty());
+  EXPECT_EQ(watched.ended().back(), (EndedJoint{weak, JointEnd::broken}));
+}
+
 TEST(JointWire, a_recording_keeps_joints_and_is_verified) {
   const std::filesystem::path path =
       std::filesystem::temp_directory_path() / ("scree_joints_" + std::to_string(::getpid()) + ".scree");
