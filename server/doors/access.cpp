@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <asio/ip/address.hpp>
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "proto/limits.h"
+#include "server/doors/limits.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/token.h"
 
@@ -107,21 +109,25 @@ bool Access::is_revoked(uint64_t id) const {
 }
 
 Role role_for(const Request& request) {
-  return std::visit(Overloaded{[](const CarveRequest&) { return Role::carver; },
-                               [](const FillRequest&) { return Role::builder; },
-                               [](const PaintRequest&) { return Role::builder; },
-                               [](const SettingsRequest&) { return Role::admin; },
-                               [](const LeaveRequest&) { return Role::viewer; },
-                               [](const AddPropRequest&) { return Role::director; },
-                               [](const RemovePropRequest&) { return Role::director; },
-                               [](const MovePropRequest&) { return Role::director; },
-                               [](const PushRequest&) { return Role::carver; },
-                               [](const BreakRequest&) { return Role::carver; },
-                               [](const BlastRequest&) { return Role::carver; },
-                               [](const AddJointRequest&) { return Role::director; },
-                               [](const RemoveJointRequest&) { return Role::director; },
-                               [](const SetMotorRequest&) { return Role::director; }},
-                    request);
+  return std::visit(
+      Overloaded{
+          [](const CarveRequest&) { return Role::carver; }, [](const FillRequest&) { return Role::builder; },
+          [](const PaintRequest&) { return Role::builder; },
+          [](const SettingsRequest&) { return Role::admin; },
+          [](const LeaveRequest&) { return Role::viewer; },
+          [](const AddPropRequest&) { return Role::director; },
+          [](const RemovePropRequest&) { return Role::director; },
+          [](const MovePropRequest&) { return Role::director; },
+          [](const PushRequest& push) {
+            const float most = limits::carver_push_max_n_s;
+            const bool is_small = glm::dot(push.impulse_n_s, push.impulse_n_s) <= most * most;
+            return is_small ? Role::carver : Role::director;
+          },
+          [](const BreakRequest&) { return Role::carver; }, [](const BlastRequest&) { return Role::carver; },
+          [](const AddJointRequest&) { return Role::director; },
+          [](const RemoveJointRequest&) { return Role::director; },
+          [](const SetMotorRequest&) { return Role::director; }},
+      request);
 }
 
 std::vector<std::string> open_doors(const AccessConfig& config, const std::string& bind) {

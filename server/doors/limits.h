@@ -33,6 +33,9 @@ inline constexpr double door_connections_most = 65535.0;
 inline constexpr double door_connects_least = 0.1;
 inline constexpr double door_connects_most = 100000.0;
 
+/// The greatest impulse of a push by a carver, newton seconds: of a car at 50 m/s. Above: for directors.
+inline constexpr float carver_push_max_n_s = 1e5F;
+
 /// Addresses (Door) for which the /56 and the /48 around one of IPv6 may stand: a site is given a /56, and a
 /// provider's customers may share a /48. All addresses of such a network together may hold and open as many
 /// connections as so many addresses. Above: turned away, and first to make room.

@@ -10,10 +10,6 @@ namespace scree {
 
 namespace {
 
-glm::vec3 middle_of(const Shape& shape) {
-  return row_of(shape.kind).has_b ? (shape.a + shape.b) * 0.5F : shape.a;
-}
-
 /// The place of the first of these pieces that is alive.
 std::optional<glm::vec3> place_of_pieces(const std::vector<PieceId>& pieces, const TickDelta& delta) {
   for (const PieceId id : pieces)
@@ -23,7 +19,7 @@ std::optional<glm::vec3> place_of_pieces(const std::vector<PieceId>& pieces, con
   return std::nullopt;
 }
 
-glm::vec3 middle_of(const VoxelBox& box, float voxel_size_m) {
+glm::vec3 centre_of(const VoxelBox& box, float voxel_size_m) {
   return glm::vec3(box.lo.x + box.hi.x, box.lo.y + box.hi.y, box.lo.z + box.hi.z) * (0.5F * voxel_size_m);
 }
 
@@ -37,13 +33,13 @@ class Telling {
     EventKind kind = EventKind::carve;
     if (applied_.stage == TickStage::impacts) kind = EventKind::dent;
     if (applied_.stage == TickStage::support) kind = EventKind::crush;
-    return with_pieces(at(kind, middle_of(carve.shape)));
+    return with_pieces(at(kind, centre_of(carve.shape)));
   }
   std::optional<Event> operator()(const FillOperation& fill) const {
-    return at(EventKind::fill, middle_of(fill.shape));
+    return at(EventKind::fill, centre_of(fill.shape));
   }
   std::optional<Event> operator()(const PaintOperation& paint) const {
-    return at(EventKind::paint, middle_of(paint.shape));
+    return at(EventKind::paint, centre_of(paint.shape));
   }
   std::optional<Event> operator()(const ShatterOperation&) const {
     if (applied_.stage == TickStage::refracture) return std::nullopt;
@@ -52,7 +48,7 @@ class Telling {
                         .place_m = place_of_pieces(applied_.created, delta_)});
   }
   std::optional<Event> operator()(const IslandOperation& island) const {
-    return with_pieces(at(EventKind::fall, middle_of(island.box, voxel_size_m_)));
+    return with_pieces(at(EventKind::fall, centre_of(island.box, voxel_size_m_)));
   }
   // Bursts of merges are the tick's as a whole; what leaves the world is nobody's to see.
   std::optional<Event> operator()(const StampOperation&) const { return std::nullopt; }
@@ -96,14 +92,14 @@ float distance_squared(glm::vec3 a, glm::vec3 b) {
 std::optional<glm::vec3> place_of(const AppliedOperation& applied, const TickDelta& delta,
                                   float voxel_size_m) {
   using Place = std::optional<glm::vec3>;
-  const auto of_shape = [](const auto& operation) -> Place { return middle_of(operation.shape); };
+  const auto of_shape = [](const auto& operation) -> Place { return centre_of(operation.shape); };
   return std::visit(
       Overloaded{[&](const CarveOperation& carve) { return of_shape(carve); },
                  [&](const FillOperation& fill) { return of_shape(fill); },
                  [&](const PaintOperation& paint) { return of_shape(paint); },
                  [&](const ShatterOperation&) { return place_of_pieces(applied.created, delta); },
-                 [&](const IslandOperation& island) -> Place { return middle_of(island.box, voxel_size_m); },
-                 [&](const SlideOperation& slide) -> Place { return middle_of(slide.box, voxel_size_m); },
+                 [&](const IslandOperation& island) -> Place { return centre_of(island.box, voxel_size_m); },
+                 [&](const SlideOperation& slide) -> Place { return centre_of(slide.box, voxel_size_m); },
                  [](const StampOperation& stamp) -> Place { return dequantise(stamp.pose).position_m; },
                  [](const DiscardOperation&) -> Place { return std::nullopt; }},
       applied.operation);

@@ -231,6 +231,9 @@ TEST(Roles, each_request_needs_its_own) {
   EXPECT_EQ(role_for(FillRequest{}), Role::builder);
   EXPECT_EQ(role_for(PaintRequest{}), Role::builder);
   EXPECT_EQ(role_for(SettingsRequest{}), Role::admin);
+  EXPECT_EQ(role_for(PushRequest{1, {0.0F, 99e3F, 0.0F}, {}}), Role::carver);
+  EXPECT_EQ(role_for(PushRequest{1, {80e3F, 80e3F, 0.0F}, {}}), Role::director)
+      << "a carver throws no houses";
 }
 
 TEST(Roles, what_is_open_to_everybody_is_said_except_on_this_machine) {

@@ -137,6 +137,20 @@ TEST(EventDeriver, a_carve_is_told_as_what_made_it_and_later_cuts_of_one_are_not
   EXPECT_TRUE(told(ShatterOperation{}, TickStage::refracture).empty());
 }
 
+TEST(EventDeriver, the_place_of_an_edit_is_the_middle_of_its_shape) {
+  const Shape box{ShapeKind::box, {-37.0F, -1.5F, 4.0F}, {1.6F, 1.6F, 2.0F}, 0.25F};
+  const Shape capsule{ShapeKind::capsule, {2.0F, 0.0F, 0.0F}, {4.0F, 2.0F, 0.0F}, 0.5F};
+  const auto place = [](const Operation& operation) {
+    TickDelta delta;
+    delta.tick = 1;
+    delta.operations.push_back({operation, {}, {}, {}});
+    return EventDeriver(0.25F, {}).events_of(delta).front().place_m;
+  };
+  EXPECT_EQ(place(CarveOperation{.shape = box}), box.a);
+  EXPECT_EQ(place(FillOperation{.shape = box}), box.a);
+  EXPECT_EQ(place(CarveOperation{.shape = capsule}), glm::vec3(3.0F, 1.0F, 0.0F));
+}
+
 TEST_F(EventsTest, a_change_of_settings_is_an_event_and_the_first_tick_is_none) {
   World world(small_world());
   for (Tick tick = 1; tick <= 5; ++tick) {
