@@ -10,12 +10,12 @@ namespace {
 
 constexpr int ticks_per_second = 60;
 
-/// Of steel, 2 t.
+/// It is of steel.
 Prop heavy_ball() {
   return ball(0.39F, 2000.0F);
 }
 
-/// Of one voxel, at x = 10 m, in a frame that is thick.
+/// It is one voxel thick, at x = 10 m, in a thick frame.
 void build_wall(PropWorld& world) {
   world.ask(FillRequest{box({10.0F, 3.0F, 0.0F}, {0.125F, 3.0F, 2.5F})});
   for (const float z : {-3.5F, 3.5F}) world.ask(FillRequest{box({10.0F, 3.5F, z}, {1.0F, 3.5F, 1.0F})});
