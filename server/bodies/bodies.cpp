@@ -165,7 +165,8 @@ void Bodies::step() {
   s.blows.clear();
   s.terrain_blows.clear();
   for (int step = 0; step < s.steps_a_tick; ++step) {
-    if (step > 0) s.blows.add(list_impacts(s.dispatcher, s.terrain.object(), limits::struck_speed_min_m_s));
+    if (step > 0)
+      s.blows.add(list_impacts(s.bodies, s.dispatcher, s.terrain.object(), limits::struck_speed_min_m_s));
     s.step();
   }
   CHECK_DEBUG(
@@ -285,7 +286,7 @@ BodyContacts Bodies::contacts() const {
 
 std::vector<BodyImpact> Bodies::impacts(float speed_min_m_s) const {
   const State& s = *state_;
-  std::vector<BodyImpact> all = list_impacts(s.dispatcher, s.terrain.object(), speed_min_m_s);
+  std::vector<BodyImpact> all = list_impacts(s.bodies, s.dispatcher, s.terrain.object(), speed_min_m_s);
   s.blows.merge_into(all, [&](PieceId id) -> std::optional<float> {
     const auto body = s.bodies.find(id);
     if (body == s.bodies.end()) return std::nullopt;

@@ -60,6 +60,12 @@ struct BodyImpact {
   /// Change of the speed of that place of the body, by its mass and inertia: more than that of its centre,
   /// where a corner strikes. Half of the impulse's product with it is the blow's energy.
   float give_m_s = 0.0F;
+  /// How fast the two places neared each other at the step's start, along the normal; not negative. What
+  /// presses at rest has an impulse, too, and hardly nears.
+  float nears_m_s = 0.0F;
+  /// What the contact took: the impulse's product with how fast they neared in the mean of the step. A blow
+  /// that takes several steps has a part in each.
+  float energy_j = 0.0F;
 };
 
 /// A body's strongest blow on terrain in the last tick.

@@ -53,9 +53,12 @@ struct Body {
   std::optional<BodyState> frozen;  ///< the state of a frozen body
   std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them
 
+  /// How fast a place of it, so far from its centre of mass, moved at the step's start.
+  btVector3 speed_before_at(const btVector3& arm) const { return speed_before + spin_before.cross(arm); }
   const BodyNature& nature() const { return given->nature; }
   /// Whether contacts and gravity move it, once it is not frozen.
   bool is_dynamic() const { return nature().motion == PropMotion::dynamic; }
+  bool is_kinematic() const { return nature().motion == PropMotion::kinematic; }
   bool is_fixed() const { return nature().motion == PropMotion::fixed; }
   bool meets_terrain() const { return is_dynamic() && (nature().meets & group::terrain) != 0; }
 };
@@ -65,6 +68,16 @@ inline Pose pose_of(const Body& body) {
   Pose pose = from_bullet(body.rigid->getWorldTransform());
   pose.rotation = pose.rotation * glm::conjugate(body.axes);
   return pose;
+}
+
+/// Moves the contacts of a round body to where it touches the ground.
+inline void touch_as_round(const Body& body, std::vector<TerrainContact>& contacts) {
+  const auto points = static_cast<int>(body.points_m.size());
+  const btMatrix3x3& basis = body.rigid->getWorldTransform().getBasis();
+  if (body.round.is_roller())
+    touch_as_roller(body.round, from_bullet(basis * to_bullet(body.round.half_axis_m)), points, contacts);
+  else if (body.round.radius_m > 0.0F)
+    touch_as_ball(body.round, points, contacts);
 }
 
 /// The piece of a Bullet object: its user index holds the id, bit for bit.

@@ -94,8 +94,10 @@ Body make_body(PieceId id, std::shared_ptr<const BodyShape> given, std::vector<g
                         ? surface_points(shape.hull_m, limits::sample_spacing_voxels * step.voxel_size_m)
                         : shape.surface_m;
   body.round = roundness_of(body.points_m);
+  if (body.round.radius_m == 0.0F) body.round = roller_of(shape);
   const bool is_round = body.round.radius_m > 0.0F;
-  body.hulls->rolling = {(is_round ? limits::rolling_share_round : limits::rolling_share) * body.reach_m,
+  const float rolls_by_m = body.round.is_roller() ? body.round.radius_m : body.reach_m;
+  body.hulls->rolling = {(is_round ? limits::rolling_share_round : limits::rolling_share) * rolls_by_m,
                          limits::turning_share * body.reach_m};
   return body;
 }

@@ -4,7 +4,6 @@
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 #include <algorithm>
 
-#include "server/bodies/body.h"
 #include "server/bodies/to_bullet.h"
 #include "server/colliders/sound_values.h"
 #include "shared/base/check.h"
@@ -51,8 +50,8 @@ float give_of(const btRigidBody& body, const btVector3& arm, const btVector3& no
   return body.getInvMass() + lever.dot(body.getInvInertiaTensorWorld() * lever);
 }
 
-std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCollisionObject& terrain,
-                                     float speed_min_m_s) {
+std::vector<BodyImpact> list_impacts(const std::map<PieceId, Body>& bodies, const btDispatcher& dispatcher,
+                                     const btCollisionObject& terrain, float speed_min_m_s) {
   CHECK(speed_min_m_s > 0.0F);
   std::vector<BodyImpact> impacts;
   for (int i = 0; i < dispatcher.getNumManifolds(); ++i) {
@@ -63,15 +62,30 @@ std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCol
     // The solver skips sleeping bodies: their impulses are those of an earlier step.
     if (!is_active(first) && !is_active(second)) continue;
     const ContactBlow blow = blow_of(manifold);
+    const auto before = [&](const btRigidBody& body, const btVector3& arm) {
+      return bodies.at(id_of(&body)).speed_before_at(arm);
+    };
+    const auto after = [](const btRigidBody& body, const btVector3& arm) {
+      return body.getVelocityInLocalPoint(arm);
+    };
+    const auto nears_m_s = [&](auto speed) {
+      btVector3 apart(0.0F, 0.0F, 0.0F);
+      if (first != nullptr) apart += speed(*first, blow.point - first->getCenterOfMassPosition());
+      if (second != nullptr) apart -= speed(*second, blow.point - second->getCenterOfMassPosition());
+      return std::max(-apart.dot(blow.normal), 0.0F);
+    };
     const auto note = [&](const btRigidBody* body, const btRigidBody* other, float sign) {
       if (body == nullptr || blow.impulse_n_s * body->getInvMass() < speed_min_m_s) return;
+      const float nears = nears_m_s(before);
       BodyImpact impact{
           id_of(body),
           std::nullopt,
           from_bullet(blow.point),
           from_bullet(blow.normal * sign),
           blow.impulse_n_s,
-          blow.impulse_n_s * give_of(*body, blow.point - body->getCenterOfMassPosition(), blow.normal)};
+          blow.impulse_n_s * give_of(*body, blow.point - body->getCenterOfMassPosition(), blow.normal),
+          nears,
+          0.5F * blow.impulse_n_s * (nears + nears_m_s(after))};
       CHECK_DEBUG(impact.impulse_n_s > 0.0F && is_unit(impact.normal) && is_sound(impact.point_m));
       if (other != nullptr) impact.other = id_of(other);
       impacts.push_back(impact);

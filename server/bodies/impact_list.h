@@ -4,9 +4,10 @@
 #include <BulletCollision/BroadphaseCollision/btDispatcher.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
+#include <map>
 #include <vector>
 
-#include "server/bodies/bodies.h"
+#include "server/bodies/body.h"
 
 namespace scree {
 
@@ -15,9 +16,9 @@ namespace scree {
 float give_of(const btRigidBody& body, const btVector3& arm, const btVector3& normal);
 
 /// The strongest contact of each body, if it changed the body's speed by at least `speed_min_m_s`, which is
-/// positive; ordered by id. A contact's impulse is the sum over its points; its place is their mean, weighted
-/// by impulse.
-std::vector<BodyImpact> list_impacts(const btDispatcher& dispatcher, const btCollisionObject& terrain,
-                                     float speed_min_m_s);
+/// positive; ordered by id. `bodies` has all that the dispatcher knows, but for the terrain. A contact's
+/// impulse is the sum over its points; its place is their mean, weighted by impulse.
+std::vector<BodyImpact> list_impacts(const std::map<PieceId, Body>& bodies, const btDispatcher& dispatcher,
+                                     const btCollisionObject& terrain, float speed_min_m_s);
 
 }  // namespace scree

@@ -118,15 +118,25 @@ void JointRows::add_slide(const Places& at) {
   }
 }
 
+/// What turns about the other one goes straight on within a step, so that the line grows. At this speed.
+float JointRows::drift_m_s(const Places& at, const btVector3& along, float length_m) const {
+  const btVector3 speed =
+      b_.speed_now() + b_.spin_now().cross(at.arm_b) - a_.speed_now() - a_.spin_now().cross(at.arm_a);
+  const btVector3 aside_m = (speed - along * speed.dot(along)) * step_s_;
+  const float drift_m = btSqrt(length_m * length_m + aside_m.length2()) - length_m;
+  return std::min(drift_m / step_s_, limits::joint_undo_m_s);
+}
+
 void JointRows::add_line(const Places& at) {
   const float length = at.off.length();
   const btVector3 along = length > 1e-6F ? at.off / length : at.axis_a(0);
   HoldingRow& row = add(along, at.arm_a.cross(along), at.arm_b.cross(along));
   const float longer_m = length - joint_.length_m;
-  row.wanted = undoing(longer_m, limits::joint_undo_m_s, step_s_);
+  const float drifts_m_s = drift_m_s(at, along, length);
+  row.wanted = undoing(longer_m, limits::joint_undo_m_s, step_s_) - drifts_m_s;
   if (joint_.kind != JointKind::rope) return;
-  row.high = 0.0F;                                        // a rope pulls, and does not push
-  if (longer_m < 0.0F) row.wanted = -longer_m / step_s_;  // it gets taut within the step, or not
+  row.high = 0.0F;                                                     // a rope pulls, and does not push
+  if (longer_m < 0.0F) row.wanted = -longer_m / step_s_ - drifts_m_s;  // it gets taut in the step, or not
 }
 
 /// The motor, and then the limits, so that these prevail. `value`: the angle, or the way.

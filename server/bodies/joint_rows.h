@@ -81,6 +81,7 @@ class JointRows {
   void add_point(const Places& at);
   void add_turns(const Places& at, bool with_axis);
   void add_slide(const Places& at);
+  float drift_m_s(const Places& at, const btVector3& along, float length_m) const;
   void add_line(const Places& at);
   void add_axis(const Places& at, float value);
   HoldingRow& add(const btVector3& along, const btVector3& turn_a, const btVector3& turn_b);

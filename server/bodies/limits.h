@@ -90,6 +90,11 @@ inline constexpr float turning_share = 0.1F;
 inline constexpr float round_off = 0.06F;
 inline constexpr float round_cover_min = 0.75F;
 
+/// By how much of its radius the hull of a capsule's points lies within it, and that of a cylinder's, at
+/// most.
+inline constexpr float capsule_sag = 0.07F;
+inline constexpr float cylinder_sag = 0.02F;
+
 /// Longest step of the simulation of bodies, seconds: in a longer one gravity gives a piece more speed than
 /// contacts take, so that pieces jump instead of coming to rest. A longer tick takes several steps.
 inline constexpr float step_max_s = 1.0F / 60.0F;

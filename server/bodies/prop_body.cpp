@@ -1,6 +1,8 @@
 #include "server/bodies/prop_body.h"
 
 #include <algorithm>
+#include <array>
+#include <glm/gtc/quaternion.hpp>
 
 #include "server/bodies/body_shape.h"
 #include "server/bodies/limits.h"
@@ -12,19 +14,18 @@ namespace scree {
 
 namespace {
 
-/// Points along a capsule's tube, between its ends.
-void add_tube(const PropPart& part, const std::vector<glm::vec3>& outline, float spacing_m,
-              std::vector<glm::vec3>& to) {
-  const float length_m = 2.0F * part.half_m.y;
-  const auto rings = static_cast<int>(length_m / std::max(spacing_m, part.half_m.x));
-  const glm::vec3 along = part.turn * glm::vec3(0.0F, 1.0F, 0.0F);
-  for (int ring = 1; ring <= rings; ++ring)
-    for (const glm::vec3& p : outline) {
-      const glm::vec3 off = p - part.place_m;
-      const float height = glm::dot(off, along);
-      const float rim = height - part.half_m.y;  // of the upper end's widest circle
-      if (rim < -0.05F * part.half_m.x || rim > 0.05F * part.half_m.x) continue;
-      to.push_back(p - along * (length_m * static_cast<float>(ring) / static_cast<float>(rings + 1)));
+/// Points of a capsule's tube: circles from end to end, of a point every 30 degrees.
+void add_tube(const PropPart& part, float spacing_m, std::vector<glm::vec3>& to) {
+  constexpr std::array<float, 12> cosines{1.0F,  0.86602540F,  0.5F,  0.0F, -0.5F, -0.86602540F,
+                                          -1.0F, -0.86602540F, -0.5F, 0.0F, 0.5F,  0.86602540F};
+  const float radius_m = part.half_m.x, half_m = part.half_m.y;
+  const int gaps = 1 + static_cast<int>(2.0F * half_m / std::max(spacing_m, radius_m));
+  const glm::mat3 turn = glm::mat3_cast(part.turn);
+  for (int circle = 0; circle <= gaps; ++circle)
+    for (size_t step = 0; step < cosines.size(); ++step) {
+      const float along_m = half_m * (2.0F * static_cast<float>(circle) / static_cast<float>(gaps) - 1.0F);
+      const float cosine = cosines[step], sine = cosines[(step + 9) % cosines.size()];
+      to.push_back(part.place_m + turn * glm::vec3(radius_m * cosine, along_m, radius_m * sine));
     }
 }
 
@@ -32,9 +33,7 @@ void add_tube(const PropPart& part, const std::vector<glm::vec3>& outline, float
 std::vector<glm::vec3> touching_points(const PropPart& part, float spacing_m) {
   std::vector<glm::vec3> points = outline_of(part);
   if (part.kind == PropPartKind::capsule) {
-    std::vector<glm::vec3> tube;
-    add_tube(part, points, spacing_m, tube);
-    points.insert(points.end(), tube.begin(), tube.end());
+    add_tube(part, spacing_m, points);
   } else if (part.kind != PropPartKind::sphere) {
     points = surface_points(points, spacing_m);
   }

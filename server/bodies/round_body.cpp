@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <optional>
 
 #include "server/bodies/limits.h"
 
@@ -29,6 +30,40 @@ float cover_of(const std::vector<glm::vec3>& points_m, float radius_m) {
   return cover;
 }
 
+/// A cylinder's corners come in pairs, one at each end.
+Roundness cylinder_of(const std::vector<glm::vec3>& corners_m) {
+  constexpr size_t corners_min = 32;
+  if (corners_m.size() < corners_min || corners_m.size() % 2 != 0) return {};
+  const glm::vec3 half_axis_m = 0.5F * (corners_m[1] - corners_m[0]);
+  const auto side_of = [&](size_t i) { return 0.5F * (corners_m[i] + corners_m[i + 1]); };
+  const float radius_m = std::sqrt(glm::dot(side_of(0), side_of(0)));
+  const auto is_small = [&](float off_m) { return std::abs(off_m) <= 1e-3F * radius_m; };
+  for (size_t i = 0; i < corners_m.size(); i += 2) {
+    const glm::vec3 side = side_of(i), off = 0.5F * (corners_m[i + 1] - corners_m[i]) - half_axis_m;
+    if (!is_small(std::sqrt(glm::dot(side, side)) - radius_m) || !is_small(std::sqrt(glm::dot(off, off))))
+      return {};
+  }
+  return {radius_m, limits::cylinder_sag * radius_m, half_axis_m, false};
+}
+
+/// Where a roller touches the ground of one of its points' contacts; nothing where it does not by its side.
+std::optional<glm::vec3> touching_place(const Roundness& roller, glm::vec3 half_axis_m,
+                                        const TerrainContact& contact) {
+  const float half2 = glm::dot(half_axis_m, half_axis_m);
+  const float along = std::clamp(glm::dot(contact.offset_m, half_axis_m) / half2, -1.0F, 1.0F);
+  glm::vec3 down = -contact.normal;
+  if (!roller.ends_round) {
+    down -= half_axis_m * (glm::dot(down, half_axis_m) / half2);
+    const float length = std::sqrt(glm::dot(down, down));
+    if (length < limits::round_cover_min) return std::nullopt;
+    down /= length;
+  }
+  const glm::vec3 middle = along * half_axis_m;
+  if (glm::dot(contact.offset_m - middle, down) < limits::round_cover_min * roller.radius_m)
+    return std::nullopt;
+  return middle + roller.radius_m * down;
+}
+
 }  // namespace
 
 Roundness roundness_of(const std::vector<glm::vec3>& points_m) {
@@ -45,6 +80,48 @@ Roundness roundness_of(const std::vector<glm::vec3>& points_m) {
   const float cover = cover_of(points_m, radius_m);
   if (cover < limits::round_cover_min) return {};
   return {radius_m, radius_m * (1.0F - cover) + off_m};
+}
+
+Roundness roller_of(const BodyShape& shape) {
+  if (shape.nature.is_piece() || shape.parts_m.size() != 1) return {};
+  const std::vector<glm::vec3>& points_m = shape.parts_m.front();
+  if (points_m.size() != 2) return cylinder_of(points_m);
+  if (shape.part_radii_m.size() != 1) return {};
+  const float radius_m = shape.part_radii_m.front();
+  const glm::vec3 half_axis_m = 0.5F * (points_m[1] - points_m[0]);
+  if (glm::dot(half_axis_m, half_axis_m) < 1e-4F * radius_m * radius_m) return {};
+  return {radius_m, limits::capsule_sag * radius_m, half_axis_m, true};
+}
+
+void touch_as_roller(const Roundness& roller, glm::vec3 half_axis_m, int points,
+                     std::vector<TerrainContact>& contacts) {
+  constexpr int slots = 16;  // along the axis: a place keeps its number while the roller turns
+  std::vector<TerrainContact> touching;
+  for (const TerrainContact& contact : contacts) {
+    const std::optional<glm::vec3> place = touching_place(roller, half_axis_m, contact);
+    if (!place) {
+      touching.push_back(contact);
+      continue;
+    }
+    TerrainContact moved = contact;
+    moved.offset_m = *place;
+    moved.distance_m += glm::dot(*place - contact.offset_m, contact.normal);
+    const auto same = std::ranges::find_if(touching, [&](const TerrainContact& other) {
+      const glm::vec3 apart_m = other.offset_m - moved.offset_m;
+      return other.point >= points && glm::dot(apart_m, apart_m) < 0.04F * roller.radius_m * roller.radius_m;
+    });
+    if (same != touching.end()) {
+      moved.point = same->point;
+      if (moved.distance_m < same->distance_m) *same = moved;
+      continue;
+    }
+    const float along = glm::dot(moved.offset_m, half_axis_m) / glm::dot(half_axis_m, half_axis_m);
+    moved.point = points + static_cast<int>(std::clamp(0.5F * (along + 1.0F), 0.0F, 1.0F) * (slots - 1));
+    const auto is_taken = [&](const TerrainContact& other) { return other.point == moved.point; };
+    while (std::ranges::any_of(touching, is_taken)) moved.point += slots;
+    touching.push_back(moved);
+  }
+  contacts = std::move(touching);
 }
 
 // The ground about a point's contact is taken for the plane there.

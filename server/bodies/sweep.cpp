@@ -71,7 +71,7 @@ void sweep(Body& body, const StepSize& step) {
   for (float at_s = 0.0F; at_s < all_s; at_s += stride_s) {
     found.clear();
     body.probe->find({start.position_m + motion.velocity_m_s * at_s, start.rotation}, reach_m, found);
-    if (body.round.radius_m > 0.0F) touch_as_ball(body.round, static_cast<int>(body.points_m.size()), found);
+    touch_as_round(body, found);
     // What it touches at the start, the solver has seen.
     if (at_s == 0.0F)
       std::erase_if(found, [](const TerrainContact& c) { return c.distance_m <= limits::contact_slack_m; });

@@ -39,11 +39,6 @@ std::vector<PieceId> that_may_strike(const std::map<PieceId, Body>& bodies, cons
   return all;
 }
 
-/// How fast a point of the body moved at the step's start.
-btVector3 speed_at(const Body& body, const btVector3& arm) {
-  return body.speed_before + body.spin_before.cross(arm);
-}
-
 TerrainBlow blow_of(PieceId id, const Body& body) {
   TerrainBlow blow;
   blow.id = id;
@@ -62,7 +57,7 @@ TerrainBlow blow_of(PieceId id, const Body& body) {
   const btRigidBody& rigid = *body.rigid;
   const btVector3 arm = point - rigid.getWorldTransform().getOrigin();
   const float give = give_of(rigid, arm, normal);
-  const float own_m_s = std::max(-speed_at(body, arm).dot(normal), 0.0F);
+  const float own_m_s = std::max(-body.speed_before_at(arm).dot(normal), 0.0F);
   blow.point_m = from_bullet(point);
   blow.normal = from_bullet(normal);
   blow.speed_m_s = blow.impulse_n_s * give;
@@ -92,13 +87,14 @@ std::map<PieceId, float> nearing_others(const std::map<PieceId, Body>& bodies,
     const auto a = bodies.find(id_of(first)), b = bodies.find(id_of(second));
     if (a == bodies.end() || b == bodies.end() || a->second.rigid.get() != first ||
         b->second.rigid.get() != second)
-      continue;  // the terrain's object has no body
+      continue;                                                          // the terrain's object has no body
+    if (a->second.is_kinematic() || b->second.is_kinematic()) continue;  // without a mass, it strikes nothing
     for (int k = 0; k < manifold.getNumContacts(); ++k) {
       const btManifoldPoint& contact = manifold.getContactPoint(k);
       if (!(contact.m_appliedImpulse > 0.0F)) continue;
       const btVector3 at = contact.m_positionWorldOnB;
-      const btVector3 apart = speed_at(a->second, at - first->getWorldTransform().getOrigin()) -
-                              speed_at(b->second, at - second->getWorldTransform().getOrigin());
+      const btVector3 apart = a->second.speed_before_at(at - first->getWorldTransform().getOrigin()) -
+                              b->second.speed_before_at(at - second->getWorldTransform().getOrigin());
       const float nears = -apart.dot(contact.m_normalWorldOnB);
       for (const auto& one : {a, b}) {
         float& most = fastest[one->first];

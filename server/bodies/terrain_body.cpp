@@ -80,8 +80,7 @@ void TerrainBody::refill(std::span<Body*> some, bool copying) const {
     CHECK_DEBUG(std::ranges::all_of(found, [&](const TerrainContact& contact) {
       return is_sound_contact(contact, body->points_m.size(), ground_reach_m(*body, surface_));
     }));
-    if (body->round.radius_m > 0.0F)
-      touch_as_ball(body->round, static_cast<int>(body->points_m.size()), found);
+    touch_as_round(*body, found);
     stop_at_blows(*body, {surface_.voxel_size_m, surface_.step_s}, found);
     body->rubs_at_m = scree::refill(*body->ground, *body->rigid, found, surface_);
   }

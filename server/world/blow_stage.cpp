@@ -39,6 +39,8 @@ std::optional<VoxelCoord> rock_at(const World::State& state, glm::vec3 point_m, 
 
 /// Nothing where the contact found no rock, or the blow is too weak for anything.
 std::optional<Strike> strike_of(const World::State& state, const TerrainBlow& blow) {
+  const bool is_prop = state.props.contains(blow.id);
+  if (is_prop && blow.impulse_n_s < limits::prop_blow_min_n_s) return std::nullopt;
   Strike strike{&blow, {}};
   for (const glm::vec3 point_m : blow.points_m)
     if (const auto voxel = rock_at(state, point_m, blow.normal)) strike.load.on.push_back(*voxel);
@@ -47,8 +49,9 @@ std::optional<Strike> strike_of(const World::State& state, const TerrainBlow& bl
   strike.load.on.erase(std::unique(strike.load.on.begin(), strike.load.on.end()), strike.load.on.end());
   const float dx = state.config.terrain.voxel_size_m;
   const Material ground = material_at(state.field, blow.point_m - blow.normal * (0.5F * dx));
-  const float hardness_pa = std::min(state.palette->row_or_first(ground).dent_resistance_j_m3,
-                                     struck_row(state, blow.id, blow.point_m).dent_resistance_j_m3);
+  float hardness_pa = state.palette->row_or_first(ground).dent_resistance_j_m3;
+  if (!is_prop)  // a prop is not dented, so that the ground is the softer one
+    hardness_pa = std::min(hardness_pa, struck_row(state, blow.id, blow.point_m).dent_resistance_j_m3);
   const float newtons = force_of_blow(blow.energy_j(), hardness_pa);
   if (newtons < limits::blow_min_n) return std::nullopt;
   strike.load.at = glm::dvec3(blow.point_m / dx);
@@ -56,12 +59,14 @@ std::optional<Strike> strike_of(const World::State& state, const TerrainBlow& bl
   return strike;
 }
 
-/// What was made in this tick strikes the hole that it was blown out of: that was the blast's to break.
+/// A piece that was made in this tick strikes the hole that it was blown out of: that was the blast's to
+/// break.
 std::vector<Strike> strikes_of(const World::State& state, const TickDelta& delta) {
   const PieceId first_new = delta.spawned.empty() ? state.next_piece : delta.spawned.front().id;
   std::vector<Strike> strikes;
   for (const TerrainBlow& blow : state.bodies.terrain_blows()) {
-    if (!state.pieces.contains(blow.id) || blow.id >= first_new) continue;
+    const bool is_old_piece = state.pieces.contains(blow.id) && blow.id < first_new;
+    if (!is_old_piece && !state.props.contains(blow.id)) continue;
     if (auto strike = strike_of(state, blow)) strikes.push_back(std::move(*strike));
   }
   std::ranges::stable_sort(strikes, std::ranges::greater{},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "server/work/limits.h"
 #include "server/work/price.h"
@@ -21,13 +22,14 @@ namespace scree {
 
 namespace {
 
-/// An impact, compared with the piece's strength.
+/// An impact, compared with the strength of a piece. A prop has none, and never breaks.
 struct Blow {
   BodyImpact impact;
   float centre_m_s = 0.0F;  ///< change of the speed of the piece's centre of mass
   float speed_m_s = 0.0F;   ///< which it would lose in a flat blow of as much energy
   float excess = 0.0F;      ///< that speed over strength_m_s(); up to 1 the piece holds
   bool broke_terrain = false;
+  bool dents = true;
 };
 
 /// The material of a piece at the place of a blow.
@@ -74,14 +76,54 @@ void lessen(std::vector<Blow>& blows, const std::map<PieceId, float>& borne) {
   sort(blows);
 }
 
+/// Props, and pieces that bear props, strike the ground as hard as they neared it. By its impulse alone, a
+/// wheel under a heavy car would strike in every tick.
+class Nearing {
+ public:
+  explicit Nearing(const World::State& state) : state_(state) {
+    if (state.props.empty()) return;
+    for (const Carried& carried : state.bodies.contacts().carried)
+      if (state.props.contains(carried.upper)) bearing_.insert(carried.lower);
+  }
+
+  /// Changes a piece's blow on the ground if the piece bears a prop.
+  void correct(Blow& blow) const {
+    if (blow.impact.other || !bearing_.contains(blow.impact.id)) return;
+    const std::vector<TerrainBlow>& all = state_.bodies.terrain_blows();
+    const auto found = std::ranges::lower_bound(all, blow.impact.id, {}, &TerrainBlow::id);
+    if (found != all.end() && found->id == blow.impact.id && is_blow(*found))
+      blow = blow_on_ground(*found, blow.excess);
+    else
+      blow.dents = false;
+  }
+
+  void add_props(std::vector<Blow>& blows) const {
+    for (const TerrainBlow& blow : state_.bodies.terrain_blows())
+      if (state_.props.contains(blow.id) && is_blow(blow)) blows.push_back(blow_on_ground(blow, 0.0F));
+  }
+
+ private:
+  static bool is_blow(const TerrainBlow& blow) { return blow.speed_m_s >= limits::impact_speed_min_m_s; }
+  static Blow blow_on_ground(const TerrainBlow& blow, float excess) {
+    BodyImpact impact{blow.id, std::nullopt, blow.point_m, blow.normal, blow.impulse_n_s, blow.speed_m_s};
+    return {impact, blow.speed_m_s, blow.speed_m_s, excess};
+  }
+
+  const World::State& state_;
+  std::set<PieceId> bearing_;
+};
+
 std::vector<Blow> blows_of(const World::State& state) {
   std::vector<Blow> blows;
+  const Nearing nearing(state);
   for (const BodyImpact& impact : state.bodies.impacts(limits::impact_speed_min_m_s)) {
-    if (state.props.contains(impact.id)) continue;  // a prop never breaks
+    if (state.props.contains(impact.id)) continue;
     const float centre_m_s = impact.impulse_n_s / state.bodies.mass_kg(impact.id);
     const float speed_m_s = std::sqrt(centre_m_s * impact.give_m_s);
     blows.push_back({impact, centre_m_s, speed_m_s, speed_m_s / strength_m_s(state, impact)});
+    nearing.correct(blows.back());
   }
+  nearing.add_props(blows);
   sort(blows);
   return blows;
 }
@@ -332,7 +374,7 @@ void apply_impacts(World::State& state, TickDelta& delta) {
     const Blow& blow = blows[turns.next().index];
     const bool on_terrain = !blow.impact.other.has_value();
     const float left_us = state.work.left_us();
-    if (state.config.methods.dents && on_terrain && !blow.broke_terrain)
+    if (state.config.methods.dents && on_terrain && blow.dents && !blow.broke_terrain)
       dent_ground(state, blow, dents, delta);
     if (state.config.methods.impacts && blow.excess > 1.0F) break_piece(state, blow, breaks, delta);
     turns.pop(left_us - state.work.left_us());

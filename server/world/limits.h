@@ -119,6 +119,11 @@ inline constexpr int blow_reach_bricks = 4;
 /// metre. Below: nothing is looked for. Ten times less made each blast search the walls of its own hole.
 inline constexpr float blow_min_n = 3.0e5F;
 
+/// Least impulse of a prop's blow that may break terrain, newton seconds. What is light and fast has stopped
+/// before sound went through some metres of rock, so that nothing bends: a bullet has 30, a cannonball of 10
+/// kg 2,000. Below: it breaks nothing.
+inline constexpr float prop_blow_min_n_s = 500.0F;
+
 /// Places whose blows were too weak for a dent. Above: the one that was struck least lately is forgotten.
 inline constexpr size_t struck_places_max = 256;
 

@@ -12,6 +12,7 @@ namespace scree {
 std::vector<ContactEvent> contacts_of_props(const World::State& state) {
   std::map<std::pair<PieceId, PieceId>, ContactEvent> by_pair;
   for (const BodyImpact& impact : state.bodies.impacts(limits::contact_event_min_m_s)) {
+    if (impact.nears_m_s < limits::contact_event_min_m_s) continue;  // it only presses
     const PieceId other = impact.other.value_or(0);
     if (!state.props.contains(impact.id) && !state.props.contains(other)) continue;
     const bool is_first = other == 0 || impact.id < other;
@@ -20,7 +21,7 @@ std::vector<ContactEvent> contacts_of_props(const World::State& state) {
                              impact.point_m,
                              is_first ? impact.normal : -impact.normal,
                              impact.impulse_n_s,
-                             0.5F * impact.impulse_n_s * impact.give_m_s};
+                             impact.energy_j};
     if (event.energy_j < limits::contact_event_min_j) continue;
     ContactEvent& known = by_pair[{event.body, event.other}];
     if (event.energy_j > known.energy_j) known = event;

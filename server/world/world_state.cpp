@@ -157,6 +157,7 @@ void World::State::enter_removed(const Applied& applied) {
 }
 
 PieceTraits World::State::traits_of(PieceId id) const {
+  if (const auto prop = props.find(id); prop != props.end()) return {.owner = prop->second.owner};
   const auto found = traits.find(id);
   return found == traits.end() ? PieceTraits{} : found->second;
 }

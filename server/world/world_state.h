@@ -86,6 +86,7 @@ struct World::State {
   uint64_t party_of(PieceId id) const { return charged(traits_of(id).owner); }
   /// Enters the mass that an operation took out of the terrain: in pieces, and the rest in dust.
   void enter_removed(const Applied& applied);
+  /// A prop has an owner, and no other traits.
   PieceTraits traits_of(PieceId id) const;
   /// Enters a valid prop, whose mass is known, without a body. Returns the shape that its body is to have.
   BodyShape enter_prop(PieceId id, std::shared_ptr<const Prop> prop, uint64_t owner);

@@ -109,6 +109,47 @@ TEST(PropMotion, a_ball_rolls_down_a_slope_and_a_crate_does_not) {
   EXPECT_GT(world.place_m(stays).x, 3.6F);
 }
 
+/// It lies along z.
+Prop roller(PropPartKind kind) {
+  return prop_of({.kind = kind, .turn = {0.70710678F, 0.70710678F, 0.0F, 0.0F}, .half_m = {0.3F, 0.6F, 0.0F}},
+                 200.0F);
+}
+
+TEST(PropMotion, capsules_and_cylinders_lie_still_and_roll_straight) {
+  for (const PropPartKind kind : {PropPartKind::capsule, PropPartKind::cylinder})
+    for (const float speed_m_s : {0.0F, 3.0F}) {
+      SCOPED_TRACE(name_of(kind));
+      PropWorld world(rock_world());
+      const PieceId id = world.add(roller(kind), {0.0F, 0.32F, 0.0F}, {speed_m_s, 0.0F, 0.0F});
+      world.steps(5 * second);
+      const glm::vec3 at_m = world.place_m(id);
+      EXPECT_NEAR(at_m.y, 0.3F, 0.02F);
+      EXPECT_LE(std::abs(at_m.z), 0.05F * at_m.x + 0.01F);
+      world.steps(second);
+      if (speed_m_s == 0.0F) {
+        EXPECT_LT(glm::distance(world.place_m(id), at_m), 0.001F);
+      } else {
+        EXPECT_GT(at_m.x, 5.0F) << "it does not roll";
+      }
+    }
+}
+
+TEST(PropMotion, capsules_and_cylinders_roll_over_an_edge) {
+  for (const PropPartKind kind : {PropPartKind::capsule, PropPartKind::cylinder}) {
+    SCOPED_TRACE(name_of(kind));
+    PropWorld world(rock_world());
+    world.ask(FillRequest{box({-5.0F, 1.0F, 0.0F}, {5.0F, 1.0F, 3.0F})});
+    const PieceId id = world.add(roller(kind), {-3.0F, 2.32F, 0.0F}, {3.0F, 0.0F, 0.0F});
+    world.steps(6 * second);
+    const glm::vec3 at_m = world.place_m(id);
+    EXPECT_NEAR(at_m.y, 0.3F, 0.03F);
+    EXPECT_GT(at_m.x, 3.0F);
+    EXPECT_LT(std::abs(at_m.z), 0.05F * (at_m.x + 3.0F));
+    const glm::vec3 axis = world.pose(id).rotation * glm::vec3(0.0F, 0.0F, 1.0F);
+    EXPECT_GT(axis.z, 0.99F);
+  }
+}
+
 TEST(PropMotion, a_kinematic_platform_carries_a_crate) {
   PropWorld world(rock_world());
   Prop platform = prop_of({.kind = PropPartKind::box, .half_m = {2.0F, 0.25F, 2.0F}}, 1000.0F);
