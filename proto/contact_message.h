@@ -8,7 +8,7 @@
 
 namespace scree {
 
-/// A blow in which a prop takes part.
+/// A blow in which a prop takes part, or a hard one of a piece.
 struct ContactEvent {
   PieceId body = 0;
   PieceId other = 0;  ///< a piece or a prop, of a greater id than `body`; 0: the terrain

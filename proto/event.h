@@ -31,6 +31,10 @@ enum class EventKind : uint8_t {
   join,
   leave,
   slow,
+  contact,
+  joint_ended,
+  prop_added,
+  prop_removed,
 };
 
 struct EventRow {
@@ -72,6 +76,18 @@ constexpr EventRow row_of(EventKind kind) {
               "the tick's simulation took longer than a tick's time; ms: how long; text: its longest stage; "
               "place "
               "and session: of the largest operation in that"};
+    case EventKind::contact:
+      return {
+          kind, "contact", false,
+          "a hard blow; body, other, normal, impulse and energy: of it; left_out: so many others were not "
+          "told in the last second, of which it was the hardest"};
+    case EventKind::joint_ended:
+      return {kind, "joint_ended", false,
+              "a joint is no more; text: why; body and other: that it held; session: who removed it"};
+    case EventKind::prop_added:
+      return {kind, "prop_added", false, "a prop was added; body: the prop; tag: its own"};
+    case EventKind::prop_removed:
+      return {kind, "prop_removed", false, "a prop was removed, or left the world; body and tag likewise"};
   }
   return {};
 }
@@ -86,6 +102,13 @@ struct Event {
   float ms = 0.0F;       ///< of the tick; of machine events alone, for a simulation knows no time
   std::string text{};
   uint64_t token_id = 0;  ///< of the access token, by which a session joined or left; 0: none
+
+  PieceId body = 0, other = 0;  ///< that take part; 0: the terrain, or nothing
+  uint64_t tag = 0;             ///< of a prop (Prop::tag)
+  glm::vec3 normal{0.0F};       ///< of a contact: unit, towards `body`
+  float impulse_n_s = 0.0F;     ///< of a contact, along the normal
+  float energy_j = 0.0F;        ///< that a contact took
+  uint32_t left_out = 0;        ///< contacts since the last such event that are told by none
 
   bool operator==(const Event&) const = default;
 };

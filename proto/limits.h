@@ -111,7 +111,7 @@ inline constexpr size_t hull_corners_max = 64;
 inline constexpr size_t physics_contacts_max = 4096;
 inline constexpr size_t physics_bricks_max = 1024;
 
-/// Blows of props that one message tells of; beyond, the weakest are left out.
+/// Blows that one message tells of; beyond, the weakest are left out.
 inline constexpr size_t contact_events_max = 256;
 
 /// Stages of a tick in a status, and the length of a stage's name in bytes.

@@ -14,6 +14,7 @@
 #include "bench/support/scratch.h"
 #include "bench/support/stage.h"
 #include "client/render/methods.h"
+#include "client/render/scene/joint_lines.h"
 #include "client/render/scene/look_at.h"
 #include "client/viewer/events/dust.h"
 #include "client/viewer/events/piece_event_detector.h"
@@ -62,6 +63,22 @@ class Film {
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) step({});
   }
+  /// Props at these places, all in one tick; and joints likewise.
+  std::vector<JointFrame> add(const std::vector<std::pair<Prop, glm::vec3>>& props) {
+    std::vector<Command> commands;
+    for (const auto& [prop, place_m] : props) commands.push_back({0, 0, AddPropRequest{prop, place_m}});
+    std::vector<JointFrame> frames;
+    for (const Reply& reply : step(commands)->replies) {
+      const Pose& pose = props_.at(reply.prop.value_or(0)).pose;
+      frames.push_back({reply.prop.value_or(0), pose.position_m, pose.rotation});
+    }
+    return frames;
+  }
+  void join(const std::vector<Joint>& joints) {
+    std::vector<Command> commands;
+    for (const Joint& joint : joints) commands.push_back({0, 0, AddJointRequest{joint}});
+    step(commands);
+  }
   void ask(const CarveRequest& carve) { step({{0, 0, carve}}); }
   void ask(const FillRequest& fill) { step({{0, 0, fill}}); }
   /// Until nothing moves any more.
@@ -91,6 +108,7 @@ class Film {
     stage_.renderer->set_contacts(contacts_of(scene(), camera.eye_m));
     stage_.renderer->set_particles(dust_.at(now_s(), camera.eye_m));
     LineList lines;
+    add_joints(lines, joints_, scene(), camera.eye_m);
     if (overlay && physics_) add_physics(lines, *physics_, scene());
     const Result<Image> image = stage_.renderer->draw_image(**drawn, camera, width, height, lines);
     if (!image) give_up(image.error().message);
@@ -101,7 +119,7 @@ class Film {
   }
 
  private:
-  void step(const std::vector<Command>& commands) {
+  std::shared_ptr<const TickDelta> step(const std::vector<Command>& commands) {
     const std::shared_ptr<const TickDelta> delta = world_.step(commands);
     for (const Reply& reply : delta->replies)
       if (!reply.refusal.empty()) give_up(reply.refusal);
@@ -112,8 +130,11 @@ class Film {
     follow_props(*delta);
     if (delta->physics) physics_ = delta->physics;
     dust_.add(piece_events_.step(scene(), now_s(), *world_.config().palette), now_s());
+    return delta;
   }
   void follow_props(const TickDelta& delta) {
+    for (const AddedJoint& added : delta.joints_added) joints_.insert_or_assign(added.id, *added.joint);
+    for (const EndedJoint& ended : delta.joints_removed) joints_.erase(ended.id);
     for (const SpawnedProp& prop : delta.props_spawned) props_of_[prop.id] = prop.prop;
     props_.clear();
     for (const PieceState& prop : delta.props)
@@ -129,6 +150,7 @@ class Film {
   std::map<PieceId, std::shared_ptr<const Volume>> volumes_;
   SceneProps props_;
   std::map<PieceId, std::shared_ptr<const Prop>> props_of_;
+  SceneJoints joints_;
   std::shared_ptr<const PhysicsMessage> physics_;
   PieceEventDetector piece_events_;
   Dust dust_;
@@ -199,6 +221,45 @@ void draw_arch(Film& film) {
   film.shoot("impact", camera);
   film.settle();
   film.shoot("island_after", camera);
+}
+
+Prop prop_of(PropPart part, float mass_kg, PropMotion motion = PropMotion::dynamic) {
+  return {.parts = {std::move(part)}, .motion = motion, .mass_kg = mass_kg};
+}
+
+/// A car, a drawbridge on two ropes, and a rope that hangs between two posts.
+void draw_joints(Film& film) {
+  const float base_m = ground_m(9.0F, -24.0F);
+  film.ask(FillRequest{box({9.0F, base_m, -24.0F}, {7.0F, 0.5F, 5.0F})});
+  const auto at = [&](float x, float up, float z) {
+    return glm::vec3(9.0F + x, base_m + 0.5F + up, -24.0F + z);
+  };
+  const auto bar = [](glm::vec3 half_m) { return PropPart{.kind = PropPartKind::box, .half_m = half_m}; };
+  const Prop post = prop_of(bar({0.12F, 1.6F, 0.12F}), 50.0F, PropMotion::fixed);
+  const Prop wheel = prop_of({.kind = PropPartKind::cylinder,
+                              .turn = {0.70710678F, 0.70710678F, 0.0F, 0.0F},
+                              .half_m = {0.5F, 0.15F, 0.0F}},
+                             40.0F);
+  std::vector<std::pair<Prop, glm::vec3>> props{
+      {prop_of(bar({1.2F, 0.2F, 0.6F}), 600.0F), at(-3, 0.7F, 2.5F)},
+      {prop_of(bar({1.4F, 0.08F, 1.0F}), 200.0F), at(3, 0.6F, 0)}};
+  for (const float z : {-1.2F, 1.2F}) props.emplace_back(post, at(1.2F, 1.6F, z));
+  for (const float x : {-5.0F, -1.0F}) props.emplace_back(post, at(x, 1.6F, -2.0F));
+  const size_t first_wheel = props.size();
+  for (const float x : {-1.0F, 1.0F})
+    for (const float z : {-0.9F, 0.9F}) props.emplace_back(wheel, at(-3.0F + x, 0.6F, 2.5F + z));
+  const std::vector<JointFrame> there = film.add(props);
+  std::vector<Joint> joints{joint_at(JointKind::hinge, {}, there[1], at(1.5F, -0.2F, 0), {0, 0, 1})};
+  for (size_t i = first_wheel; i < there.size(); ++i)
+    joints.push_back(joint_at(JointKind::hinge, there[0], there[i], there[i].origin_m, {0, 0, 1}));
+  for (const float z : {-1.0F, 1.0F})
+    joints.push_back(line_between(JointKind::rope, there[z < 0 ? 2 : 3], at(1.2F, 3.0F, 1.2F * z), there[1],
+                                  at(4.3F, 0.7F, z)));
+  joints.push_back(line_between(JointKind::rope, there[4], at(-5, 3.1F, -2), there[5], at(-1, 3.1F, -2)));
+  joints.back().length_m *= 1.2F;
+  film.join(joints);
+  film.run(90);
+  film.shoot("joints", look_at(at(2, 4, 11), at(-0.3F, 1, 0)));
 }
 
 /// One carved scene, some of it in flight, by every method.
@@ -284,9 +345,9 @@ struct Scenario {
   void (*draw)(Film&);
 };
 
-constexpr std::array scenarios{Scenario{"blast", draw_blast}, Scenario{"patterns", draw_patterns},
-                               Scenario{"tower", draw_tower}, Scenario{"arch", draw_arch},
-                               Scenario{"methods", draw_methods}};
+constexpr std::array scenarios{Scenario{"blast", draw_blast},     Scenario{"patterns", draw_patterns},
+                               Scenario{"tower", draw_tower},     Scenario{"arch", draw_arch},
+                               Scenario{"methods", draw_methods}, Scenario{"joints", draw_joints}};
 
 }  // namespace
 }  // namespace scree
@@ -299,7 +360,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", SCREE_VERSION);
   app.option_defaults()->always_capture_default();
   app.add_option("--out", folder, "folder for the PNGs");
-  app.add_option("--only", only, "draw only one of blast, patterns, tower, arch, methods, street, store");
+  app.add_option("--only", only,
+                 "draw only one of blast, patterns, tower, arch, methods, joints, street, store");
   app.add_flag("--scenes", scenes, "draw every scene instead of the documentation's pictures");
   app.add_option("--scene", scene, "draw only this scene: " + scene_names())
       ->check([](const std::string& name) {

@@ -28,7 +28,25 @@ void write(RecordedEvents& to, std::span<const Event> events, Tick last) {
     made.set_ms(event.ms);
     made.set_text(showable(event.text, limits::event_text_bytes_max));
     made.set_token_id(event.token_id);
+    made.set_body(event.body);
+    made.set_other(event.other);
+    made.set_tag(event.tag);
+    if (event.normal != glm::vec3(0.0F)) scree::write(*made.mutable_normal(), event.normal);
+    made.set_impulse_n_s(event.impulse_n_s);
+    made.set_energy_j(event.energy_j);
+    made.set_left_out(event.left_out);
   }
+}
+
+/// Reads the members that contacts, props and joints have.
+void read_bodies(const recorded::Event& from, Event& to, FieldChecker& check) {
+  to.body = from.body();
+  to.other = from.other();
+  to.tag = from.tag();
+  if (from.has_normal()) to.normal = check.vec3(from.normal(), "normal of an event");
+  to.impulse_n_s = check.not_negative(from.impulse_n_s(), "impulse of an event");
+  to.energy_j = check.not_negative(from.energy_j(), "energy of an event");
+  to.left_out = from.left_out();
 }
 
 std::vector<Event> read(const RecordedEvents& from, Tick last, bool of_machine, FieldChecker& check) {
@@ -51,6 +69,7 @@ std::vector<Event> read(const RecordedEvents& from, Tick last, bool of_machine, 
     made.ms = check.not_negative(event.ms(), "duration of an event");
     made.text = check.text(event.text(), limits::event_text_bytes_max, "text of an event");
     made.token_id = event.token_id();
+    read_bodies(event, made, check);
     events.push_back(std::move(made));
   }
   return events;

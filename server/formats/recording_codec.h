@@ -39,6 +39,7 @@ struct RecordedHeader {
   SettingValues settings;          ///< to start with
   std::optional<Spawn> spawn{};    ///< as of WorldConfig: it is not among `settings`
   uint32_t merge_burst_ticks = 0;  ///< of a recording's events: EventDeriver
+  float contacts_j = 0.0F;         ///< likewise
   uint32_t rules = 0;              ///< by which the simulation serves (server/world/rules.h)
   /// To start with. Null in old files alone: the built-in one, whose digest a test of tests/content pins.
   std::shared_ptr<const Palette> palette{};

@@ -52,6 +52,7 @@ void write(recorded::Header& to, const RecordedHeader& from) {
   write(*to.mutable_settings(), from.settings);
   if (from.ground != Digest{}) to.set_ground(std::string(from.ground.begin(), from.ground.end()));
   to.set_merge_burst_ticks(from.merge_burst_ticks);
+  to.set_contacts_j(from.contacts_j);
   if (from.spawn) to.set_spawn(text_of(*from.spawn));
   to.set_rules(from.rules);
   if (from.terrain.rows != GroundRows{}) write(*to.mutable_rows(), from.terrain.rows);
@@ -74,6 +75,7 @@ RecordedHeader read(const recorded::Header& from, FieldChecker& check) {
   header.merges_per_tick_max = from.merges_per_tick_max();
   header.merge_burst_ticks =
       check.within(from.merge_burst_ticks(), 0, limits::merge_burst_ticks_max, "merge_burst_ticks");
+  header.contacts_j = check.not_negative(from.contacts_j(), "contacts_j");
   header.rules = from.rules();
   header.settings = check.settings(from.settings());
   if (!from.spawn().empty())

@@ -41,7 +41,8 @@ Result<bool> restart(RecordingReader& recording, std::unique_ptr<World>& world, 
 }
 
 EventDeriver deriver_of(const RecordingReader& recording, const World& world) {
-  return {world.config().terrain.voxel_size_m, print(world.config()), recording.header().merge_burst_ticks};
+  return {world.config().terrain.voxel_size_m, print(world.config()), recording.header().merge_burst_ticks,
+          recording.header().contacts_j};
 }
 
 /// Recordings of earlier builds do not say who asked.

@@ -82,6 +82,17 @@ constexpr float burst_reach_m = 8.0F;
 /// Bursts that may grow at once; above: a merge belongs to the nearest.
 constexpr size_t bursts_max = 64;
 
+Event event_of(const ContactEvent& contact, Tick tick) {
+  return {.kind = EventKind::contact,
+          .tick = tick,
+          .place_m = contact.place_m,
+          .body = contact.body,
+          .other = contact.other,
+          .normal = contact.normal,
+          .impulse_n_s = contact.impulse_n_s,
+          .energy_j = contact.energy_j};
+}
+
 float distance_squared(glm::vec3 a, glm::vec3 b) {
   const glm::vec3 d = a - b;
   return d.x * d.x + d.y * d.y + d.z * d.z;
@@ -141,11 +152,41 @@ void EventDeriver::add_bursts(Tick tick, std::vector<Event>& events) {
   std::erase_if(bursts_, is_over);
 }
 
+void EventDeriver::add_told(const TickDelta& delta, std::vector<Event>& events) const {
+  if (contacts_j_ <= 0.0F || delta.told.empty()) return;
+  const size_t count = std::min(delta.told.size(), told_events_max);
+  events.insert(events.end(), delta.told.begin(), delta.told.begin() + static_cast<std::ptrdiff_t>(count));
+  events.back().left_out = static_cast<uint32_t>(delta.told.size() - count);
+}
+
+void EventDeriver::add_contacts(const TickDelta& delta, std::vector<Event>& events) {
+  if (contacts_j_ <= 0.0F) return;
+  for (const ContactEvent& contact : delta.contacts) {
+    if (contact.energy_j < contacts_j_) break;  // the hardest come first
+    if (!contacts_) contacts_ = ContactTime{delta.tick};
+    if (contacts_->told < contacts_told_max) {
+      ++contacts_->told;
+      events.push_back(event_of(contact, delta.tick));
+      continue;
+    }
+    if (contacts_->left_out++ == 0 || contact.energy_j > contacts_->hardest.energy_j)
+      contacts_->hardest = contact;
+  }
+  if (!contacts_ || delta.tick - contacts_->begun < burst_ticks_) return;
+  if (contacts_->left_out > 0) {
+    events.push_back(event_of(contacts_->hardest, delta.tick));
+    events.back().left_out = contacts_->left_out - 1;
+  }
+  contacts_.reset();
+}
+
 std::vector<Event> EventDeriver::events_of(const TickDelta& delta) {
   std::vector<Event> events;
   for (const AppliedOperation& applied : delta.operations)
     if (auto event = std::visit(Telling(delta, applied, voxel_size_m_), applied.operation))
       events.push_back(std::move(*event));
+  add_told(delta, events);
+  add_contacts(delta, events);
   note_merges(delta);
   add_bursts(delta.tick, events);
   add_settings(delta, events);

@@ -19,6 +19,17 @@ inline constexpr uint32_t merge_burst_min = 4;
 /// Ticks from a burst's first merge to its event: 1 s at 60 Hz.
 inline constexpr Tick merge_burst_ticks = 60;
 
+/// Contacts that took at least so much energy are events, joules: a crate of 20 kg that falls by half a
+/// metre.
+inline constexpr float contact_event_least_j = 100.0F;
+
+/// Contacts that are told within merge_burst_ticks, the hardest of a tick first. When that time is over, the
+/// hardest of the others is told, with their number: so the hardest of all is always told.
+inline constexpr uint32_t contacts_told_max = 8;
+
+/// What became of props and joints in one tick. Above: the last that is told says how many are not.
+inline constexpr size_t told_events_max = 256;
+
 /// Where an operation of a tick acts; nothing of one that has no place.
 std::optional<glm::vec3> place_of(const AppliedOperation& applied, const TickDelta& delta,
                                   float voxel_size_m);
@@ -26,8 +37,14 @@ std::optional<glm::vec3> place_of(const AppliedOperation& applied, const TickDel
 class EventDeriver {
  public:
   /// `settings`: as they stand before the next tick. `burst_ticks`: those of the recording, not 0.
-  EventDeriver(float voxel_size_m, SettingValues settings, Tick burst_ticks = merge_burst_ticks)
-      : voxel_size_m_(voxel_size_m), settings_(std::move(settings)), burst_ticks_(burst_ticks) {}
+  /// `contacts_j`: likewise, the least energy of contacts that are told; 0: neither contacts nor what became
+  /// of props and joints are.
+  EventDeriver(float voxel_size_m, SettingValues settings, Tick burst_ticks = merge_burst_ticks,
+               float contacts_j = contact_event_least_j)
+      : voxel_size_m_(voxel_size_m),
+        settings_(std::move(settings)),
+        burst_ticks_(burst_ticks),
+        contacts_j_(contacts_j) {}
 
   /// The next tick's.
   std::vector<Event> events_of(const TickDelta& delta);
@@ -39,6 +56,16 @@ class EventDeriver {
     uint32_t pieces = 0;
   };
 
+  /// The contacts of the ticks since the first that was told.
+  struct ContactTime {
+    Tick begun = 0;
+    uint32_t told = 0;
+    uint32_t left_out = 0;
+    ContactEvent hardest{};  ///< of those that were left out
+  };
+
+  void add_told(const TickDelta& delta, std::vector<Event>& events) const;
+  void add_contacts(const TickDelta& delta, std::vector<Event>& events);
   void add_settings(const TickDelta& delta, std::vector<Event>& events);
   void note_merges(const TickDelta& delta);
   /// The burst that a merge at that place is a part of: a new one where none is near.
@@ -49,7 +76,9 @@ class EventDeriver {
   float voxel_size_m_;
   SettingValues settings_;
   Tick burst_ticks_;
-  std::vector<Burst> bursts_;  ///< that may grow, in the order in which they began
+  float contacts_j_;
+  std::optional<ContactTime> contacts_;  ///< nothing: none was told lately
+  std::vector<Burst> bursts_;            ///< that may grow, in the order in which they began
 };
 
 }  // namespace scree

@@ -54,8 +54,33 @@ std::string json_line(const Event& event, const EventContext& context) {
   if (const std::string token = token_text(event, context); !token.empty()) line["token"] = token;
   if (const auto ms = ms_of(event, context)) line["ms"] = rounded(*ms);
   if (!event.text.empty()) line["text"] = event.text;
+  if (event.body != 0) line["body"] = event.body;
+  if (event.other != 0) line["other"] = event.other;
+  if (event.tag != 0) line["tag"] = event.tag;
+  if (event.normal != glm::vec3(0.0F))
+    line["normal"] = {rounded(event.normal.x), rounded(event.normal.y), rounded(event.normal.z)};
+  if (event.impulse_n_s > 0.0F) line["impulse_n_s"] = rounded(event.impulse_n_s);
+  if (event.energy_j > 0.0F) line["energy_j"] = rounded(event.energy_j);
+  if (event.left_out > 0) line["left_out"] = event.left_out;
   return line.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
+
+namespace {
+
+/// The columns from body on, each after a comma.
+std::string csv_of_bodies(const Event& event) {
+  const auto number = [](auto value) { return value == 0 ? std::string(",") : fmt::format(",{}", value); };
+  const auto measure = [](float value) {
+    return value == 0.0F ? std::string(",") : fmt::format(",{:.3f}", value);
+  };
+  std::string line = number(event.body) + number(event.other) + number(event.tag);
+  const bool has_normal = event.normal != glm::vec3(0.0F);
+  line += has_normal ? fmt::format(",{:.3f},{:.3f},{:.3f}", event.normal.x, event.normal.y, event.normal.z)
+                     : std::string(",,,");
+  return line + measure(event.impulse_n_s) + measure(event.energy_j) + number(event.left_out);
+}
+
+}  // namespace
 
 std::string csv_line(const Event& event, const EventContext& context) {
   std::string line = fmt::format("{},{:.3f},{}", event.tick, seconds_of(event, context), name_of(event.kind));
@@ -67,9 +92,9 @@ std::string csv_line(const Event& event, const EventContext& context) {
   line += event.session != 0 ? fmt::format(",{}", event.session) : std::string(",");
   const auto ms = ms_of(event, context);
   line += ms ? fmt::format(",{:.3f}", *ms) : std::string(",");
-  return fmt::format("{},{},{},{},{}", line, csv_field(event.text),
+  return fmt::format("{},{},{},{},{}{}", line, csv_field(event.text),
                      context.unix_ms == 0 ? std::string() : iso_time(context.unix_ms),
-                     csv_field(context.who.name), token_text(event, context));
+                     csv_field(context.who.name), token_text(event, context), csv_of_bodies(event));
 }
 
 }  // namespace scree

@@ -1,5 +1,6 @@
 #include "server/store/event_reader.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 #include "server/store/schema.h"
@@ -76,12 +77,32 @@ Result<std::optional<Tick>> EventReader::tick_of(const std::string& select) {
   return tick.has_value() ? std::optional(static_cast<Tick>(*tick)) : std::nullopt;
 }
 
+/// From that row on: contacts are several a second where rubble falls.
+Result<std::optional<Tick>> EventReader::beside_contacts(std::optional<Tick> tick,
+                                                         const std::function<std::string(Tick)>& select) {
+  while (tick) {
+    const auto there = events(*tick, *tick);
+    TRY(there);
+    if (!std::ranges::all_of(*there, [](const Event& e) { return e.kind == EventKind::contact; })) break;
+    tick = TRY(tick_of(select(*tick)));
+  }
+  return tick;
+}
+
 Result<std::optional<Tick>> EventReader::next(Tick tick, Tick last) {
-  return tick_of(fmt::format("SELECT min(tick) FROM events WHERE tick > {} AND tick <= {}", tick, last));
+  const auto select = [last](Tick from) {
+    return fmt::format("SELECT min(tick) FROM events WHERE tick > {} AND tick <= {}", from, last);
+  };
+  const auto nearest = TRY(tick_of(select(tick)));
+  return beside_contacts(nearest, select);
 }
 
 Result<std::optional<Tick>> EventReader::previous(Tick tick, Tick first) {
-  return tick_of(fmt::format("SELECT max(tick) FROM events WHERE tick < {} AND tick >= {}", tick, first));
+  const auto select = [first](Tick from) {
+    return fmt::format("SELECT max(tick) FROM events WHERE tick < {} AND tick >= {}", from, first);
+  };
+  const auto nearest = TRY(tick_of(select(tick)));
+  return beside_contacts(nearest, select);
 }
 
 }  // namespace scree

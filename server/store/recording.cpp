@@ -10,13 +10,15 @@ RecordedHeader to_recorded(const RecordingHeader& header) {
   RecordedHeader out = to_recorded(header.world);
   out.program = header.program;
   out.merge_burst_ticks = static_cast<uint32_t>(header.merge_burst_ticks);
+  out.contacts_j = header.contacts_j;
   return out;
 }
 
 Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
   auto world = TRY(config_of(header));
   const Tick burst = header.merge_burst_ticks;
-  return RecordingHeader{header.program, std::move(world), burst == 0 ? merge_burst_ticks : burst};
+  return RecordingHeader{header.program, std::move(world), burst == 0 ? merge_burst_ticks : burst,
+                         header.contacts_j};
 }
 
 namespace {

@@ -22,6 +22,7 @@ struct RecordingHeader {
   std::string program;  ///< name and version of the program that recorded
   WorldConfig world;
   Tick merge_burst_ticks = scree::merge_burst_ticks;  ///< of its events: EventDeriver
+  float contacts_j = contact_event_least_j;           ///< likewise; 0: of earlier builds
 };
 
 /// A world from which a recording begins, or goes on in another process.

@@ -70,7 +70,8 @@ class RecordingReader {
   /// The world's events of the ticks from … to, in order; and what is recorded of the machine there.
   Result<std::vector<Event>> events(Tick from, Tick to);
   Result<std::vector<RecordedMachine>> machine(Tick from, Tick to);
-  /// The nearest tick with an event of the world after, or before, that tick; nothing when there is none.
+  /// The nearest tick with an event of the world, contacts apart, after, or before, that tick; nothing when
+  /// there is none.
   Result<std::optional<Tick>> next_event(Tick tick);
   Result<std::optional<Tick>> previous_event(Tick tick);
   /// The latest keyframe up to `tick`, which is at most last_tick(); nothing when there is none: then play

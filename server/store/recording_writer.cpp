@@ -42,7 +42,7 @@ struct RecordingWriter::State {
   Result<void> count_bytes();
   Result<void> measure();
   void begin_events(const SettingValues& settings) {
-    deriver.emplace(header.world.terrain.voxel_size_m, settings, header.merge_burst_ticks);
+    deriver.emplace(header.world.terrain.voxel_size_m, settings, header.merge_burst_ticks, header.contacts_j);
   }
 
   Database database;

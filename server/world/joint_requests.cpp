@@ -61,6 +61,17 @@ void enter(World::State& state, JointId id, std::shared_ptr<const Joint> joint, 
   CHECK(is_new);
 }
 
+/// The place of a side that is still there.
+std::optional<glm::vec3> place_of(const World::State& state, const Joint& joint) {
+  for (const JointSide& side : {joint.a, joint.b}) {
+    if (side.holds_terrain()) return side.place_m;
+    if (!state.bodies.contains(side.body)) continue;
+    const Pose pose = state.bodies.state(side.body).pose;
+    return pose.position_m + pose.rotation * side.place_m;
+  }
+  return std::nullopt;
+}
+
 void take_out(World::State& state, JointId id, JointEnd why, TickDelta& delta) {
   const auto found = state.joints.find(id);
   CHECK(found != state.joints.end());
@@ -70,6 +81,13 @@ void take_out(World::State& state, JointId id, JointEnd why, TickDelta& delta) {
     there->second.erase(id);
     if (there->second.empty()) state.anchors.erase(there);
   }
+  const Joint& joint = *found->second.joint;
+  delta.told.push_back({.kind = EventKind::joint_ended,
+                        .tick = delta.tick,
+                        .place_m = place_of(state, joint),
+                        .text = std::string(name_of(why)),
+                        .body = joint.a.body,
+                        .other = joint.b.body});
   state.joints.erase(found);
   delta.joints_removed.push_back({id, why});
 }

@@ -24,9 +24,11 @@ inline constexpr uint32_t joints_max_max = 10000;
 inline constexpr float push_slack_m = 4.0F;
 
 /// The blows of props that a tick tells of change a body's speed by at least so much, m/s, and take at least
-/// so much energy, J: a crate that lies still makes none.
+/// so much energy, J: a crate that lies still makes none. Blows between rock are many more: a tick tells of
+/// so many, and only where they are impacts. Beyond: the weakest are left out.
 inline constexpr float contact_event_min_m_s = 0.5F;
 inline constexpr float contact_event_min_j = 1.0F;
+inline constexpr size_t contact_events_of_rock_max = 64;
 
 /// The greatest impulse of a push, newton seconds: of the heaviest prop at 100 m/s. Above: refused.
 inline constexpr float push_impulse_max_n_s = 1e9F;

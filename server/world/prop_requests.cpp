@@ -61,6 +61,14 @@ tl::unexpected<Refused> no_prop(PieceId id) {
 
 }  // namespace
 
+void tell_of_prop(const World::State& state, EventKind kind, PieceId id, TickDelta& delta) {
+  delta.told.push_back({.kind = kind,
+                        .tick = delta.tick,
+                        .place_m = state.bodies.state(id).pose.position_m,
+                        .body = id,
+                        .tag = state.props.at(id).prop->tag});
+}
+
 CheckedRequest check(const World::State& state, const AddPropRequest& request) {
   if (const Result<void> valid = validate(request.prop); !valid)
     return refuse(Refusal::prop_invalid, valid.error().message);
@@ -149,12 +157,14 @@ uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t pa
                                       is_fixed ? still : request.velocity_m_s,
                                       is_fixed ? still : request.spin_rad_s,
                                       false});
+  tell_of_prop(state, EventKind::prop_added, id, delta);
   delta.props_spawned.push_back({id, std::move(shared)});
   return id;
 }
 
 uint32_t perform(World::State& state, const RemovePropRequest& request, uint64_t /*party*/,
-                 TickDelta& /*delta*/) {
+                 TickDelta& delta) {
+  tell_of_prop(state, EventKind::prop_removed, request.prop, delta);
   state.remove_prop(request.prop);
   return 0;
 }

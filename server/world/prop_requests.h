@@ -8,6 +8,9 @@
 
 namespace scree {
 
+/// Enters an event of a prop that is there: that it was added, or is about to be removed.
+void tell_of_prop(const World::State& state, EventKind kind, PieceId id, TickDelta& delta);
+
 using CheckedRequest = tl::expected<void, Refused>;
 
 CheckedRequest check(const World::State& state, const AddPropRequest& request);

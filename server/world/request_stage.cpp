@@ -280,9 +280,10 @@ Checked check(const World::State& state, const Command& command) {
 /// Carries out one request, or refuses it: what was valid when it came may not be any more.
 Outcome execute(World::State& state, const Command& command, const PieceGrant& grant, TickDelta& delta) {
   if (Checked valid = check(state, command); !valid) return tl::unexpected(valid.error());
-  const size_t before = delta.operations.size();
+  const size_t before = delta.operations.size(), told_before = delta.told.size();
   Outcome done = std::visit(Executing{state, party_of(command), grant, delta}, command.body);
   for (size_t i = before; i < delta.operations.size(); ++i) delta.operations[i].session = command.session;
+  for (size_t i = told_before; i < delta.told.size(); ++i) delta.told[i].session = command.session;
   if (std::holds_alternative<SettingsRequest>(command.body)) delta.settings_by = command.session;
   return done;
 }

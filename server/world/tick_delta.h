@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "proto/event.h"
 #include "proto/messages.h"
 #include "server/command/command.h"
 #include "server/work/tick_work.h"
@@ -76,9 +77,10 @@ struct TickDelta {
   std::vector<PieceState> pieces;          ///< every piece alive after the tick, ordered by id
   std::vector<SpawnedProp> props_spawned;  ///< props added in this tick, ordered; some may be gone again
   std::vector<PieceState> props;           ///< every prop there is after the tick, ordered by id
-  std::vector<ContactEvent> contacts;      ///< blows of props, the hardest first; never in a recording
+  std::vector<ContactEvent> contacts;      ///< blows of bodies, the hardest first; none in a replay
   std::vector<AddedJoint> joints_added;    ///< in this tick, and whose motor changed; ordered, once each
   std::vector<EndedJoint> joints_removed;  ///< ordered; some may be among those that were added
+  std::vector<Event> told;                 ///< what became of props and joints, in order; none in a replay
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
   uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "server/world/body_contacts.h"
 #include "server/world/buried_stage.h"
 #include "server/world/impact_stage.h"
 #include "server/world/island_stage.h"
 #include "server/world/joint_requests.h"
 #include "server/world/merge_stage.h"
-#include "server/world/prop_contacts.h"
+#include "server/world/prop_requests.h"
 #include "server/world/refracture_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/settings.h"
@@ -27,10 +28,12 @@ constexpr glm::vec3 world_half_m(limits::world_half_width_m, limits::world_half_
 void step_bodies(World::State& state, TickDelta& delta) {
   state.bodies.step();
   state.work.stepped(state.bodies);
-  if (!state.props.empty()) delta.contacts = contacts_of_props(state);
+  delta.contacts = contacts_of_bodies(state);
 
   for (const PieceId id : state.bodies.beyond(world_half_m)) {
     if (state.props.contains(id)) {
+      tell_of_prop(state, EventKind::prop_removed, id, delta);
+      delta.told.back().text = "left the world";
       state.remove_prop(id);
       continue;
     }

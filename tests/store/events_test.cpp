@@ -246,7 +246,8 @@ TEST_F(EventsTest, export_of_ticks_has_a_line_each_whose_ledger_balances) {
 TEST_F(EventsTest, a_recording_without_a_log_has_its_events_derived) {
   simulate(150);
   record();
-  const auto logged = recorded_events();
+  auto logged = recorded_events();
+  std::erase_if(logged, [](const Event& e) { return e.kind == EventKind::contact; });  // frames have none
   {
     auto database = Database::open(path);
     ASSERT_TRUE(database.has_value());

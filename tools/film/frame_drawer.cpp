@@ -53,7 +53,9 @@ Result<Image> FrameDrawer::draw(RecordedScene& scene, const MirrorChanges& chang
   TRY(prepare(scene, changes, camera, stopped));
   renderer_->set_contacts(contacts_of(scene.scene(), camera.eye_m));
   if (drawn_.particles) renderer_->set_particles(scene.particles(camera.eye_m));
-  return renderer_->draw_image(*methods_.shown(), camera, drawn_.size.width, drawn_.size.height);
+  LineList lines;
+  add_joints(lines, scene.joints(), scene.scene(), camera.eye_m);
+  return renderer_->draw_image(*methods_.shown(), camera, drawn_.size.width, drawn_.size.height, lines);
 }
 
 }  // namespace scree

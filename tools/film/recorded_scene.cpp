@@ -70,6 +70,8 @@ void RecordedScene::show(std::shared_ptr<const TickDelta> delta, MirrorChanges& 
   for (const SpawnedPiece& piece : now_->spawned) volumes_[piece.id] = piece.volume;
   update_pieces(changes);
   update_props(changes);
+  for (const AddedJoint& added : now_->joints_added) joints_.insert_or_assign(added.id, *added.joint);
+  for (const EndedJoint& ended : now_->joints_removed) joints_.erase(ended.id);
   const double now_s = seconds_of(static_cast<double>(now_->tick));
   dust_.add(piece_events_.step(scene(), now_s, *palette()), now_s);
 }

@@ -9,6 +9,7 @@
 
 #include "client/mirror/mirror.h"
 #include "client/render/scene/draw_method.h"
+#include "client/render/scene/joint_lines.h"
 #include "client/render/scene/particle.h"
 #include "client/viewer/events/dust.h"
 #include "client/viewer/events/piece_event_detector.h"
@@ -31,6 +32,7 @@ class RecordedScene {
   const Field& field() const { return field_; }
   const ScenePieces& pieces() const { return pieces_; }
   Scene scene() const { return {field_, pieces_, props_}; }
+  const SceneJoints& joints() const { return joints_; }
   /// The recording's, as it starts. Not null.
   const std::shared_ptr<const Palette>& palette() const { return source_->header().world.palette; }
   /// In the air; the farthest from the eye first.
@@ -53,6 +55,7 @@ class RecordedScene {
   std::map<PieceId, std::shared_ptr<const Volume>> volumes_;  ///< of the pieces alive
   ScenePieces pieces_;
   SceneProps props_;
+  SceneJoints joints_;
   PieceEventDetector piece_events_;
   Dust dust_;
   MirrorChanges unseen_;                    ///< since the last moment that was asked for

@@ -75,6 +75,9 @@ inline constexpr float render_scale_max = 2.0F;
 /// Distance up to which far terrain is drawn, in view radii.
 inline constexpr float horizon_per_view_radius = 8.0F;
 
+/// Distance from the eye up to which joints are drawn, metres: farther, a rope is thinner than a pixel.
+inline constexpr float joints_seen_m = 80.0F;
+
 /// Lines over a picture: 1,000 pieces' hulls, and margin. More are left out.
 inline constexpr size_t lines_max = 100000;
 

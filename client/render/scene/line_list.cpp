@@ -1,6 +1,7 @@
 #include "client/render/scene/line_list.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
 
@@ -19,6 +20,15 @@ glm::vec3 across(glm::vec3 axis) {
 }
 
 }  // namespace
+
+LineColour shaded(LineColour colour, glm::vec3 normal) {
+  const float light =
+      0.45F + 0.55F * glm::max(glm::dot(normal, glm::normalize(glm::vec3(0.7F, 0.6F, 0.4F))), 0.0F);
+  const auto part = [light](uint8_t value) {
+    return static_cast<uint8_t>(static_cast<float>(value) * light);
+  };
+  return {part(colour.red), part(colour.green), part(colour.blue), 255};
+}
 
 void LineList::line(glm::vec3 from_m, glm::vec3 to_m, LineColour colour) {
   if (vertices_.size() + 2 > 2 * limits::lines_max) return;
@@ -79,6 +89,25 @@ void LineList::tube(glm::vec3 from_m, glm::vec3 to_m, float radius_m, LineColour
   const glm::vec3 v = glm::cross(axis, u);
   for (const glm::vec3 side : {u, v, -u, -v}) line(from_m + side, to_m + side, colour);
   for (const glm::vec3 end_m : {from_m, to_m}) circle(end_m, axis, radius_m, colour);
+}
+
+void LineList::cylinder(glm::vec3 from_m, glm::vec3 to_m, float radius_m, int sides, LineColour colour) {
+  const glm::vec3 way_m = to_m - from_m;
+  const float length_m = glm::length(way_m);
+  if (length_m < 1e-5F) return;
+  const glm::vec3 u = across(way_m / length_m);
+  const glm::vec3 v = glm::cross(way_m / length_m, u);
+  const auto around = [&](float side) {
+    const float angle = 2.0F * std::numbers::pi_v<float> * side / static_cast<float>(sides);
+    return u * std::cos(angle) + v * std::sin(angle);
+  };
+  for (int i = 0; i < sides; ++i) {
+    const auto side = static_cast<float>(i);
+    const LineColour seen = shaded(colour, around(side + 0.5F));
+    const glm::vec3 one_m = around(side) * radius_m, next_m = around(side + 1.0F) * radius_m;
+    triangle(from_m + one_m, to_m + one_m, to_m + next_m, seen);
+    triangle(from_m + one_m, to_m + next_m, from_m + next_m, seen);
+  }
 }
 
 void LineList::cross(glm::vec3 place_m, float half_m, LineColour colour) {

@@ -25,6 +25,9 @@ struct LineVertex {
   LineColour colour;
 };
 
+/// As a side of that normal (unit) looks in the sun.
+LineColour shaded(LineColour colour, glm::vec3 normal);
+
 class LineList {
  public:
   void line(glm::vec3 from_m, glm::vec3 to_m, LineColour colour);
@@ -40,6 +43,9 @@ class LineList {
 
   /// Filled, seen from both sides; its colours are those of the screen, and opaque.
   void triangle(glm::vec3 a_m, glm::vec3 b_m, glm::vec3 c_m, LineColour colour);
+
+  /// It has as many sides, shaded as by the sun, and is open at its ends. Without a length there is none.
+  void cylinder(glm::vec3 from_m, glm::vec3 to_m, float radius_m, int sides, LineColour colour);
 
   /// Two a line. Beyond limits::lines_max nothing is added.
   std::span<const LineVertex> vertices() const { return vertices_; }

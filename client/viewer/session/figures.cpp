@@ -25,15 +25,6 @@ constexpr std::array outline{
     glm::vec2(0.07F, -0.19F),         glm::vec2(0.07F, -0.14F),         glm::vec2(0.12F, -0.06F),
     glm::vec2(0.13F, 0.02F),          glm::vec2(0.10F, 0.11F),          glm::vec2(0.00F, 0.15F)};
 
-LineColour shaded(LineColour colour, glm::vec3 normal) {
-  const float light =
-      0.45F + 0.55F * glm::max(glm::dot(normal, glm::normalize(glm::vec3(0.7F, 0.6F, 0.4F))), 0.0F);
-  const auto part = [light](uint8_t value) {
-    return static_cast<uint8_t>(static_cast<float>(value) * light);
-  };
-  return {part(colour.red), part(colour.green), part(colour.blue), 255};
-}
-
 void add_body(LineList& lines, glm::vec3 eye_m, LineColour colour) {
   const auto at = [&](glm::vec2 ring, int side) {
     const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(side) / sides;

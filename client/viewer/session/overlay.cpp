@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "client/render/scene/joint_lines.h"
 #include "shared/field/voxel_vector.h"
 
 namespace scree {
@@ -75,6 +76,12 @@ void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& c
     lines.box((as_vector(box.lo) - centre) * voxel_m, (as_vector(box.hi) - 1.0F - centre) * voxel_m,
               piece_colour, piece.pose.rotation, piece.pose.position_m);
   }
+}
+
+void add_joints_of(ViewerSession& session, LineList& lines, glm::vec3 eye_m, double now_s) {
+  const Mirror* mirror = session.mirror();
+  if (mirror == nullptr || mirror->joints().empty()) return;
+  add_joints(lines, mirror->joints(), session.scene(now_s), eye_m);
 }
 
 void add_physics(LineList& lines, const PhysicsMessage& physics, const Scene& scene) {

@@ -22,6 +22,9 @@ struct OverlayChoice {
 void add_borders(LineList& lines, ViewerSession& session, const OverlayChoice& choice, glm::vec3 eye_m,
                  double now_s);
 
+/// The joints of what is shown, which are a part of the scene.
+void add_joints_of(ViewerSession& session, LineList& lines, glm::vec3 eye_m, double now_s);
+
 /// Hulls that collide: orange while awake, blue asleep, violet for islands. Red: contacts, along their
 /// normals, longer for stronger ones. Magenta: bricks of unfinished searches for islands.
 void add_physics(LineList& lines, const PhysicsMessage& physics, const Scene& scene);

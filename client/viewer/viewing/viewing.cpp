@@ -95,6 +95,7 @@ Moment Viewing::moment(double now_s) {
 
 Result<Image> Viewing::picture(double now_s, int width, int height) {
   LineList lines;
+  add_joints_of(session, lines, camera.eye_m, now_s);
   if (options.overlay.shown) {
     add_overlay(lines, options.overlay, now_s);
     session.figures(now_s).add_to(lines, camera.eye_m);

@@ -132,6 +132,7 @@ LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optio
     lines.shape(shape, is_far ? beyond_reach_colour : preview_colour(tool, session.palette()));
   }
   session.figures(now_s).add_to(lines, camera.eye_m, looked_through);
+  add_joints_of(session, lines, camera.eye_m, now_s);
   add_overlay(lines, overlay, now_s);
   return lines;
 }

@@ -49,6 +49,14 @@ ImVec4 colour_of(EventKind kind) {
       return {0.30F, 0.60F, 0.60F, 1.0F};
     case EventKind::slow:
       return {1.00F, 0.30F, 0.65F, 1.0F};
+    case EventKind::contact:
+      return {0.90F, 0.85F, 0.75F, 1.0F};
+    case EventKind::joint_ended:
+      return {0.80F, 0.55F, 0.20F, 1.0F};
+    case EventKind::prop_added:
+      return {0.60F, 0.80F, 0.30F, 1.0F};
+    case EventKind::prop_removed:
+      return {0.45F, 0.55F, 0.25F, 1.0F};
   }
   return {};
 }
