@@ -141,7 +141,7 @@ CheckedRequest check(const World::State& state, const SetMotorRequest& request) 
 }
 
 uint32_t perform(World::State& state, const AddJointRequest& request, uint64_t party, TickDelta& delta) {
-  Joint joint = request.joint;
+  Joint joint = canonical(request.joint);
   for (JointSide* side : {&joint.a, &joint.b})
     side->turn = side->turn / std::sqrt(glm::dot(side->turn, side->turn));
   const JointId id = state.next_piece++;
@@ -163,9 +163,10 @@ uint32_t perform(World::State& state, const SetMotorRequest& request, uint64_t /
   WorldJoint& known = state.joints.at(request.joint);
   Joint joint = *known.joint;
   joint.motor = request.motor;
+  joint = canonical(joint);
   known.joint = std::make_shared<const Joint>(joint);
   known.hash = hash_of(request.joint, joint, known.owner);
-  state.bodies.set_motor(request.joint, request.motor);
+  state.bodies.set_motor(request.joint, joint.motor);
   delta.joints_added.push_back({request.joint, known.joint});
   return 0;
 }

@@ -120,16 +120,17 @@ CheckedRequest check(const World::State& state, const PushRequest& request) {
 }
 
 CheckedRequest check(const World::State& state, const BreakRequest& request) {
+  // What is wrong in itself comes first: the rest may change while the request waits.
+  if (!is_number(request.at_m)) return refuse(Refusal::push_invalid, "the place of the break is not finite");
+  if (request.seeds < 2 || request.seeds > limits::seeds_max)
+    return refuse(Refusal::push_invalid,
+                  "a piece breaks into 2 to " + std::to_string(limits::seeds_max) + " (limits.seeds_max)");
   if (state.props.contains(request.piece))
     return refuse(Refusal::body_missing,
                   "body " + std::to_string(request.piece) + " is a prop, which never breaks");
   if (!state.pieces.contains(request.piece))
     return refuse(Refusal::body_missing,
                   "there is no piece " + std::to_string(request.piece) + ": it may have become terrain");
-  if (!is_number(request.at_m)) return refuse(Refusal::push_invalid, "the place of the break is not finite");
-  if (request.seeds < 2 || request.seeds > limits::seeds_max)
-    return refuse(Refusal::push_invalid,
-                  "a piece breaks into 2 to " + std::to_string(limits::seeds_max) + " (limits.seeds_max)");
   return {};
 }
 
@@ -142,7 +143,7 @@ CheckedRequest check(const World::State& /*state*/, const BlastRequest& request)
 }
 
 uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta) {
-  Prop prop = request.prop;
+  Prop prop = canonical(request.prop);
   if (prop.mass_kg == 0.0F)
     prop.mass_kg = std::clamp(measure_of(prop).volume_m3 * state.palette->row(prop.material).density_kg_m3,
                               limits::prop_mass_min_kg, limits::prop_mass_max_kg);

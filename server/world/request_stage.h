@@ -16,8 +16,8 @@ void enqueue_commands(World::State& state, std::span<const Command> commands, Ti
 /// gets fewer pieces than it asked for, waits a little, or is refused. Each command gets one reply.
 void carry_out(World::State& state, TickDelta& delta);
 
-/// Whether a command may wait. Settings always: what others change meanwhile may refuse them when their turn
-/// comes.
+/// Whether a command may wait: it is valid, or what made it invalid may have changed while it waited. It is
+/// checked again when its turn comes.
 bool is_valid(const World::State& state, const Command& command);
 
 /// Enters the values of all settings in the delta.

@@ -64,15 +64,16 @@ std::vector<HullFace> hull_faces(const std::vector<glm::vec3>& points_m) {
         const float length = std::sqrt(glm::dot(normal, normal));
         if (!(length > slack * slack)) continue;
         normal /= length;
-        std::vector<uint32_t> flat;
+        const auto off = [&](uint32_t i) { return glm::dot(points_m[i] - points_m[a], normal); };
         bool above = false, below = false;
         for (uint32_t i = 0; i < count && !(above && below); ++i) {
-          const float off = glm::dot(points_m[i] - points_m[a], normal);
-          above = above || off > slack;
-          below = below || off < -slack;
-          if (off <= slack && off >= -slack) flat.push_back(i);
+          above = above || off(i) > slack;
+          below = below || off(i) < -slack;
         }
         if (above == below) continue;
+        std::vector<uint32_t> flat;
+        for (uint32_t i = 0; i < count; ++i)
+          if (off(i) <= slack && off(i) >= -slack) flat.push_back(i);
         if (above) normal = -normal;
         const bool known = std::ranges::any_of(
             faces, [&](const HullFace& face) { return glm::dot(face.normal, normal) > 1.0F - 1e-5F; });

@@ -94,6 +94,19 @@ Result<void> validate(const Joint& joint) {
   return {};
 }
 
+Joint canonical(const Joint& joint) {
+  Joint one = joint;
+  for (JointSide* side : {&one.a, &one.b}) {
+    side->place_m += 0.0F;
+    side->turn =
+        glm::quat(side->turn.w + 0.0F, side->turn.x + 0.0F, side->turn.y + 0.0F, side->turn.z + 0.0F);
+  }
+  if (one.limits) *one.limits = {one.limits->low + 0.0F, one.limits->high + 0.0F};
+  one.motor = {one.motor.speed + 0.0F, one.motor.greatest + 0.0F};
+  for (float* number : {&one.length_m, &one.break_force_n, &one.break_torque_nm}) *number += 0.0F;
+  return one;
+}
+
 Joint joint_at(JointKind kind, const JointFrame& a, const JointFrame& b, glm::vec3 place_m, glm::vec3 axis) {
   const glm::quat turn = turn_to(axis);
   Joint joint;

@@ -63,6 +63,10 @@ Result<void> check_part(const PropPart& part) {
   return {};
 }
 
+glm::quat without_negative_zero(const glm::quat& turn) {
+  return {turn.w + 0.0F, turn.x + 0.0F, turn.y + 0.0F, turn.z + 0.0F};
+}
+
 }  // namespace
 
 Result<void> validate(const Prop& prop) {
@@ -92,7 +96,24 @@ Result<void> validate(const Prop& prop) {
     if (part.kind == PropPartKind::hull && !(measure_of({.parts = {part}}).volume_m3 > least_m3))
       return fail("a hull of the prop has no volume: its corners lie in a plane, or nearly");
   }
+  const glm::mat3 inertia_m5 = measure_of(prop).inertia_m5;
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(inertia_m5[axis][axis] > 0.0F)) return fail("the prop is too small or too thin to be turned");
   return {};
+}
+
+Prop canonical(const Prop& prop) {
+  Prop one = prop;
+  for (PropPart& part : one.parts) {
+    if (part.kind == PropPartKind::hull) part.half_m = glm::vec3(0.0F);
+    for (glm::vec3* v : {&part.place_m, &part.half_m}) *v += 0.0F;
+    for (glm::vec3& corner : part.corners_m) corner += 0.0F;
+    part.turn = without_negative_zero(part.turn);
+  }
+  for (float* number :
+       {&one.mass_kg, &one.friction, &one.restitution, &one.drag, &one.spin_drag, &one.gravity})
+    *number += 0.0F;
+  return one;
 }
 
 }  // namespace scree

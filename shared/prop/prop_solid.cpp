@@ -59,27 +59,36 @@ glm::mat3 of_point(float mass, glm::vec3 at) {
   return mass * (glm::mat3(glm::dot(at, at)) - glm::outerProduct(at, at));
 }
 
-/// By the tetrahedra between its faces and the origin.
+/// By the tetrahedra between its faces and one of its corners: a hull may lie far from the origin. Nothing of
+/// one that is so thin that its faces do not close.
 Measured measure_hull(const std::vector<glm::vec3>& corners) {
-  Measured all;
-  glm::vec3 first(0.0F);
-  glm::mat3 second(0.0F);
+  const glm::dvec3 origin(corners.front());
+  double six_volumes = 0.0, area = 0.0;
+  glm::dvec3 first(0.0), outward(0.0);
+  glm::dmat3 second(0.0);
   for (const HullFace& face : hull_faces(corners))
     for (size_t i = 2; i < face.corners.size(); ++i) {
-      const glm::vec3 a = corners[face.corners[0]], b = corners[face.corners[i - 1]],
-                      c = corners[face.corners[i]], sum = a + b + c;
-      const float volume = glm::dot(a, glm::cross(b, c)) / 6.0F;
-      all.volume_m3 += volume;
-      first += 0.25F * volume * sum;
-      second += volume / 20.0F *
-                (glm::outerProduct(a, a) + glm::outerProduct(b, b) + glm::outerProduct(c, c) +
-                 glm::outerProduct(sum, sum));
+      const auto from_origin = [&](uint32_t corner) { return glm::dvec3(corners[corner]) - origin; };
+      const glm::dvec3 a = from_origin(face.corners[0]), b = from_origin(face.corners[i - 1]),
+                       c = from_origin(face.corners[i]), sum = a + b + c;
+      const glm::dvec3 across = glm::cross(b - a, c - a);
+      const double volume = glm::dot(a, glm::cross(b, c));
+      outward += across;
+      area += std::sqrt(glm::dot(across, across));
+      six_volumes += volume;
+      first += volume * sum;
+      second += volume * (glm::outerProduct(a, a) + glm::outerProduct(b, b) + glm::outerProduct(c, c) +
+                          glm::outerProduct(sum, sum));
     }
-  if (!(all.volume_m3 > 0.0F)) return {};
-  all.middle_m = first / all.volume_m3;
-  const float trace = second[0][0] + second[1][1] + second[2][2];
-  all.inertia_m5 = glm::mat3(trace) - second - of_point(all.volume_m3, all.middle_m);
-  return all;
+  constexpr double open_share = 1e-3;
+  if (!(six_volumes > 0.0) || glm::dot(outward, outward) > open_share * open_share * area * area) return {};
+  const double volume = six_volumes / 6.0;
+  const glm::dvec3 middle = first / (24.0 * volume);
+  second /= 120.0;
+  const double trace = second[0][0] + second[1][1] + second[2][2];
+  const glm::dmat3 of_middle = glm::dmat3(glm::dot(middle, middle)) - glm::outerProduct(middle, middle);
+  return {static_cast<float>(volume), glm::vec3(origin + middle),
+          glm::mat3(glm::dmat3(trace) - second - volume * of_middle)};
 }
 
 Measured measure(const PropPart& part) {
