@@ -37,6 +37,7 @@ struct Writing {
     write(*carve.mutable_impact(), from.impact_m);
     carve.set_blast_speed_m_s(from.blast_speed_m_s);
     carve.set_authored(pack_points(from.authored_m));
+    carve.set_piece(from.piece);
   }
   void operator()(const FillMessage& from) const {
     wire::Fill& fill = *to.mutable_fill();
@@ -59,6 +60,8 @@ struct Writing {
   void operator()(const AddJointMessage& from) const { write(*to.mutable_add_joint(), from); }
   void operator()(const RemoveJointMessage& from) const { write(*to.mutable_remove_joint(), from); }
   void operator()(const SetMotorMessage& from) const { write(*to.mutable_set_motor(), from); }
+  void operator()(const CutOutMessage& from) const { write(*to.mutable_cut_out(), from); }
+  void operator()(const ReleaseMessage& from) const { write(*to.mutable_release(), from); }
   void operator()(const QueryMessage& from) const { write(*to.mutable_query(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
@@ -101,6 +104,7 @@ CarveMessage read(const wire::Carve& from, FieldChecker& check) {
   carve.impact_m = check.vec3(from.impact(), "impact");
   carve.blast_speed_m_s = check.finite(from.blast_speed_m_s(), "blast_speed_m_s");
   carve.authored_m = check.points(from.authored(), limits::seeds_max, "authored");
+  carve.piece = from.piece();
   return carve;
 }
 
@@ -147,6 +151,10 @@ Result<ClientMessage> read_about_bodies(const wire::ClientMessage& from, FieldCh
       return checked(read(from.remove_joint(), check));
     case wire::ClientMessage::kSetMotor:
       return checked(read(from.set_motor(), check));
+    case wire::ClientMessage::kCutOut:
+      return checked(read(from.cut_out(), check));
+    case wire::ClientMessage::kRelease:
+      return checked(read(from.release(), check));
     default:
       return UnknownMessage{};
   }
@@ -217,6 +225,8 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kAddJoint:
     case wire::ClientMessage::kRemoveJoint:
     case wire::ClientMessage::kSetMotor:
+    case wire::ClientMessage::kCutOut:
+    case wire::ClientMessage::kRelease:
       return read_about_bodies(from, check, checked);
     case wire::ClientMessage::kQuery:
       return checked(read(from.query(), check));

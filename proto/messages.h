@@ -103,6 +103,8 @@ using BlastMessage = RequestMessage<BlastRequest>;
 using AddJointMessage = RequestMessage<AddJointRequest>;
 using RemoveJointMessage = RequestMessage<RemoveJointRequest>;
 using SetMotorMessage = RequestMessage<SetMotorRequest>;
+using CutOutMessage = RequestMessage<CutOutRequest>;
+using ReleaseMessage = RequestMessage<ReleaseRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairMessage {
@@ -170,7 +172,7 @@ using ClientMessage =
                  OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
                  AskContentMessage, AddPropMessage, RemovePropMessage, MovePropMessage, PushMessage,
                  BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage,
-                 QueryMessage, UnknownMessage>;
+                 CutOutMessage, ReleaseMessage, QueryMessage, UnknownMessage>;
 
 // ---- server to client
 

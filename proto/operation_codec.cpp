@@ -24,9 +24,15 @@ constexpr unsigned kind_bits = 3;
 constexpr uint64_t kind_mask = (1U << kind_bits) - 1;
 constexpr size_t kinds = std::variant_size_v<Operation>;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | kind_mask;
-/// The kind of a fill of a material, of paint by voxels, and of slides; a byte after the head says which.
+/// The kind of a fill of a material, of paint by voxels, of slides, and of shatters by a shape; a byte after
+/// the head says which.
 constexpr uint64_t kind_with_material = 7;
-enum WithMaterial : uint8_t { fill_of_material = 0, paint_of_voxels = 1, slide_of_material = 2 };
+enum WithMaterial : uint8_t {
+  fill_of_material = 0,
+  paint_of_voxels = 1,
+  slide_of_material = 2,
+  shatter_by_shape = 3
+};
 static_assert(kinds == kind_with_material + 1);
 
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
@@ -137,6 +143,12 @@ struct Writing {
   }
   void operator()(const DiscardOperation&) const {}
   void operator()(const ShatterOperation& shatter) const {
+    if (shatter.cut) {
+      writer.u8(shatter_by_shape);
+      write_shape(writer, shatter.cut->shape);
+      writer.position(shatter.cut->pose);
+      writer.u32(shatter.cut->pose.rotation);
+    }
     writer.varint(shatter.piece);
     writer.u8(packed(shatter.pattern, shatter.cutter));
     writer.varint(shatter.seeds);
@@ -273,8 +285,19 @@ void read(ByteReader& reader, PieceId, SlideOperation& slide) {
 }
 
 Operation read_with_material(ByteReader& reader, PieceId id) {
+  const uint8_t which = reader.u8("kind of an operation with a material", shatter_by_shape);
+  if (which == shatter_by_shape) {
+    ShatterOperation shatter;
+    PieceCut cut{read_shape(reader), {}};
+    cut.pose = reader.position("position of a cut");
+    cut.pose.rotation = reader.u32("rotation of a cut");
+    read(reader, id, shatter);
+    if (id > 0xFFFFFFFFU - limits::seeds_max - limits::cut_rests_max)
+      reader.refuse("piece ids run over 2^32");
+    shatter.cut = cut;
+    return shatter;
+  }
   if (id != 0) reader.refuse("a fill, paint or slide with a piece id");
-  const uint8_t which = reader.u8("kind of an operation with a material", slide_of_material);
   if (which == slide_of_material) {
     SlideOperation slide;
     read(reader, id, slide);
@@ -305,8 +328,9 @@ constexpr std::array<Reading, kind_with_material> readings =
 bool has_form_with_material(const Operation& operation) {
   const auto* fill = std::get_if<FillOperation>(&operation);
   const auto* paint = std::get_if<PaintOperation>(&operation);
-  return std::holds_alternative<SlideOperation>(operation) || (fill != nullptr && fill->material) ||
-         (paint != nullptr && !paint->whole_bricks);
+  const auto* shatter = std::get_if<ShatterOperation>(&operation);
+  return (shatter != nullptr && shatter->cut) || std::holds_alternative<SlideOperation>(operation) ||
+         (fill != nullptr && fill->material) || (paint != nullptr && !paint->whole_bricks);
 }
 
 Operation read_operation(ByteReader& reader) {

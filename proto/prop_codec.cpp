@@ -136,6 +136,16 @@ void write(wire::Blast& to, const BlastMessage& from) {
   to.set_random_seed(from.random_seed);
 }
 
+void write(wire::CutOut& to, const CutOutMessage& from) {
+  to.set_request(from.request);
+  write(*to.mutable_shape(), from.shape);
+}
+
+void write(wire::Release& to, const ReleaseMessage& from) {
+  to.set_request(from.request);
+  to.set_piece(from.piece);
+}
+
 void write(wire::PropHere& to, const PropMessage& from) {
   to.set_id(from.id);
   write(*to.mutable_prop(), from.prop);
@@ -185,6 +195,14 @@ BlastMessage read(const wire::Blast& from, FieldChecker& check) {
   return {{check.vec3(from.centre(), "centre of a blast"), check.finite(from.energy_j(), "energy of a blast"),
            from.random_seed()},
           from.request()};
+}
+
+CutOutMessage read(const wire::CutOut& from, FieldChecker& check) {
+  return {{check.shape(from.shape())}, from.request()};
+}
+
+ReleaseMessage read(const wire::Release& from, FieldChecker& /*check*/) {
+  return {{from.piece()}, from.request()};
 }
 
 PropMessage read(const wire::PropHere& from, FieldChecker& check) {

@@ -23,6 +23,8 @@ constexpr Row rows[] = {
     {Refusal::push_invalid, "push_invalid"},
     {Refusal::blast_invalid, "blast_invalid"},
     {Refusal::body_missing, "body_missing"},
+    {Refusal::shape_misses, "shape_misses"},
+    {Refusal::body_not_kept, "body_not_kept"},
     {Refusal::props_max, "props_max"},
     {Refusal::joint_invalid, "joint_invalid"},
     {Refusal::joint_missing, "joint_missing"},

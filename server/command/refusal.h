@@ -23,6 +23,8 @@ enum class Refusal : uint8_t {
   push_invalid,
   blast_invalid,
   body_missing,
+  shape_misses,
+  body_not_kept,
   props_max,
   joint_invalid,
   joint_missing,

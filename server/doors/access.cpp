@@ -126,7 +126,9 @@ Role role_for(const Request& request) {
           [](const BreakRequest&) { return Role::carver; }, [](const BlastRequest&) { return Role::carver; },
           [](const AddJointRequest&) { return Role::director; },
           [](const RemoveJointRequest&) { return Role::director; },
-          [](const SetMotorRequest&) { return Role::director; }},
+          [](const SetMotorRequest&) { return Role::director; },
+          [](const CutOutRequest&) { return Role::director; },
+          [](const ReleaseRequest&) { return Role::director; }},
       request);
 }
 

@@ -101,6 +101,7 @@ void write(kept::Piece& to, const PieceRecord& from) {
   to.set_generation(from.traits.generation);
   to.set_fell(from.traits.fell);
   to.set_owner(from.traits.owner);
+  to.set_kept(from.traits.kept);
   to.set_volume(to_string(encode_volume(*from.volume)));
   to.set_mass_kg(shape.mass_kg);
   to.set_friction(shape.friction);
@@ -139,6 +140,7 @@ PieceRecord read(const kept::Piece& from, FieldChecker& check) {
       static_cast<uint8_t>(check.within(from.generation(), 0, UINT8_MAX, "generation of a piece"));
   piece.traits.fell = from.fell();
   piece.traits.owner = from.owner();
+  piece.traits.kept = from.kept();
   piece.volume = std::make_shared<const Volume>(check.value_or_refuse(decode_volume(as_span(from.volume()))));
   piece.shape = std::make_shared<const BodyShape>(read_shape(from, check));
   return piece;

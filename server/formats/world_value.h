@@ -69,6 +69,7 @@ struct PieceTraits {
   uint8_t generation = 0;  ///< number of breaks among its ancestors
   bool fell = false;       ///< it was an island: where it merges, nothing that hangs loose falls once more
   uint64_t owner = 0;      ///< party that caused it, by a carve or a fall (command.h); 0: the world itself
+  bool kept = false;       ///< it never becomes terrain, until it is released
 
   bool operator==(const PieceTraits&) const = default;
 };

@@ -29,8 +29,9 @@ std::string text_of(const Command& command, const Palette& palette) {
   const std::string body = std::visit(
       Overloaded{
           [](const CarveRequest& carve) {
-            return fmt::format("carve a {}, {} seeds, random seed {}", text_of(carve.shape), carve.seeds,
-                               carve.random_seed);
+            const std::string of = carve.piece != 0 ? fmt::format(" out of piece {}", carve.piece) : "";
+            return fmt::format("carve a {}{}, {} seeds, random seed {}", text_of(carve.shape), of,
+                               carve.seeds, carve.random_seed);
           },
           [](const FillRequest& fill) { return "fill a " + text_of(fill.shape); },
           [&](const PaintRequest& paint) {
@@ -54,7 +55,9 @@ std::string text_of(const Command& command, const Palette& palette) {
           [](const BlastRequest& blast) { return fmt::format("a blast of {} J", blast.energy_j); },
           [](const AddJointRequest& add) { return fmt::format("add a {} joint", name_of(add.joint.kind)); },
           [](const RemoveJointRequest& remove) { return fmt::format("remove joint {}", remove.joint); },
-          [](const SetMotorRequest& set) { return fmt::format("set the motor of joint {}", set.joint); }},
+          [](const SetMotorRequest& set) { return fmt::format("set the motor of joint {}", set.joint); },
+          [](const CutOutRequest& cut_out) { return "cut out a " + text_of(cut_out.shape); },
+          [](const ReleaseRequest& release) { return fmt::format("release piece {}", release.piece); }},
       command.body);
   return fmt::format("session {}, request {}: {}", command.session, command.request, body);
 }

@@ -25,7 +25,8 @@ struct Asked {
 Asked asked_by(const Request& request, const Palette& palette) {
   return std::visit(
       Overloaded{[](const CarveRequest& carve) {
-                   return Asked{"carve", carve.shape};
+                   const bool of_piece = carve.piece != 0;
+                   return Asked{"carve", carve.shape, of_piece ? fmt::format("piece {}", carve.piece) : ""};
                  },
                  [&](const FillRequest& fill) {
                    const std::string material =
@@ -72,6 +73,12 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  },
                  [](const SetMotorRequest& set) {
                    return Asked{"set_motor", {}, fmt::format("joint {}", set.joint)};
+                 },
+                 [](const CutOutRequest& cut_out) {
+                   return Asked{"cut_out", cut_out.shape};
+                 },
+                 [](const ReleaseRequest& release) {
+                   return Asked{"release", {}, fmt::format("piece {}", release.piece)};
                  }},
       request);
 }

@@ -81,7 +81,7 @@ struct WorldFile::State {
 
   Database database;
   Statement put_header, put_moment, put_chunk, put_piece, delete_piece, get_chunk;
-  std::set<PieceId> pieces;  ///< that have rows
+  std::map<PieceId, bool> pieces;  ///< that have rows, and whether these say that they are kept
   uint64_t bytes_written = 0;
   bool durable = true;  ///< saves are synced
 };
@@ -117,10 +117,11 @@ Result<void> WorldFile::State::write(const WorldMoment& moment) {
   std::set<PieceId> alive;
   for (const PieceRecord& piece : moment.pieces) {
     alive.insert(piece.id);
-    if (pieces.contains(piece.id)) continue;
+    const auto known = pieces.find(piece.id);
+    if (known != pieces.end() && known->second == piece.traits.kept) continue;
     TRY(put(put_piece, piece.id, encode(piece)));
   }
-  for (const PieceId id : pieces)
+  for (const auto& [id, kept] : pieces)
     if (!alive.contains(id)) TRY(database.run(delete_piece, id));
   return put(put_moment, 0, encode(moment));
 }
@@ -260,8 +261,9 @@ Result<void> WorldFile::State::begin_to_save() {
       "PRAGMA user_version = {};",  // what is written is of the present format
       synchronous(durable), limits::wal_pages_max, world_format);
   TRY(database.execute(settings));
-  const auto has_row = [this](PieceId id, std::span<const uint8_t>, bool) -> Result<void> {
-    pieces.insert(id);
+  const auto has_row = [this](PieceId id, std::span<const uint8_t> data, bool) -> Result<void> {
+    const auto piece = decode_piece_record(data);
+    pieces[id] = piece && piece->traits.kept;
     return {};
   };
   TRY(database.each(world_schema::all_of("pieces"), has_row));
@@ -284,7 +286,7 @@ Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldC
     return fail(
         fmt::format("{}: {} while the server kept its world there", path(), name_of(StoreFault::moved)));
   state_->pieces.clear();
-  for (const PieceRecord& piece : moment.pieces) state_->pieces.insert(piece.id);
+  for (const PieceRecord& piece : moment.pieces) state_->pieces[piece.id] = piece.traits.kept;
   return {};
 }
 

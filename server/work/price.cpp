@@ -22,6 +22,9 @@ struct Pricing {
 
   float operator()(const CarveRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
+    if (request.piece != 0)
+      return rest_price_us(limits::broken_voxels) +
+             cut_price_us(cutter, limits::broken_voxels, request.seeds);
     const float own = edit_price_us(request.shape, field);
     const float voxels = voxels_of(band_box(in_voxels(request.shape, field.source().voxel_size_m)));
     return own + seeds_price_us(request) + cut_price_us(cutter_for(cutter, voxels), voxels, request.seeds);
@@ -45,6 +48,12 @@ struct Pricing {
   float operator()(const AddJointRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const RemoveJointRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const SetMotorRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const CutOutRequest& request) const {
+    const float voxels = voxels_of(band_box(in_voxels(request.shape, field.source().voxel_size_m)));
+    return edit_price_us(request.shape, field) + cut_price_us(cheapest_cutter, voxels, 1) +
+           rest_price_us(voxels);
+  }
+  float operator()(const ReleaseRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
     return cut_price_us(cutter, limits::broken_voxels, request.seeds);

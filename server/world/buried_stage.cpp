@@ -47,11 +47,12 @@ bool lies_within(const World::State& state, PieceId id, const InRock& in_rock) {
                      in_rock);
 }
 
+/// Those that may become terrain.
 std::vector<PieceId> pieces_near(const World::State& state, const VoxelBox& bounds) {
   const float dx = state.config.terrain.voxel_size_m;
   const auto position_m = [&](VoxelCoord v) { return glm::vec3(v.x, v.y, v.z) * dx; };
   std::vector<PieceId> near = state.bodies.near(position_m(bounds.lo), position_m(bounds.hi));
-  if (!state.props.empty()) std::erase_if(near, [&](PieceId id) { return state.props.contains(id); });
+  std::erase_if(near, [&](PieceId id) { return state.props.contains(id) || state.traits_of(id).kept; });
   return near;
 }
 
@@ -90,7 +91,7 @@ void find_stuck(World::State& state) {
   for (const auto& [id, volume] : state.pieces) {
     if ((id + state.tick) % period != 0) continue;
     const BodyState body = state.bodies.state(id);
-    if (body.frozen) continue;
+    if (body.frozen || state.traits_of(id).kept) continue;
     if (!in_solid(body.pose.position_m / dx) || !lies_within(*volume, body.pose, dx, in_rock))
       state.sunk.erase(id);
     else if (!state.sunk.insert(id).second)

@@ -256,6 +256,7 @@ void break_piece(World::State& state, const Blow& blow, Quota& quota, TickDelta&
   breakup.balance(applied, state.pieces);
   PieceTraits traits = parent;
   ++traits.generation;
+  traits.kept = false;
   const auto born = [&](PieceId, const Volume& volume) { return Newborn{breakup.child(volume), traits}; };
   spawn(state, applied, born, delta);
 }

@@ -92,7 +92,8 @@ void settle(World::State& state, TickDelta& delta) {
   const bool merging = merges(state.config.methods.recombine);
   std::vector<RestPiece> alive;
   for (const BodyState& body : state.bodies.states())
-    if (const float reach_m = state.bodies.reach_m(body.id); !body.frozen && !state.props.contains(body.id))
+    if (const float reach_m = state.bodies.reach_m(body.id);
+        !body.frozen && !state.props.contains(body.id) && !state.traits_of(body.id).kept)
       alive.push_back({body.id, body.pose, reach_m, energy_speed_m_s(body, reach_m), body.velocity_m_s});
   const BodyContacts contacts = state.bodies.contacts();
   std::vector<RestSupport> supports;

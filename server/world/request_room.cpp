@@ -35,6 +35,8 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const
 
 std::optional<CarveRequest> carve_in(const Request& request) {
   if (const auto* carve = std::get_if<CarveRequest>(&request)) return *carve;
+  if (const auto* cut_out = std::get_if<CutOutRequest>(&request))
+    return CarveRequest{.shape = cut_out->shape, .seeds = 1};
   const auto* blast = std::get_if<BlastRequest>(&request);
   if (blast == nullptr) return std::nullopt;
   return carve_of(*blast, blast_reach_m(blast->energy_j), pieces_of_blast(blast->energy_j));

@@ -15,6 +15,7 @@
 #include "server/world/joint_requests.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
+#include "server/world/piece_carving.h"
 #include "server/world/prop_requests.h"
 #include "server/world/refracture_stage.h"
 #include "server/world/request_room.h"
@@ -29,8 +30,6 @@ namespace scree {
 
 namespace {
 
-/// How many pieces a request made, or as its answer says (answer()).
-using Outcome = tl::expected<uint32_t, Refused>;
 using Checked = CheckedRequest;
 
 void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, uint64_t party,
@@ -99,6 +98,7 @@ struct Checking {
   const World::State& state;
 
   Checked operator()(const CarveRequest& request) const {
+    if (request.piece != 0) TRY(check_piece_carve(state, request));
     if (is_relaxed(request.pattern) && !request.authored_m.empty())
       return refuse(Refusal::carve_invalid,
                     "the pattern " + std::string(name_of(request.pattern)) + " takes no points");
@@ -119,6 +119,9 @@ struct Checking {
     if (request.material) TRY(check_material(*request.material, Refusal::fill_invalid));
     return check_edit(state, FillOperation{request.shape, request.material}, request.shape,
                       Refusal::fill_invalid);
+  }
+  Checked operator()(const CutOutRequest& request) const {
+    return check_edit(state, FillOperation{request.shape}, request.shape, Refusal::carve_invalid);
   }
   Checked operator()(const PaintRequest& request) const {
     TRY(check_material(request.material, Refusal::paint_invalid));
@@ -232,7 +235,13 @@ struct Executing {
   const PieceGrant& grant;
   TickDelta& delta;
 
-  Outcome operator()(const CarveRequest& request) const { return carve(state, request, party, grant, delta); }
+  Outcome operator()(const CarveRequest& request) const {
+    if (request.piece != 0) return carve_piece(state, request, party, grant, delta);
+    return carve(state, request, party, grant, delta);
+  }
+  Outcome operator()(const CutOutRequest& request) const {
+    return cut_out(state, request, party, grant, delta);
+  }
   Outcome operator()(const FillRequest& request) const { return fill(state, request, party, delta); }
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, party, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
@@ -264,6 +273,13 @@ void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
     std::visit(Overloaded{[&](const PaintRequest&) { reply.painted = *outcome; },
                           [&](const AddPropRequest&) { reply.prop = *outcome; },
                           [&](const AddJointRequest&) { reply.joint = *outcome; },
+                          [&](const CutOutRequest&) {
+                            if (*outcome == 0) return;
+                            reply.prop = *outcome;
+                            const auto is_part = [&](const SpawnedPiece& one) { return one.id >= *outcome; };
+                            reply.pieces =
+                                static_cast<uint32_t>(std::ranges::count_if(delta.spawned, is_part));
+                          },
                           [&](const auto&) { reply.pieces = *outcome; }},
                command.body);
   } else {
@@ -290,6 +306,8 @@ Outcome execute(World::State& state, const Command& command, const PieceGrant& g
 
 /// Whether terrain may fall because of it.
 bool may_loosen(const Request& request) {
+  const auto* carve = std::get_if<CarveRequest>(&request);
+  if (carve != nullptr && carve->piece != 0) return false;
   return carve_in(request) || std::holds_alternative<FillRequest>(request);
 }
 

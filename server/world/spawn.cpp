@@ -94,7 +94,8 @@ void spawn(World::State& state, const Applied& applied,
 Applied shatter_piece(World::State& state, const ShatterOperation& operation, const SetsOut& sets_out,
                       TickDelta& delta) {
   const BodyState body = state.bodies.state(operation.piece);
-  const PieceTraits traits = state.traits_of(operation.piece);
+  PieceTraits traits = state.traits_of(operation.piece);
+  traits.kept = false;
   const glm::vec3 centre_voxels = state.pieces.at(operation.piece)->centre_voxels;
   state.bodies.remove(operation.piece);
   Applied applied = state.apply_and_record(operation, traits.owner, delta);

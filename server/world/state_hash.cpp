@@ -19,7 +19,7 @@ uint64_t state_hash(const HashedState& state) {
                                          static_cast<uint64_t>(ledger.poured),
                                          static_cast<uint64_t>(ledger.moved)};
   uint64_t hash = XXH3_64bits(words.data(), sizeof(words));
-  for (const uint64_t sum : {state.props, state.joints})
+  for (const uint64_t sum : {state.props, state.joints, state.kept})
     if (sum != 0) hash = XXH3_64bits_withSeed(&sum, sizeof sum, hash);
   return hash;
 }
@@ -59,6 +59,11 @@ uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner) {
   if (prop.model) put(*prop.model);
   put.bytes.insert(put.bytes.end(), prop.data.begin(), prop.data.end());
   return XXH3_64bits(put.bytes.data(), put.bytes.size());
+}
+
+uint64_t hash_of_kept(PieceId id) {
+  constexpr uint64_t seed = 0x6B657074;  // not that of another list
+  return XXH3_64bits_withSeed(&id, sizeof id, seed);
 }
 
 uint64_t hash_of(JointId id, const Joint& joint, uint64_t owner) {

@@ -18,6 +18,7 @@ struct HashedState {
   Ledger ledger;
   uint64_t props = 0;   ///< sum of hash_of() of the props; 0: there are none
   uint64_t joints = 0;  ///< the same of the joints
+  uint64_t kept = 0;    ///< the same of the pieces that are kept
 };
 
 /// The hash of what a prop is, and whose. Its motion is the bodies'.
@@ -25,6 +26,9 @@ uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner);
 
 /// The same of a joint.
 uint64_t hash_of(JointId id, const Joint& joint, uint64_t owner);
+
+/// The hash of a piece that is kept.
+uint64_t hash_of_kept(PieceId id);
 
 uint64_t state_hash(const HashedState& state);
 

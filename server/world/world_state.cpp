@@ -173,8 +173,10 @@ uint64_t World::State::hash() const {
   for (const auto& [id, one] : props) sum_of_props += one.hash;
   uint64_t sum_of_joints = 0;
   for (const auto& [id, one] : joints) sum_of_joints += one.hash;
-  return state_hash(
-      {tick, field.hash(), bodies.state_hash(), next_piece, ledger, sum_of_props, sum_of_joints});
+  uint64_t sum_of_kept = 0;
+  for (const auto& [id, one] : traits) sum_of_kept += one.kept ? hash_of_kept(id) : 0;
+  return state_hash({tick, field.hash(), bodies.state_hash(), next_piece, ledger, sum_of_props, sum_of_joints,
+                     sum_of_kept});
 }
 
 BodyShape World::State::enter_prop(PieceId id, std::shared_ptr<const Prop> prop, uint64_t owner) {

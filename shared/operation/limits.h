@@ -23,6 +23,9 @@ inline constexpr float lift_voxel_cost_us = 0.09F;
 inline constexpr float slide_cost_us = 660.0F;
 inline constexpr float slide_voxel_cost_us = 0.0042F;
 
+/// Parts into which what a shape leaves of a piece falls apart. Above: the smaller ones become dust.
+inline constexpr unsigned cut_rests_max = 8;
+
 /// Sides of a slide's box along x and z, along y, and of a cell, voxels; and the tangent of its angle, in
 /// 64ths: up to 63°. Above: refused.
 inline constexpr int slide_side_max_voxels = 80;

@@ -11,10 +11,9 @@
 #include "shared/field/material_changes.h"
 #include "shared/field/paint.h"
 #include "shared/fracture/material_shares.h"
-#include "shared/fracture/natural_cut.h"
 #include "shared/fracture/seeds.h"
-#include "shared/fracture/shatter.h"
 #include "shared/operation/prepared_stamp.h"
+#include "shared/operation/shatter_operation.h"
 #include "shared/operation/slide_operation.h"
 #include "shared/recombine/stamp_materials.h"
 
@@ -54,18 +53,6 @@ MassUnits mass_created(const Applied& applied, const PieceTable& pieces) {
   return sum;
 }
 
-/// How many seeds the pattern places for a carve or a shatter.
-template <typename Break>
-uint32_t first_seeds(const Break& op) {
-  return is_cut_on(op.pattern) ? seeds_of_blocks(op.seeds) : op.seeds;
-}
-
-/// The second half of a carve or a shatter whose pattern has one.
-template <typename Break>
-void finish(Cut& cut, const Break& op, glm::vec3 impact_voxels) {
-  if (is_cut_on(op.pattern)) cut_on(cut, {op.cutter, op.seeds, op.random_seed, impact_voxels});
-}
-
 std::vector<glm::vec3> seeds_of(const CarveOperation& op, const Window& volume, float voxel_size_m) {
   if (is_drawn(op.pattern))
     return scatter_seeds(volume, op.pattern, first_seeds(op), op.random_seed, op.impact_m / voxel_size_m);
@@ -91,7 +78,7 @@ Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pi
   for (const MaterialMass& one : lost) flow_of(applied, one.material).terrain -= one.mass;
   applied.terrain_gain = -sum_of(lost);
   share_materials(cut, rock.stones, lost);
-  finish(cut, carve_op, carve_op.impact_m / dx);
+  finish_cut(cut, carve_op, carve_op.impact_m / dx);
   enter(std::move(cut), carve_op.first_piece, pieces, applied);
   applied.changed = scatter(field, after);
   CHECK_EQ(mass_created(applied, pieces) + applied.dust, -applied.terrain_gain);
@@ -213,14 +200,10 @@ Applied apply_discard(const DiscardOperation& op, PieceTable& pieces) {
   return applied;
 }
 
-Applied apply_shatter(const ShatterOperation& op, PieceTable& pieces) {
+Applied apply_shatter(const ShatterOperation& op, float voxel_size_m, PieceTable& pieces) {
   const std::shared_ptr<const Volume> volume = remove_piece(pieces, op.piece);
   Applied applied;
-  applied.seeds_voxels =
-      scatter_seeds(volume->window, op.pattern, first_seeds(op), op.random_seed, op.impact_voxels);
-  Cut cut = shatter(op.cutter, *volume, applied.seeds_voxels);
-  share_materials(cut, volume->materials, masses_of(*volume));
-  finish(cut, op, op.impact_voxels);
+  Cut cut = cut_of(op, *volume, voxel_size_m, applied);
   enter_piece(applied, *volume, -1);
   enter(std::move(cut), op.first_piece, pieces, applied);
   CHECK_EQ(mass_created(applied, pieces) + applied.dust, volume->mass);
@@ -372,17 +355,18 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
 }
 
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces, const PreparedStamp* prepared) {
-  return std::visit(Overloaded{
-                        [&](const CarveOperation& op) { return apply_carve(op, field, pieces); },
-                        [&](const FillOperation& op) { return apply_fill(op, field); },
-                        [&](const StampOperation& op) { return apply_stamp(op, field, pieces, prepared); },
-                        [&](const DiscardOperation& op) { return apply_discard(op, pieces); },
-                        [&](const ShatterOperation& op) { return apply_shatter(op, pieces); },
-                        [&](const IslandOperation& op) { return apply_island(op, field, pieces); },
-                        [&](const PaintOperation& op) { return apply_paint(op, field); },
-                        [&](const SlideOperation& op) { return apply_slide(op, field); },
-                    },
-                    operation);
+  return std::visit(
+      Overloaded{
+          [&](const CarveOperation& op) { return apply_carve(op, field, pieces); },
+          [&](const FillOperation& op) { return apply_fill(op, field); },
+          [&](const StampOperation& op) { return apply_stamp(op, field, pieces, prepared); },
+          [&](const DiscardOperation& op) { return apply_discard(op, pieces); },
+          [&](const ShatterOperation& op) { return apply_shatter(op, field.source().voxel_size_m, pieces); },
+          [&](const IslandOperation& op) { return apply_island(op, field, pieces); },
+          [&](const PaintOperation& op) { return apply_paint(op, field); },
+          [&](const SlideOperation& op) { return apply_slide(op, field); },
+      },
+      operation);
 }
 
 Window carved_volume(Field& field, const Shape& shape) {

@@ -78,6 +78,15 @@ struct DiscardOperation {
   bool operator==(const DiscardOperation&) const = default;
 };
 
+/// What a shatter cuts out of a piece: a shape in the world, and where the piece lies. A crater cuts as its
+/// ball does.
+struct PieceCut {
+  Shape shape;
+  QuantisedPose pose;
+
+  bool operator==(const PieceCut&) const = default;
+};
+
 /// A piece breaks along Voronoi cells into pieces first_piece, first_piece + 1, … that lie where it lay. The
 /// impact is in the voxel frame of its volume. The pattern is one of drawn_patterns (seed_pattern.h).
 struct ShatterOperation {
@@ -89,6 +98,9 @@ struct ShatterOperation {
   glm::vec3 impact_voxels{0.0F};
   PieceId first_piece = 0;
   Cutter cutter = Cutter::field;
+  /// Only what lies in this shape breaks. The rest of the piece stays whole, or falls apart into what is
+  /// connected, limits::cut_rests_max at most: these are pieces, too, after those that broke.
+  std::optional<PieceCut> cut{};
 
   bool operator==(const ShatterOperation&) const = default;
 };
@@ -164,6 +176,7 @@ struct Applied {
   std::vector<BrickCoord> changed;    ///< bricks whose codes or materials changed, in order
   std::vector<CreatedPiece> created;  ///< in order of id; their volumes are in the table
   std::vector<glm::vec3> seeds_voxels;
+  size_t rests = 0;            ///< so many of `created`, the last ones, are what a cut left of a piece
   MassUnits terrain_gain = 0;  ///< negative for a carve
   MassUnits dust = 0;  ///< mass that went into no piece (carve, shatter, island), or a discarded piece's
   std::vector<MaterialFlow> flows;  ///< the same by material; what they leave is dust
@@ -188,6 +201,14 @@ Result<void> validate_edit(const Shape& shape);
 /// known, windows bounded. For what comes off a wire. The pieces' volumes must be valid themselves: made by
 /// operations, or decoded.
 Result<void> validate(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
+
+/// What a cut would do to a piece: whether it takes anything, and into how many parts that connect the rest
+/// would fall.
+struct PieceCutLook {
+  bool takes = false;
+  size_t rests = 0;
+};
+PieceCutLook look_at_cut(const PieceCut& cut, const Volume& piece, float voxel_size_m);
 
 /// The volume that a carve of that shape would cut into pieces.
 Window carved_volume(Field& field, const Shape& shape);

@@ -1,5 +1,6 @@
 // Which pieces an operation takes and makes.
 #include "shared/base/overloaded.h"
+#include "shared/operation/limits.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
@@ -46,7 +47,7 @@ PieceIds ids_made_by(const Operation& operation) {
                         [](const StampOperation&) { return PieceIds{}; },
                         [](const DiscardOperation&) { return PieceIds{}; },
                         [](const ShatterOperation& op) {
-                          return PieceIds{op.first_piece, op.seeds};
+                          return PieceIds{op.first_piece, op.seeds + (op.cut ? limits::cut_rests_max : 0)};
                         },
                         [](const IslandOperation& op) {
                           return PieceIds{op.piece, 1};

@@ -98,6 +98,15 @@ Result<void> validate_place(const VoxelBox& box, const std::string& what) {
   return fail("the " + what + " is outside the world (limits.world_half_width_m)");
 }
 
+Result<void> validate_cut(const PieceCut& cut, PieceId first_piece) {
+  TRY(validate_edit(cut.shape));
+  if (!in_world(dequantise(cut.pose).position_m))
+    return fail("the piece that is cut is outside the world (limits.world_half_width_m)");
+  if (first_piece > UINT32_MAX - limits::seeds_max - limits::cut_rests_max)
+    return fail("the piece ids are used up");
+  return {};
+}
+
 struct Validator {
   const PieceTable& pieces;
   float voxel_size_m;
@@ -133,6 +142,7 @@ struct Validator {
     TRY(known(op.piece, pieces));
     if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
     TRY(validate_shatter_pattern(op.pattern));
+    if (op.cut) TRY(validate_cut(*op.cut, op.first_piece));
     return validate_seeds(op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const IslandOperation& op) const {

@@ -41,7 +41,9 @@ struct OperationPricing {
   }
   float operator()(const DiscardOperation&) const { return 0.0F; }
   float operator()(const ShatterOperation& shatter) const {
-    return cut_price_us(shatter.cutter, voxels_of_piece(shatter.piece), shatter.seeds);
+    const float voxels = voxels_of_piece(shatter.piece);
+    const float rest_us = shatter.cut ? rest_price_us(voxels) : 0.0F;
+    return rest_us + cut_price_us(shatter.cutter, voxels, shatter.seeds);
   }
   float operator()(const IslandOperation& island) const { return lift_price_us(island.box); }
   float operator()(const SlideOperation& slide) const { return slide_price_us(slide.box); }
@@ -73,6 +75,10 @@ float merge_price_us(StampMethod method, float voxels) {
 
 float lift_price_us(const VoxelBox& box) {
   return limits::lift_cost_us + limits::lift_voxel_cost_us * voxels_of(lift_box(box));
+}
+
+float rest_price_us(float voxels) {
+  return limits::lift_cost_us + limits::lift_voxel_cost_us * voxels;
 }
 
 float slide_price_us(const VoxelBox& box) {

@@ -23,6 +23,8 @@ float merge_price_us(StampMethod method, float voxels);
 /// Lifting an island of that box, with its hulls and body.
 float lift_price_us(const VoxelBox& box);
 
+/// Finding what a cut leaves of a piece whose window has so many voxels.
+float rest_price_us(float voxels);
 /// Letting rubble slide in that box.
 float slide_price_us(const VoxelBox& box);
 

@@ -28,6 +28,7 @@ struct CarveRequest {
   glm::vec3 impact_m{0.0F};  ///< place of the blow; pieces fly out towards it
   float blast_speed_m_s = 6.0F;
   std::vector<glm::vec3> authored_m{};  ///< as many as seeds when the pattern needs points; else none
+  PieceId piece = 0;  ///< the piece that is carved where it is, by a drawn pattern; 0: the terrain is
 
   bool operator==(const CarveRequest&) const = default;
 };
@@ -126,6 +127,20 @@ struct SetMotorRequest {
   bool operator==(const SetMotorRequest&) const = default;
 };
 
+/// The terrain in the shape becomes a body that is kept: it never becomes terrain until it is released.
+struct CutOutRequest {
+  Shape shape;
+
+  bool operator==(const CutOutRequest&) const = default;
+};
+
+/// A kept piece may become terrain from now on.
+struct ReleaseRequest {
+  PieceId piece = 0;
+
+  bool operator==(const ReleaseRequest&) const = default;
+};
+
 /// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
 struct SettingsRequest {
   SettingValues settings;
@@ -139,9 +154,10 @@ struct LeaveRequest {
   bool operator==(const LeaveRequest&) const = default;
 };
 
-using Request = std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest,
-                             AddPropRequest, RemovePropRequest, MovePropRequest, PushRequest, BreakRequest,
-                             BlastRequest, AddJointRequest, RemoveJointRequest, SetMotorRequest>;
+using Request =
+    std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest, AddPropRequest,
+                 RemovePropRequest, MovePropRequest, PushRequest, BreakRequest, BlastRequest, AddJointRequest,
+                 RemoveJointRequest, SetMotorRequest, CutOutRequest, ReleaseRequest>;
 
 /// The shape of a request that edits terrain, or in which it does; nothing: it edits none.
 inline std::optional<Shape> shape_of(const Request& request) {
@@ -149,6 +165,7 @@ inline std::optional<Shape> shape_of(const Request& request) {
   return std::visit(Overloaded{[](const CarveRequest& carve) -> Found { return carve.shape; },
                                [](const FillRequest& fill) -> Found { return fill.shape; },
                                [](const PaintRequest& paint) -> Found { return paint.shape; },
+                               [](const CutOutRequest& cut_out) -> Found { return cut_out.shape; },
                                [](const BlastRequest& blast) -> Found {
                                  return sphere(blast.centre_m, blast_reach_m(blast.energy_j));
                                },

@@ -80,7 +80,7 @@ Measured measure_hull(const std::vector<glm::vec3>& corners) {
       second += volume * (glm::outerProduct(a, a) + glm::outerProduct(b, b) + glm::outerProduct(c, c) +
                           glm::outerProduct(sum, sum));
     }
-  constexpr double open_share = 1e-3;
+  constexpr double open_share = 0.05;
   if (!(six_volumes > 0.0) || glm::dot(outward, outward) > open_share * open_share * area * area) return {};
   const double volume = six_volumes / 6.0;
   const glm::dvec3 middle = first / (24.0 * volume);

@@ -124,7 +124,8 @@ inline Lines describe(const InterestMessage& m) {
   return {fmt::format("interest: eye {}, radius {} m", words(m.eye_m), m.interest_radius_m)};
 }
 inline Lines describe(const CarveMessage& m) {
-  return {fmt::format("carve: request {}, {}", m.request, words(m.shape)),
+  const std::string of = m.piece != 0 ? fmt::format(", out of piece {}", m.piece) : "";
+  return {fmt::format("carve: request {}, {}{}", m.request, words(m.shape), of),
           fmt::format("pattern {}, {} seeds, random seed 0x{:08x}, impact {}, blast {} m/s",
                       row_of(m.pattern).name, m.seeds, m.random_seed, words(m.impact_m), m.blast_speed_m_s)};
 }

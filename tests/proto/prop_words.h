@@ -54,6 +54,12 @@ inline Lines describe(const BlastMessage& m) {
   return {fmt::format("blast: request {}, {} J at {}, random seed 0x{:08x}", m.request, m.energy_j,
                       words(m.centre_m), m.random_seed)};
 }
+inline Lines describe(const CutOutMessage& m) {
+  return {fmt::format("cut out: request {}, {}", m.request, words(m.shape))};
+}
+inline Lines describe(const ReleaseMessage& m) {
+  return {fmt::format("release: request {}, piece {}", m.request, m.piece)};
+}
 inline Lines describe(const ContactsMessage& m) {
   Lines lines{fmt::format("contacts: tick {}", m.tick)};
   for (const ContactEvent& one : m.contacts)

@@ -47,6 +47,17 @@ TEST_F(WorldFileTest, the_first_save_after_the_file_was_made_drops_pieces_that_a
   EXPECT_TRUE(file->read().value().world.moment.pieces.empty());
 }
 
+TEST_F(WorldFileTest, a_piece_that_is_released_is_saved_so) {
+  make();
+  WorldMoment moment = world->moment();
+  ASSERT_FALSE(moment.pieces.empty());
+  for (const bool kept : {true, false}) {
+    moment.pieces.front().traits.kept = kept;
+    ASSERT_TRUE(file->save(moment, {}).has_value());
+    EXPECT_EQ(file->read().value().world.moment.pieces.front().traits.kept, kept);
+  }
+}
+
 TEST_F(WorldFileTest, a_file_is_never_made_over_another_one) {
   make();
   const auto again = WorldFile::create(path, header_of(world->snapshot()), world->snapshot());

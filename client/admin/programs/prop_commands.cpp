@@ -54,8 +54,40 @@ Result<Request> addition_of(const PropWords& words, const AdminServer& server) {
   return add;
 }
 
+Shape shape_of(const PropWords& words) {
+  const glm::vec3 at_m = vector_of(words.at_m);
+  if (words.half_m.empty()) return sphere(at_m, words.radius_m);
+  return box(at_m, {words.half_m[0], words.half_m[1], words.half_m[2]});
+}
+
+CarveRequest piece_carve_of(const PropWords& words) {
+  CarveRequest carve{.shape = shape_of(words), .seeds = words.seeds, .random_seed = 1};
+  carve.impact_m = vector_of(words.at_m);
+  carve.blast_speed_m_s = 0.0F;
+  carve.piece = words.id;
+  return carve;
+}
+
 CLI::Option* add_vector(CLI::App* command, const char* name, std::array<float, 3>& to, const char* what) {
   return command->add_option(name, to, what);
+}
+
+/// The subcommands about pieces.
+void add_piece_commands(CLI::App& app, PropWords& words, PropCommands& commands) {
+  commands.cut_out =
+      app.add_subcommand("cut-out", "makes terrain a body that stays one until it is released");
+  commands.carve_piece = app.add_subcommand("carve-piece", "carves a shape out of a piece where it is");
+  commands.release = app.add_subcommand("release", "lets a body that was cut out become terrain again");
+  for (CLI::App* command : {commands.carve_piece, commands.release})
+    command->add_option("ID", words.id, "the id of the piece")->required();
+  for (CLI::App* command : {commands.cut_out, commands.carve_piece}) {
+    add_vector(command, "--at", words.at_m, "X Y Z of the shape's middle, metres")->required();
+    command->add_option("--radius", words.radius_m, "the radius of a ball, metres")->capture_default_str();
+    command->add_option("--half", words.half_m, "X Y Z: half the sides of a box instead, metres")
+        ->expected(3);
+  }
+  commands.carve_piece->add_option("--seeds", words.seeds, "into how many pieces the shape breaks")
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -95,6 +127,7 @@ PropCommands add_prop_commands(CLI::App& app, PropWords& words) {
   add_vector(commands.blast, "--at", words.at_m, "X Y Z, metres")->required();
   commands.blast->add_option("--energy", words.energy_j, "joules; a kilogram of TNT has 4.2e6")
       ->capture_default_str();
+  add_piece_commands(app, words, commands);
   return commands;
 }
 
@@ -104,6 +137,9 @@ Result<Request> request_of(const PropCommands& commands, const PropWords& words,
     return PushRequest{words.id, vector_of(words.impulse_n_s), vector_of(words.at_m)};
   if (commands.remove->parsed()) return RemovePropRequest{words.id};
   if (commands.blast->parsed()) return BlastRequest{vector_of(words.at_m), words.energy_j, 1};
+  if (commands.cut_out->parsed()) return CutOutRequest{shape_of(words)};
+  if (commands.carve_piece->parsed()) return piece_carve_of(words);
+  if (commands.release->parsed()) return ReleaseRequest{words.id};
   MovePropRequest move{words.id};
   if (commands.move->count("--at") > 0) move.place_m = vector_of(words.at_m);
   if (commands.move->count("--velocity") > 0) move.velocity_m_s = vector_of(words.velocity_m_s);
@@ -117,6 +153,8 @@ std::string answer_text(const ReplyMessage& reply, bool as_json) {
     if (reply.prop) json["prop"] = *reply.prop;
     return json.dump(2) + "\n";
   }
+  if (reply.prop && reply.pieces > 0)
+    return fmt::format("piece {} is kept, the first of {}\n", *reply.prop, reply.pieces);
   if (reply.prop) return fmt::format("prop {} is added\n", *reply.prop);
   return reply.pieces > 0 ? fmt::format("done, {} pieces\n", reply.pieces) : "done\n";
 }

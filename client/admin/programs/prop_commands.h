@@ -1,4 +1,5 @@
-// The subcommands of scree-admin that are about bodies: add-prop, move-prop, remove-prop, push and blast.
+// The subcommands of scree-admin that are about bodies: add-prop, move-prop, remove-prop, push, blast,
+// cut-out, carve-piece and release.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -22,10 +23,14 @@ struct PropWords {
   std::string motion = "dynamic", material;
   uint64_t tag = 0;
   uint32_t id = 0;
+  std::vector<float> half_m;  ///< of a box; else a ball of this radius
+  float radius_m = 1.0F;
+  uint32_t seeds = 8;
 };
 
 struct PropCommands {
   CLI::App *add = nullptr, *move = nullptr, *push = nullptr, *remove = nullptr, *blast = nullptr;
+  CLI::App *cut_out = nullptr, *carve_piece = nullptr, *release = nullptr;
 };
 
 /// Adds the subcommands; `words` outlives the app.

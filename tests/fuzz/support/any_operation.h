@@ -92,10 +92,13 @@ inline Operation any_operation(FuzzInput& input) {
       return any_stamp(input);
     case 2:
       return DiscardOperation{any_piece(input)};
-    case 3:
-      return ShatterOperation{
+    case 3: {
+      ShatterOperation shatter{
           any_piece(input), any_kind<SeedPattern>(input), any_seeds(input), input.byte(), input.place(8.0F),
           any_piece(input), any_kind<Cutter>(input)};
+      if (input.flag()) shatter.cut = PieceCut{known(any_shape(input)), any_pose(input)};
+      return shatter;
+    }
     case 4: {
       const VoxelCoord lo = any_voxel(input);
       const VoxelCoord size = any_voxel(input);

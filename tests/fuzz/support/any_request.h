@@ -118,7 +118,7 @@ inline std::optional<Material> any_fill(FuzzInput& input) {
 }
 
 inline Request any_request(FuzzInput& input) {
-  switch (input.below(7)) {
+  switch (input.below(10)) {
     case 0:
       return FillRequest{any_shape(input), any_fill(input)};
     case 1:
@@ -127,6 +127,15 @@ inline Request any_request(FuzzInput& input) {
       return SettingsRequest{any_settings(input)};
     case 3:
       return LeaveRequest{};
+    case 4:
+      return CutOutRequest{any_shape(input)};
+    case 5:
+      return ReleaseRequest{input.byte()};
+    case 6: {
+      CarveRequest carve = any_carve(input);
+      carve.piece = input.byte();
+      return carve;
+    }
     default:
       return any_carve(input);
   }

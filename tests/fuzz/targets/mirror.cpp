@@ -12,6 +12,7 @@
 #include "proto/transforms.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
+#include "shared/operation/limits.h"
 #include "tests/fuzz/support/any_operation.h"
 #include "tests/fuzz/support/target.h"
 
@@ -83,7 +84,7 @@ class Ids {
                           [&](DiscardOperation& discard) { discard.piece = known(discard.piece); },
                           [&](ShatterOperation& shatter) {
                             shatter.piece = known(shatter.piece);
-                            shatter.first_piece = fresh(shatter.seeds);
+                            shatter.first_piece = fresh(shatter.seeds + limits::cut_rests_max);
                           },
                           [&](IslandOperation& island) { island.piece = fresh(1); }, [](PaintOperation&) {},
                           [](SlideOperation&) {}},

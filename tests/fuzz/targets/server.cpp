@@ -206,7 +206,11 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       if (kind == 0) return FillMessage{{known(any_shape(input)), any_fill(input)}, number};
       if (kind == 2) return any_query(input, number);
       if (kind == 1) return PaintMessage{{known(any_shape(input)), any_material(input)}, number};
-      return CarveMessage{known(any_carve(input)), number};
+      if (kind == 3) return CutOutMessage{{known(any_shape(input))}, number};
+      if (kind == 4) return ReleaseMessage{{input.byte()}, number};
+      CarveMessage carve{known(any_carve(input)), number};
+      if (kind == 5) carve.piece = input.byte();
+      return carve;
     }
   }
 }
