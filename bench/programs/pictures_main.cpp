@@ -244,7 +244,8 @@ void draw_joints(Film& film) {
       {prop_of(bar({1.2F, 0.2F, 0.6F}), 600.0F), at(-3, 0.7F, 2.5F)},
       {prop_of(bar({1.4F, 0.08F, 1.0F}), 200.0F), at(3, 0.6F, 0)}};
   for (const float z : {-1.2F, 1.2F}) props.emplace_back(post, at(1.2F, 1.6F, z));
-  for (const float x : {-5.0F, -1.0F}) props.emplace_back(post, at(x, 1.6F, -2.0F));
+  props.emplace_back(post, at(-5.0F, 1.6F, -2.0F));
+  props.emplace_back(prop_of(bar({0.5F, 1.6F, 0.5F}), 4000.0F), at(-1.0F, 1.65F, -2.0F));
   const size_t first_wheel = props.size();
   for (const float x : {-1.0F, 1.0F})
     for (const float z : {-0.9F, 0.9F}) props.emplace_back(wheel, at(-3.0F + x, 0.6F, 2.5F + z));

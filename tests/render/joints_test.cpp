@@ -103,12 +103,12 @@ TEST_P(DrawnJoints, are_hidden_by_what_is_nearer_and_gone_with_their_bodies) {
   EXPECT_EQ(differing_pixels(show(rod, "without"), alone, 0), 0U);
 }
 
-std::vector<std::string> names_of_methods() {
+std::vector<std::string> methods_with_joints() {
   std::vector<std::string> names;
   for (const MethodEntry& entry : all_methods()) names.emplace_back(entry.name);
   return names;
 }
-INSTANTIATE_TEST_SUITE_P(methods, DrawnJoints, testing::ValuesIn(names_of_methods()),
+INSTANTIATE_TEST_SUITE_P(methods, DrawnJoints, testing::ValuesIn(methods_with_joints()),
                          [](const auto& tested) { return tested.param; });
 
 }  // namespace

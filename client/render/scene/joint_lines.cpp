@@ -15,7 +15,7 @@ constexpr float rope_m = 0.025F, rod_m = 0.03F, arm_m = 0.02F, pin_m = 0.05F;  /
 constexpr float pin_half_m = 0.3F, knob_half_m = 0.06F;
 constexpr size_t rope_links = 16;
 constexpr int near_sides = 6, far_sides = 3;
-constexpr float near_m = 15.0F;
+constexpr float round_m = 15.0F;
 
 /// Half a pixel, about, of a picture of 720 rows, at a distance of a metre.
 constexpr float half_pixel = 0.0008F;
@@ -68,7 +68,7 @@ class JointDrawing {
   void bar(glm::vec3 from_m, glm::vec3 to_m, float radius_m, LineColour colour) const {
     const float away_m = glm::distance(eye_m_, 0.5F * (from_m + to_m));
     lines_.cylinder(from_m, to_m, std::max(radius_m, away_m * half_pixel),
-                    away_m < near_m ? near_sides : far_sides, colour);
+                    away_m < round_m ? near_sides : far_sides, colour);
   }
 
   /// From the middle of each body to the joint.
