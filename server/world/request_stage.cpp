@@ -98,7 +98,6 @@ struct Checking {
   const World::State& state;
 
   Checked operator()(const CarveRequest& request) const {
-    if (request.piece != 0) TRY(check_piece_carve(state, request));
     if (is_relaxed(request.pattern) && !request.authored_m.empty())
       return refuse(Refusal::carve_invalid,
                     "the pattern " + std::string(name_of(request.pattern)) + " takes no points");
@@ -110,10 +109,13 @@ struct Checking {
                                   centre_of(request.shape));
     if (Checked valid = check_edit(state, operation, request.shape, Refusal::carve_invalid); !valid)
       return valid;
-    if (request.blast_speed_m_s >= 0.0F && request.blast_speed_m_s <= limits::blast_speed_max_m_s) return {};
-    return refuse(Refusal::blast_speed, "the blast speed is not within 0 … " +
-                                            std::to_string(limits::blast_speed_max_m_s) +
-                                            " m/s (limits.blast_speed_max_m_s)");
+    if (!(request.blast_speed_m_s >= 0.0F && request.blast_speed_m_s <= limits::blast_speed_max_m_s))
+      return refuse(Refusal::blast_speed, "the blast speed is not within 0 … " +
+                                              std::to_string(limits::blast_speed_max_m_s) +
+                                              " m/s (limits.blast_speed_max_m_s)");
+    // What is wrong in itself comes first: the piece may go while the carve waits.
+    if (request.piece != 0) TRY(check_piece_carve(state, request));
+    return {};
   }
   Checked operator()(const FillRequest& request) const {
     if (request.material) TRY(check_material(*request.material, Refusal::fill_invalid));
@@ -341,7 +343,7 @@ bool is_valid(const World::State& state, const Command& command) {
   if (checked) return true;
   const Refusal reason = checked.error().reason;
   return reason == Refusal::body_missing || reason == Refusal::joint_missing ||
-         reason == Refusal::props_max || reason == Refusal::joints_max;
+         reason == Refusal::body_not_kept || reason == Refusal::props_max || reason == Refusal::joints_max;
 }
 
 void enqueue_commands(World::State& state, std::span<const Command> commands, TickDelta& delta) {
