@@ -75,8 +75,14 @@ std::vector<HullFace> hull_faces(const std::vector<glm::vec3>& points_m) {
         for (uint32_t i = 0; i < count; ++i)
           if (off(i) <= slack && off(i) >= -slack) flat.push_back(i);
         if (above) normal = -normal;
-        const bool known = std::ranges::any_of(
-            faces, [&](const HullFace& face) { return glm::dot(face.normal, normal) > 1.0F - 1e-5F; });
+        const auto has_all = [&](const HullFace& face) {
+          const auto is_in = [&](uint32_t i) {
+            return std::abs(glm::dot(points_m[i] - points_m[face.corners.front()], face.normal)) <=
+                   2.0F * slack;
+          };
+          return glm::dot(face.normal, normal) > 0.0F && is_in(a) && is_in(b) && is_in(c);
+        };
+        const bool known = std::ranges::any_of(faces, has_all);
         if (!known) faces.push_back({in_order(points_m, flat, normal), normal});
       }
   return faces;

@@ -105,7 +105,7 @@ Result<void> validate(const Prop& prop) {
 Prop canonical(const Prop& prop) {
   Prop one = prop;
   for (PropPart& part : one.parts) {
-    if (part.kind == PropPartKind::hull) part.half_m = glm::vec3(0.0F);
+    if (part.kind == PropPartKind::hull) part.half_m = PropPart().half_m;
     for (glm::vec3* v : {&part.place_m, &part.half_m}) *v += 0.0F;
     for (glm::vec3& corner : part.corners_m) corner += 0.0F;
     part.turn = without_negative_zero(part.turn);

@@ -59,10 +59,11 @@ glm::mat3 of_point(float mass, glm::vec3 at) {
   return mass * (glm::mat3(glm::dot(at, at)) - glm::outerProduct(at, at));
 }
 
-/// By the tetrahedra between its faces and one of its corners: a hull may lie far from the origin. Nothing of
-/// one that is so thin that its faces do not close.
+/// By the tetrahedra between its faces and the middle of its corners: a hull may lie far from the origin.
+/// Nothing of one that is so thin that its faces do not close.
 Measured measure_hull(const std::vector<glm::vec3>& corners) {
-  const glm::dvec3 origin(corners.front());
+  glm::dvec3 origin(0.0);
+  for (const glm::vec3& corner : corners) origin += glm::dvec3(corner) / static_cast<double>(corners.size());
   double six_volumes = 0.0, area = 0.0;
   glm::dvec3 first(0.0), outward(0.0);
   glm::dmat3 second(0.0);
