@@ -81,8 +81,8 @@ const std::vector<OldFiles>& old_files() {
        "3789ee47b86fbddc90db3458edcca89ed71a599d2959dd6b7cded9ace17916bc",
        {"hills.scree", "hills_cut.scree"},
        119,
-       0x04297E4806BDE10E,
-       0xC57CAA1B6BA96C71,
+       0xDF0232E5B71A991B,
+       0x11BDC6786466E983,
        true,
        true}};
   return all;
