@@ -17,7 +17,7 @@ struct SteppedBodies {
 };
 
 /// Writes pieces as one convex hull each, props as box, capsule or hull by their first part, where all of
-/// them are, and how they move; and the ground within 32 m of the origin, as heights every quarter of a
+/// them are, and how they move. The ground within 32 m of the origin follows, as heights every quarter of a
 /// metre. Error: the file cannot be written.
 Result<void> write_bodies(World& world, const std::string& path);
 

@@ -1,7 +1,6 @@
 // Props beside broken rock: 500 crates, 200 capsules and 300 hulls fall onto a field of craters with 1,000
-// pieces. Whether any number of threads, and a restored world, goes the same way; how long ticks take; how
-// many bits a body takes on the wire; what a renewal costs and changes; and how long Jolt and Rapier take for
-// the same bodies.
+// pieces. It asks whether any number of threads, and a restored world, goes the same way. It measures ticks,
+// bits a body on the wire, what a renewal costs and changes, and Jolt and Rapier with the same bodies.
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>

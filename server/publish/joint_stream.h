@@ -21,8 +21,9 @@ class JointStream {
   }
 
  private:
-  PublishedJoints told_;    ///< as the client has them
-  PublishedJoints untold_;  ///< added since the last poses: whoever knows the bodies is told of their end
+  PublishedJoints told_;  ///< as the client has them
+  PublishedJoints
+      untold_;  ///< added since the last poses: a client that knows the bodies is told of their end
 };
 
 }  // namespace scree
