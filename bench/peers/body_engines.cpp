@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/support/text_file.h"
+#include "server/formats/world_value.h"
 #include "shared/query/query.h"
 
 namespace scree::peers {

@@ -112,7 +112,7 @@ Played play(size_t threads, bool with_client, const std::function<void(double)>&
     played.hashes.push_back(delta->state_hash);
     played.pieces = std::max(played.pieces, delta->pieces.size());
     played.props = delta->props.size();
-    played.awake = delta->work.awake;
+    played.awake = delta->work.bodies.awake;
     std::vector<PieceState> states = states_of(*delta);
     bodies += states.size();
     if (with_client) moving += moved(played.ends, states);
@@ -166,7 +166,7 @@ void measure_renewal(BenchReport& report, const Played& played) {
   size_t awake_at_first = 0;
   for (Tick tick = compared_from + 1; tick <= ticks_max; ++tick) {
     delta = (*world)->step({});
-    if (tick == compared_from + 1) awake_at_first = delta->work.awake;
+    if (tick == compared_from + 1) awake_at_first = delta->work.bodies.awake;
   }
   std::map<PieceId, glm::vec3> places_m;
   for (const PieceState& state : played.ends) places_m.emplace(state.id, dequantise(state.pose).position_m);
@@ -175,7 +175,7 @@ void measure_renewal(BenchReport& report, const Played& played) {
     if (const auto found = places_m.find(state.id); found != places_m.end())
       apart_mm.push_back(1000.0 * glm::distance(found->second, dequantise(state.pose).position_m));
   report.metric("renewed_awake_at_first", static_cast<double>(awake_at_first));
-  report.metric("renewed_awake_after_60", static_cast<double>(delta->work.awake));
+  report.metric("renewed_awake_after_60", static_cast<double>(delta->work.bodies.awake));
   report.metric("not_renewed_awake_after_60", static_cast<double>(played.awake));
   report.metric("renewed_apart_median_mm", quantile(apart_mm, 0.5));
   report.metric("renewed_apart_p99_mm", quantile(apart_mm, 0.99));
@@ -194,7 +194,7 @@ void measure_engines(BenchReport& report, const Played& played) {
   for (Tick tick = handed_over_at; tick < ticks_max; ++tick) {
     const auto delta = (*world)->step({});
     ticks_ms.push_back(delta->times.total_ms());
-    awake = delta->work.awake;
+    awake = delta->work.bodies.awake;
   }
   const double median_ms = quantile(ticks_ms, 0.5), p99_ms = quantile(ticks_ms, 0.99);
   report.metric("scree_alone_median_ms", median_ms);
