@@ -21,7 +21,7 @@ HeldFrame held_frame(const JointSide& side, std::map<PieceId, Body>& bodies) {
   Body& body = bodies.at(side.body);
   const glm::quat back = glm::conjugate(body.axes);
   return {body.rigid.get(), to_bullet(back * (side.place_m - body.given->centre_m)),
-          axes_of(back * side.turn)};
+          axes_of(back * side.turn), body.spin_max_rad_s};
 }
 
 }  // namespace

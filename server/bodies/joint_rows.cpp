@@ -139,7 +139,7 @@ void JointRows::add_line(const Places& at) {
   if (longer_m < 0.0F) row.wanted = -longer_m / step_s_ - drifts_m_s;  // it gets taut in the step, or not
 }
 
-/// The motor, and then the limits, so that these prevail. `value`: the angle, or the way.
+/// The motor and the limits, which it does not drive beyond. `value`: the angle, or the way.
 void JointRows::add_axis(const Places& at, float value) {
   const bool slides = joint_.kind == JointKind::slider;
   const btVector3 x = at.axis_a(0);
@@ -147,7 +147,8 @@ void JointRows::add_axis(const Places& at, float value) {
   const btVector3 turn_a = slides ? (at.arm_a + at.off).cross(x) : x, turn_b = slides ? at.arm_b.cross(x) : x;
   motor_ = count_;
   HoldingRow& motor = add(along, turn_a, turn_b);
-  motor.wanted = joint_.motor.speed;
+  const float most = slides ? no_bound : std::min(frames_[0].spin_max_rad_s, frames_[1].spin_max_rad_s);
+  motor.wanted = std::clamp(joint_.motor.speed, -most, most);
   motor.high = joint_.motor.greatest * step_s_;
   motor.low = -motor.high;
   HoldingRow& lower = add(along, turn_a, turn_b);
@@ -160,6 +161,7 @@ void JointRows::add_axis(const Places& at, float value) {
   lower.wanted = above > 0.0F ? -above / step_s_ : undoing(above, undo, step_s_);
   upper.low = -no_bound;
   upper.wanted = below > 0.0F ? below / step_s_ : -undoing(below, undo, step_s_);
+  motor.wanted = std::max(lower.wanted, std::min(motor.wanted, upper.wanted));
 }
 
 void JointRows::prepare(const SolvedBody& a, const SolvedBody& b, float step_s) {
@@ -184,6 +186,14 @@ void JointRows::prepare(const SolvedBody& a, const SolvedBody& b, float step_s) 
     axes = pose.getBasis() * frame.axes;
   }
   at.off = places[1] - places[0];
+  add_rows(at);
+  for (size_t i = 0; i < count_; ++i) {
+    const HoldingRow& row = rows_[i];
+    holds_[i] = row.mass > 0.0F && impulses_[i] > row.low && impulses_[i] < row.high;
+  }
+}
+
+void JointRows::add_rows(const Places& at) {
   switch (joint_.kind) {
     case JointKind::fixed:
       add_turns(at, true);
@@ -220,9 +230,39 @@ void JointRows::give(const HoldingRow& row, float impulse) {
   }
 }
 
+std::array<HeldSide, 2> JointRows::sides() const {
+  const auto side = [&](bool is_b) {
+    const SolvedBody& solved = is_b ? b_ : a_;
+    if (solved.solver == nullptr) return HeldSide{-1, is_b};
+    return HeldSide{frames_[is_b ? 1 : 0].body->getCompanionId(), is_b, solved.inverse_mass};
+  };
+  return {side(false), side(true)};
+}
+
+double JointRows::is_off_m_s(size_t i) const {
+  const HoldingRow& row = rows_[i];
+  return double{row.wanted} - double{speed_of(row)} -
+         limits::joint_softness * double{impulses_[i]} / double{row.mass};
+}
+
+void JointRows::change(size_t i, float impulse) {
+  impulses_[i] += impulse;
+  give(rows_[i], impulse);
+}
+
+bool JointRows::let_go(size_t i) {
+  const HoldingRow& row = rows_[i];
+  const float bounded = std::clamp(impulses_[i], row.low, row.high);
+  if (bounded == impulses_[i]) return false;
+  change(i, bounded - impulses_[i]);
+  impulses_[i] = bounded;
+  holds_[i] = false;
+  return true;
+}
+
 void JointRows::start() {
   for (size_t i = 0; i < count_; ++i) {
-    const float before = limits::joint_warm_share * impulses_[i];
+    const float before = (holds_[i] ? 1.0F : limits::joint_warm_share) * impulses_[i];
     impulses_[i] = rows_[i].mass > 0.0F ? std::clamp(before, rows_[i].low, rows_[i].high) : 0.0F;
     give(rows_[i], impulses_[i]);
   }
@@ -231,7 +271,7 @@ void JointRows::start() {
 void JointRows::solve() {
   for (size_t i = 0; i < count_; ++i) {
     const HoldingRow& row = rows_[i];
-    if (row.low == row.high) continue;
+    if (!is_open(i)) continue;
     const float before = impulses_[i];
     const float change = limits::joint_relaxation * (row.wanted - speed_of(row)) * row.mass;
     impulses_[i] = std::clamp(before + change, row.low, row.high);
@@ -249,7 +289,8 @@ void JointRows::finish(float step_s) {
     else
       force += row.along * impulses_[i];
   }
-  force_n_ = force.length() / step_s;
+  pulled_n_ = force / step_s;
+  force_n_ = pulled_n_.length();
   torque_nm_ = torque.length() / step_s;
   is_driven_ = false;
   if (motor_ < count_ && joint_.motor.greatest > 0.0F && joint_.motor.speed != 0.0F) {
@@ -259,6 +300,21 @@ void JointRows::finish(float step_s) {
   for (float& impulse : impulses_)
     if (!(magnitude(impulse) < no_bound)) impulse = 0.0F;
   a_.solver = b_.solver = nullptr;
+}
+
+// A force f at a place r from the centre turns the body by r × f. By a turn about an axis e of length 1, that
+// becomes (e × r) × f more.
+btVector3 JointRows::stiffness(bool of_b) const {
+  const HeldFrame& frame = frames_[of_b ? 1 : 0];
+  const btVector3 force = frame.body->getWorldTransform().getBasis().transpose() * pulled_n_;
+  const btVector3& arm = frame.place;
+  btVector3 out;
+  for (int i = 0; i < 3; ++i) {
+    btVector3 axis(0.0F, 0.0F, 0.0F);
+    axis[i] = 1.0F;
+    out[i] = axis.cross(arm).cross(force).length() + torque_nm_;
+  }
+  return out;
 }
 
 bool JointRows::breaks() const {

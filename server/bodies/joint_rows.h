@@ -1,6 +1,6 @@
-// Joints in the solver: each as a few rows, which are solved by sequential impulses (Catto, Iterative
-// Dynamics with Temporal Coherence, 2005). Each step begins with the impulses of the last one, so that chains
-// and heavy loads hang still by few iterations. Private to this folder.
+// Joints in the solver: each as a few rows, which joint_system.h solves together, or one by one by sequential
+// impulses (Catto, Iterative Dynamics with Temporal Coherence, 2005). Each step begins with the impulses of
+// the last one. Private to this folder.
 //
 // Bullet's own joints are not used. They begin each step with no impulse, and they find their angles by atan2
 // and acos of the math library, whose last bits differ between systems. These rows use + − × ÷ and sqrt; the
@@ -23,6 +23,7 @@ struct HeldFrame {
   btRigidBody* body = nullptr;  ///< null: the terrain
   btVector3 place{0.0F, 0.0F, 0.0F};
   btMatrix3x3 axes;  ///< x, y and z as columns
+  float spin_max_rad_s = 1e30F;  ///< the body's: no motor turns it faster
 };
 
 /// A body while it is solved.
@@ -45,6 +46,13 @@ struct HoldingRow {
   float wanted = 0.0F, low = 0.0F, high = 0.0F;
 };
 
+/// One of a joint's bodies, in a step.
+struct HeldSide {
+  int moved = -1;  ///< the body's number in the solver; -1: impulses do not move it
+  bool is_b = false;
+  float inverse_mass = 0.0F;
+};
+
 class JointRows {
  public:
   JointRows(JointId id, const Joint& joint, const HeldFrame& a, const HeldFrame& b)
@@ -61,9 +69,24 @@ class JointRows {
 
   /// Finds the rows of a step of the simulation, for bodies as they stand.
   void prepare(const SolvedBody& a, const SolvedBody& b, float step_s);
+  // Of a step, after prepare():
+  size_t rows() const { return count_; }
+  const HoldingRow& row(size_t i) const { return rows_[i]; }
+  std::array<HeldSide, 2> sides() const;
+  /// Whether the row's last impulse is within its bounds, so that it holds with what it needs, until it lets
+  /// go. The others are open, or nothing.
+  bool holds(size_t i) const { return holds_[i]; }
+  bool is_open(size_t i) const { return !holds_[i] && rows_[i].low < rows_[i].high && rows_[i].mass > 0.0F; }
+  void hold_none() { holds_ = {}; }
   /// Gives the bodies the impulses of the last step.
   void start();
-  /// Moves each row's impulse by what brings its speed to the wanted one, as far as its bounds allow.
+  /// By which the speed of a row that holds differs from what it wants, and from what its impulse softens.
+  double is_off_m_s(size_t i) const;
+  void change(size_t i, float impulse);
+  /// Brings a row whose impulse is beyond its bounds back to them, and holds it no more.
+  bool let_go(size_t i);
+  /// Moves the impulse of each open row by what brings its speed to the wanted one, as far as its bounds
+  /// allow.
   void solve();
   /// Measures force and torque. The bodies in the solver are not used from here on.
   void finish(float step_s);
@@ -73,11 +96,14 @@ class JointRows {
   float torque_nm() const { return torque_nm_; }
   /// Whether these break it.
   bool breaks() const;
+  /// The torque that they have gained on a body by its turn about each of its axes, by its size, N m.
+  btVector3 stiffness(bool of_b) const;
   /// Whether its motor moved it in the last step.
   bool is_driven() const { return is_driven_; }
 
  private:
   struct Places;
+  void add_rows(const Places& at);
   void add_point(const Places& at);
   void add_turns(const Places& at, bool with_axis);
   void add_slide(const Places& at);
@@ -93,6 +119,7 @@ class JointRows {
   Joint joint_;
   std::array<HeldFrame, 2> frames_;
   float force_n_ = 0.0F, torque_nm_ = 0.0F;
+  btVector3 pulled_n_{0.0F, 0.0F, 0.0F};  ///< the force on b
   bool is_driven_ = false;
 
   static constexpr size_t rows_max = 8;     ///< a hinge with limits and a motor: 3 + 2 + 2 + 1
@@ -102,6 +129,7 @@ class JointRows {
   SolvedBody a_, b_;
   std::array<HoldingRow, rows_max> rows_;
   size_t count_ = 0;
+  std::array<bool, rows_max> holds_{};
   size_t motor_ = rows_max;  ///< the motor's row; rows_max: there is none
   float step_s_ = 0.0F;
 };

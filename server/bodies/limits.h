@@ -122,6 +122,22 @@ inline constexpr float joint_undo_rad_s = 4.0F;
 inline constexpr float joint_warm_share = 0.95F;
 inline constexpr float joint_relaxation = 1.3F;
 
+/// By which a held row gives way, as a share of its own: joints that contradict each other agree on something
+/// between. A load of 10 t on a link of 5 kg hangs 4 mm low by it.
+inline constexpr double joint_softness = 1e-5;
+
+/// Multiplications of a group's factors, in all and by row: 40 rows may depend on each other, or as many as
+/// that leaves. Beyond, the rows are solved one by one.
+inline constexpr double joint_work_max = 200'000.0;
+inline constexpr double joint_work_a_row_max = 1'000.0;
+
+/// How often in a step rows that are beyond their bounds let go; each time costs factors of what is left.
+inline constexpr int joints_let_go_max = 3;
+
+/// Least inertia of a body by what its joints pull, times a step squared: at a quarter it swings at the edge
+/// of what a step follows, and bodies in chains swing with their neighbours.
+inline constexpr float joint_inertia_share = 0.5F;
+
 /// Share of its speed at which a motor still moves its bodies, so that they stay awake: what it pushes
 /// against in vain may sleep.
 inline constexpr float joint_driven_share = 0.05F;

@@ -95,14 +95,14 @@ void PieceSolver::start_joints(float step_s) {
     out.inverse_inertia = body->getInvInertiaTensorWorld();
     return out;
   };
-  for (JointRows* joint : joints_) {
+  for (JointRows* joint : joints_)
     joint->prepare(solved(joint->body_a()), solved(joint->body_b()), step_s);
-    joint->start();
-  }
+  system_.begin(joints_);
 }
 
 void PieceSolver::convertContacts(btPersistentManifold** manifolds, int count,
                                   const btContactSolverInfo& info) {
+  inertia_.grow(joints_, info.m_timeStep);
   for (int i = 0; i < count; ++i) {
     btPersistentManifold& manifold = *manifolds[i];
     const btRigidBody *a = moving(manifold.getBody0()), *b = moving(manifold.getBody1());
@@ -139,9 +139,9 @@ btScalar PieceSolver::solveSingleIteration(int iteration, btCollisionObject** bo
                                            btPersistentManifold** manifolds, int manifold_count,
                                            btTypedConstraint** joints, int joint_count,
                                            const btContactSolverInfo& info, btIDebugDraw* drawer) {
-  // To and fro: what one end of a chain bears reaches the other end in either direction.
-  const size_t count = joints_.size();
-  for (size_t i = 0; i < count; ++i) joints_[iteration % 2 == 0 ? i : count - 1 - i]->solve();
+  system_.iterate(iteration);
+  if (!joints_.empty() && iteration > 0 && m_tmpSolverContactConstraintPool.size() == 0 && system_.is_exact())
+    return 0.0F;
   const btScalar residual = btSequentialImpulseConstraintSolver::solveSingleIteration(
       iteration, bodies, body_count, manifolds, manifold_count, joints, joint_count, info, drawer);
   for (RollingRow& row : rolling_) row.solve(m_tmpSolverContactConstraintPool);
@@ -150,6 +150,7 @@ btScalar PieceSolver::solveSingleIteration(int iteration, btCollisionObject** bo
 
 btScalar PieceSolver::solveGroupCacheFriendlyFinish(btCollisionObject** bodies, int body_count,
                                                     const btContactSolverInfo& info) {
+  inertia_.restore();
   for (JointRows* joint : joints_) joint->finish(info.m_timeStep);
   joints_ = {};
   return btSequentialImpulseConstraintSolver::solveGroupCacheFriendlyFinish(bodies, body_count, info);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "server/bodies/joint_rows.h"
+#include "server/bodies/joint_system.h"
 #include "server/bodies/rolling_rows.h"
 
 namespace scree {
@@ -40,6 +40,8 @@ class PieceSolver final : public btSequentialImpulseConstraintSolver {
 
   btVector3 fall_m_s_{0.0F, 0.0F, 0.0F};
   std::span<JointRows*> joints_;
+  JointSystem system_;
+  HeldInertia inertia_;
   std::vector<RollingRow> rolling_;
 };
 

@@ -1,0 +1,217 @@
+#include "server/bodies/joint_system.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "server/bodies/limits.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+namespace {
+
+/// What one row's impulse changes of another row's speed, by the body that they share.
+double coupling(const JointRows& one, size_t row, const JointRows& other, size_t other_row) {
+  double sum = 0.0;
+  for (const HeldSide& side : one.sides())
+    for (const HeldSide& beside : other.sides()) {
+      if (side.moved < 0 || side.moved != beside.moved) continue;
+      const HoldingRow &a = one.row(row), &b = other.row(other_row);
+      const float sign = side.is_b == beside.is_b ? 1.0F : -1.0F;
+      const btVector3& turn = side.is_b ? a.turn_b : a.turn_a;
+      const btVector3& gain = beside.is_b ? b.gain_b : b.gain_a;
+      sum += sign * (side.inverse_mass * a.along.dot(b.along) + turn.dot(gain));
+    }
+  return sum;
+}
+
+}  // namespace
+
+void JointSystem::begin(std::span<JointRows*> joints) {
+  joints_ = joints;
+  times_let_go_ = 0;
+  is_factorised_ = holds_all_ = false;
+  if (joints.empty()) return;
+  put_in_order();
+  hold();
+  is_factorised_ = assemble();
+  if (!is_factorised_)
+    for (JointRows* joint : joints) joint->hold_none();
+  for (JointRows* joint : joints) joint->start();
+}
+
+// Joints are neighbours that share a body that can move.
+void JointSystem::find_neighbours() {
+  std::vector<std::pair<int, uint32_t>> by_body;
+  for (uint32_t i = 0; i < joints_.size(); ++i)
+    for (const HeldSide& side : joints_[i]->sides())
+      if (side.moved >= 0) by_body.emplace_back(side.moved, i);
+  std::ranges::sort(by_body);
+  std::vector<std::pair<uint32_t, uint32_t>> pairs;
+  for (size_t i = 0; i < by_body.size(); ++i)
+    for (size_t j = i + 1; j < by_body.size() && by_body[j].first == by_body[i].first; ++j) {
+      pairs.emplace_back(by_body[i].second, by_body[j].second);
+      pairs.emplace_back(by_body[j].second, by_body[i].second);
+    }
+  std::ranges::sort(pairs);
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  neighbours_.clear();
+  neighbours_begin_.assign(joints_.size() + 1, 0);
+  for (const auto& [joint, beside] : pairs) {
+    ++neighbours_begin_[joint + 1];
+    neighbours_.push_back(beside);
+  }
+  std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
+}
+
+/// Appends what hangs together with a joint, the nearest first, and of these what has the fewest neighbours.
+void JointSystem::walk(uint32_t from, std::vector<uint32_t>& order) {
+  const auto neighbours = [&](uint32_t joint) {
+    return std::span(neighbours_).subspan(neighbours_begin_[joint],
+                                          neighbours_begin_[joint + 1] - neighbours_begin_[joint]);
+  };
+  walked_[from] = true;
+  order.push_back(from);
+  for (size_t next = order.size() - 1; next < order.size(); ++next) {
+    const size_t begin = order.size();
+    for (const uint32_t beside : neighbours(order[next]))
+      if (!walked_[beside]) {
+        walked_[beside] = true;
+        order.push_back(beside);
+      }
+    std::sort(order.begin() + static_cast<std::ptrdiff_t>(begin), order.end(), [&](uint32_t a, uint32_t b) {
+      return std::pair(neighbours(a).size(), a) < std::pair(neighbours(b).size(), b);
+    });
+  }
+}
+
+void JointSystem::put_in_order() {
+  find_neighbours();
+  order_.clear();
+  walked_.assign(joints_.size(), false);
+  for (uint32_t i = 0; i < joints_.size(); ++i) {
+    if (walked_[i]) continue;
+    // The last of a walk lies at an end, and there the order begins.
+    std::vector<uint32_t> there;
+    walk(i, there);
+    for (const uint32_t joint : there) walked_[joint] = false;
+    walk(there.back(), order_);
+  }
+  std::ranges::reverse(order_);
+}
+
+void JointSystem::hold() {
+  held_.clear();
+  holds_all_ = true;
+  for (uint32_t i = 0; i < order_.size(); ++i) {
+    const JointRows& joint = *joints_[order_[i]];
+    for (uint32_t row = 0; row < joint.rows(); ++row) {
+      if (joint.holds(row))
+        held_.push_back({order_[i], row});
+      else if (joint.is_open(row))
+        holds_all_ = false;
+    }
+  }
+}
+
+/// False when it would cost too much.
+bool JointSystem::assemble() {
+  std::vector<uint32_t> place(joints_.size());  // of each joint's first held row
+  for (uint32_t i = held_.size(); i-- > 0;) place[held_[i].joint] = i;
+  first_.clear();
+  std::vector<bool> has(joints_.size(), false);
+  for (const Held& held : held_) has[held.joint] = true;
+  for (uint32_t i = 0; i < held_.size(); ++i) {
+    uint32_t first = place[held_[i].joint];
+    for (uint32_t k = neighbours_begin_[held_[i].joint]; k < neighbours_begin_[held_[i].joint + 1]; ++k)
+      if (has[neighbours_[k]]) first = std::min(first, place[neighbours_[k]]);
+    first_.push_back(first);
+  }
+  if (EnvelopeFactor::work_of(first_) >
+      limits::joint_work_max + limits::joint_work_a_row_max * static_cast<double>(held_.size()))
+    return false;
+  factor_.begin(first_);
+  for (uint32_t i = 0; i < held_.size(); ++i) {
+    const Held& own = held_[i];
+    const JointRows& joint = *joints_[own.joint];
+    const auto add = [&](uint32_t beside) {
+      if (!has[beside]) return;
+      for (uint32_t j = place[beside]; j < i && held_[j].joint == beside; ++j)
+        factor_.at(i, j) = coupling(joint, own.row, *joints_[beside], held_[j].row);
+    };
+    for (uint32_t k = neighbours_begin_[own.joint]; k < neighbours_begin_[own.joint + 1]; ++k)
+      add(neighbours_[k]);
+    add(own.joint);
+    factor_.at(i, i) = (1.0 + limits::joint_softness) / joint.row(own.row).mass;
+  }
+  factor_.factorise(0.5 * limits::joint_softness);
+  return true;
+}
+
+void JointSystem::solve_held() {
+  side_.clear();
+  for (const auto& [joint, row] : held_) side_.push_back(joints_[joint]->is_off_m_s(row));
+  factor_.solve(side_);
+  for (size_t i = 0; i < held_.size(); ++i)
+    joints_[held_[i].joint]->change(held_[i].row, static_cast<float>(side_[i]));
+}
+
+/// Rows that are beyond their bounds hold no more in this step. Returns whether there are any.
+bool JointSystem::let_go() {
+  bool any = false;
+  for (const auto& [joint, row] : held_) any |= joints_[joint]->let_go(row);
+  return any;
+}
+
+void JointSystem::iterate(int iteration) {
+  if (is_factorised_ && !held_.empty()) {
+    solve_held();
+    while (times_let_go_ < limits::joints_let_go_max && let_go()) {
+      ++times_let_go_;
+      hold();
+      if (!held_.empty() && assemble()) solve_held();
+    }
+  }
+  // To and fro: what one end of a chain bears reaches the other end in either direction.
+  const size_t count = joints_.size();
+  for (size_t i = 0; i < count; ++i) joints_[iteration % 2 == 0 ? i : count - 1 - i]->solve();
+}
+
+void HeldInertia::grow(std::span<JointRows* const> joints, float step_s) {
+  std::vector<std::pair<int, uint32_t>> places;  // of the bodies by their number in the solver
+  bodies_.clear();
+  const auto grown = [&](btRigidBody* body) -> Grown& {
+    const auto found = std::ranges::lower_bound(places, std::pair(body->getCompanionId(), 0U));
+    if (found != places.end() && found->first == body->getCompanionId()) return bodies_[found->second];
+    places.insert(found, {body->getCompanionId(), static_cast<uint32_t>(bodies_.size())});
+    bodies_.push_back({body, btVector3(0.0F, 0.0F, 0.0F), body->getInvInertiaDiagLocal()});
+    return bodies_.back();
+  };
+  for (const JointRows* joint : joints)
+    for (const bool is_b : {false, true}) {
+      btRigidBody* const body = is_b ? joint->body_b() : joint->body_a();
+      if (body == nullptr || body->isStaticOrKinematicObject()) continue;
+      grown(body).stiffness += joint->stiffness(is_b);
+    }
+  for (Grown& body : bodies_) {
+    btVector3 inverse = body.inverse_before;
+    for (int i = 0; i < 3; ++i) {
+      const float least = limits::joint_inertia_share * step_s * step_s * body.stiffness[i];
+      if (inverse[i] * least > 1.0F) inverse[i] = 1.0F / least;
+    }
+    if (inverse == body.inverse_before) continue;
+    body.body->setInvInertiaDiagLocal(inverse);
+    body.body->updateInertiaTensor();
+  }
+}
+
+void HeldInertia::restore() {
+  for (const Grown& body : bodies_) {
+    if (body.body->getInvInertiaDiagLocal() == body.inverse_before) continue;
+    body.body->setInvInertiaDiagLocal(body.inverse_before);
+    body.body->updateInertiaTensor();
+  }
+  bodies_.clear();
+}
+
+}  // namespace scree

@@ -1,0 +1,80 @@
+// The joints of a group of bodies, solved together. What they hold depends on each other over many bodies:
+// row by row, a load of a tonne on a link of 5 kg takes a thousand iterations, and what is left over each
+// step throws it about. So the rows that hold are solved at once and exactly, by factors of J M⁻¹ Jᵀ
+// (Baraff, Linear-time dynamics using Lagrange multipliers, 1996, has the same equations). Rows that are
+// bounded, and at their bounds, are solved one by one: slack ropes, limits that nothing touches, motors that
+// give all that they have.
+//
+// Joints are put in the order of Cuthill and McKee (Reducing the bandwidth of sparse symmetric matrices,
+// 1969), reversed. A group whose factors would cost too much is solved row by row.
+//
+// What joints pull also turns with their bodies. A step does not see that, so light bodies under great loads
+// would swing ever wider: they get a greater inertia in the solver, as far as that needs (Andrews, Teichmann
+// and Kövecses, Geometric stiffness for real-time constrained multibody dynamics, 2017).
+//
+// Not thread-safe. Private to this folder.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "server/bodies/envelope_factor.h"
+#include "server/bodies/joint_rows.h"
+
+namespace scree {
+
+class JointSystem {
+ public:
+  /// Joints of which prepare() was called; valid until the next call.
+  void begin(std::span<JointRows*> joints);
+  /// Holds what is held, and moves the other rows by one iteration.
+  void iterate(int iteration);
+  bool is_empty() const { return joints_.empty(); }
+  /// Further iterations change nothing, unless something else moves the bodies.
+  bool is_exact() const { return holds_all_; }
+
+ private:
+  /// A row that holds: `row` of the joint in `joint` of order_.
+  struct Held {
+    uint32_t joint, row;
+  };
+  void put_in_order();
+  void walk(uint32_t from, std::vector<uint32_t>& order);
+  void find_neighbours();
+  void hold();
+  bool assemble();
+  void solve_held();
+  bool let_go();
+
+  std::span<JointRows*> joints_;
+  std::vector<uint32_t> order_;  ///< places in joints_
+  std::vector<uint32_t> neighbours_, neighbours_begin_;
+  std::vector<bool> walked_;
+  std::vector<Held> held_;
+  EnvelopeFactor factor_;
+  std::vector<uint32_t> first_;
+  std::vector<double> side_;
+  bool is_factorised_ = false, holds_all_ = false;
+  int times_let_go_ = 0;
+};
+
+/// Sums what joints that were solved pull at a body.
+class HeldInertia {
+ public:
+  /// Greater inertia for the bodies of the joints, by their last impulses. `step_s`: of the step that follows.
+  void grow(std::span<JointRows* const> joints, float step_s);
+  /// As it was.
+  void restore();
+
+ private:
+  struct Grown {
+    btRigidBody* body;
+    btVector3 stiffness;  ///< torque by a turn about each of its own axes, N m
+    btVector3 inverse_before;
+  };
+  std::vector<Grown> bodies_;
+};
+
+}  // namespace scree
