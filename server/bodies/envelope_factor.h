@@ -16,8 +16,9 @@ class EnvelopeFactor {
   size_t rows() const { return first_.size(); }
   /// `column` from the row's first one to the row itself.
   double& at(size_t row, size_t column) { return values_[start_[row] + (column - first_[row])]; }
-  /// Multiplications that factorise() takes at most for such rows.
-  static double work_of(std::span<const uint32_t> first);
+  /// Multiplications that a row takes at most, in factorise() and twice in solve(). `width`: from its first
+  /// column to itself.
+  static double work_of(size_t width);
 
   /// The matrix becomes its factors. Its diagonal must be positive, and a pivot that rounding makes smaller
   /// than `least` times its diagonal becomes that: the matrix must be positive definite but for rounding.

@@ -22,7 +22,7 @@ namespace scree {
 struct HeldFrame {
   btRigidBody* body = nullptr;  ///< null: the terrain
   btVector3 place{0.0F, 0.0F, 0.0F};
-  btMatrix3x3 axes;  ///< x, y and z as columns
+  btMatrix3x3 axes;              ///< x, y and z as columns
   float spin_max_rad_s = 1e30F;  ///< the body's: no motor turns it faster
 };
 

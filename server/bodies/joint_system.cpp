@@ -10,6 +10,8 @@ namespace scree {
 
 namespace {
 
+constexpr uint32_t none = UINT32_MAX;
+
 /// What one row's impulse changes of another row's speed, by the body that they share.
 double coupling(const JointRows& one, size_t row, const JointRows& other, size_t other_row) {
   double sum = 0.0;
@@ -30,13 +32,13 @@ double coupling(const JointRows& one, size_t row, const JointRows& other, size_t
 void JointSystem::begin(std::span<JointRows*> joints) {
   joints_ = joints;
   times_let_go_ = 0;
-  is_factorised_ = holds_all_ = false;
+  held_.clear();
   if (joints.empty()) return;
+  find_neighbours();
   put_in_order();
-  hold();
-  is_factorised_ = assemble();
-  if (!is_factorised_)
-    for (JointRows* joint : joints) joint->hold_none();
+  list_held();
+  if (let_go_of_costly()) list_held();
+  factorise();
   for (JointRows* joint : joints) joint->start();
 }
 
@@ -48,11 +50,15 @@ void JointSystem::find_neighbours() {
       if (side.moved >= 0) by_body.emplace_back(side.moved, i);
   std::ranges::sort(by_body);
   std::vector<std::pair<uint32_t, uint32_t>> pairs;
-  for (size_t i = 0; i < by_body.size(); ++i)
-    for (size_t j = i + 1; j < by_body.size() && by_body[j].first == by_body[i].first; ++j) {
-      pairs.emplace_back(by_body[i].second, by_body[j].second);
-      pairs.emplace_back(by_body[j].second, by_body[i].second);
+  for (size_t begin = 0, end = 0; begin < by_body.size(); begin = end) {
+    while (end < by_body.size() && by_body[end].first == by_body[begin].first) ++end;
+    const bool too_many = end - begin > limits::joints_a_body_max;
+    for (size_t i = begin; i < end; ++i) {
+      if (too_many) joints_[by_body[i].second]->hold_none();
+      for (size_t j = begin; j < end && !too_many; ++j)
+        if (by_body[i].second != by_body[j].second) pairs.emplace_back(by_body[i].second, by_body[j].second);
     }
+  }
   std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   neighbours_.clear();
@@ -64,12 +70,13 @@ void JointSystem::find_neighbours() {
   std::partial_sum(neighbours_begin_.begin(), neighbours_begin_.end(), neighbours_begin_.begin());
 }
 
+std::span<const uint32_t> JointSystem::neighbours(uint32_t joint) const {
+  return std::span(neighbours_)
+      .subspan(neighbours_begin_[joint], neighbours_begin_[joint + 1] - neighbours_begin_[joint]);
+}
+
 /// Appends what hangs together with a joint, the nearest first, and of these what has the fewest neighbours.
 void JointSystem::walk(uint32_t from, std::vector<uint32_t>& order) {
-  const auto neighbours = [&](uint32_t joint) {
-    return std::span(neighbours_).subspan(neighbours_begin_[joint],
-                                          neighbours_begin_[joint + 1] - neighbours_begin_[joint]);
-  };
   walked_[from] = true;
   order.push_back(from);
   for (size_t next = order.size() - 1; next < order.size(); ++next) {
@@ -86,7 +93,6 @@ void JointSystem::walk(uint32_t from, std::vector<uint32_t>& order) {
 }
 
 void JointSystem::put_in_order() {
-  find_neighbours();
   order_.clear();
   walked_.assign(joints_.size(), false);
   for (uint32_t i = 0; i < joints_.size(); ++i) {
@@ -100,52 +106,63 @@ void JointSystem::put_in_order() {
   std::ranges::reverse(order_);
 }
 
-void JointSystem::hold() {
+void JointSystem::list_held() {
   held_.clear();
+  place_.assign(joints_.size(), none);
   holds_all_ = true;
-  for (uint32_t i = 0; i < order_.size(); ++i) {
-    const JointRows& joint = *joints_[order_[i]];
+  for (const uint32_t i : order_) {
+    const JointRows& joint = *joints_[i];
     for (uint32_t row = 0; row < joint.rows(); ++row) {
-      if (joint.holds(row))
-        held_.push_back({order_[i], row});
-      else if (joint.is_open(row))
-        holds_all_ = false;
+      holds_all_ &= !joint.is_open(row);
+      if (!joint.holds(row)) continue;
+      if (place_[i] == none) place_[i] = static_cast<uint32_t>(held_.size());
+      held_.push_back({i, row});
     }
+  }
+  first_.clear();
+  for (const Held& held : held_) {
+    uint32_t first = place_[held.joint];
+    for (const uint32_t beside : neighbours(held.joint)) first = std::min(first, place_[beside]);
+    first_.push_back(first);
   }
 }
 
-/// False when it would cost too much.
-bool JointSystem::assemble() {
-  std::vector<uint32_t> place(joints_.size());  // of each joint's first held row
-  for (uint32_t i = held_.size(); i-- > 0;) place[held_[i].joint] = i;
-  first_.clear();
-  std::vector<bool> has(joints_.size(), false);
-  for (const Held& held : held_) has[held.joint] = true;
-  for (uint32_t i = 0; i < held_.size(); ++i) {
-    uint32_t first = place[held_[i].joint];
-    for (uint32_t k = neighbours_begin_[held_[i].joint]; k < neighbours_begin_[held_[i].joint + 1]; ++k)
-      if (has[neighbours_[k]]) first = std::min(first, place[neighbours_[k]]);
-    first_.push_back(first);
+/// Returns whether there is any.
+bool JointSystem::let_go_of_costly() {
+  bool any = false;
+  for (size_t begin = 0, end = 0; begin < held_.size(); begin = end) {
+    // No row depends on one before those that hang together with it.
+    const uint32_t from = static_cast<uint32_t>(begin);
+    double work = 0.0;
+    for (uint32_t last = from; end < held_.size() && (end == begin || end <= last); ++end) {
+      for (const uint32_t beside : neighbours(held_[end].joint))
+        if (place_[beside] != none) last = std::max(last, place_[beside]);
+      last = std::max(last, place_[held_[end].joint]);
+      work += EnvelopeFactor::work_of(end - first_[end]);
+    }
+    const double most =
+        limits::joint_work_max + limits::joint_work_a_row_max * static_cast<double>(end - begin);
+    if (work <= most) continue;
+    any = true;
+    for (size_t i = begin; i < end; ++i) joints_[held_[i].joint]->hold_none();
   }
-  if (EnvelopeFactor::work_of(first_) >
-      limits::joint_work_max + limits::joint_work_a_row_max * static_cast<double>(held_.size()))
-    return false;
+  return any;
+}
+
+void JointSystem::factorise() {
   factor_.begin(first_);
   for (uint32_t i = 0; i < held_.size(); ++i) {
     const Held& own = held_[i];
     const JointRows& joint = *joints_[own.joint];
     const auto add = [&](uint32_t beside) {
-      if (!has[beside]) return;
-      for (uint32_t j = place[beside]; j < i && held_[j].joint == beside; ++j)
+      for (uint32_t j = place_[beside]; j < i && held_[j].joint == beside; ++j)
         factor_.at(i, j) = coupling(joint, own.row, *joints_[beside], held_[j].row);
     };
-    for (uint32_t k = neighbours_begin_[own.joint]; k < neighbours_begin_[own.joint + 1]; ++k)
-      add(neighbours_[k]);
+    for (const uint32_t beside : neighbours(own.joint)) add(beside);
     add(own.joint);
     factor_.at(i, i) = (1.0 + limits::joint_softness) / joint.row(own.row).mass;
   }
   factor_.factorise(0.5 * limits::joint_softness);
-  return true;
 }
 
 void JointSystem::solve_held() {
@@ -164,13 +181,12 @@ bool JointSystem::let_go() {
 }
 
 void JointSystem::iterate(int iteration) {
-  if (is_factorised_ && !held_.empty()) {
-    solve_held();
-    while (times_let_go_ < limits::joints_let_go_max && let_go()) {
-      ++times_let_go_;
-      hold();
-      if (!held_.empty() && assemble()) solve_held();
-    }
+  if (!held_.empty()) solve_held();
+  while (times_let_go_ < limits::joints_let_go_max && let_go()) {
+    ++times_let_go_;
+    list_held();
+    factorise();
+    if (!held_.empty()) solve_held();
   }
   // To and fro: what one end of a chain bears reaches the other end in either direction.
   const size_t count = joints_.size();

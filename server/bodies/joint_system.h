@@ -6,7 +6,7 @@
 // give all that they have.
 //
 // Joints are put in the order of Cuthill and McKee (Reducing the bandwidth of sparse symmetric matrices,
-// 1969), reversed. A group whose factors would cost too much is solved row by row.
+// 1969), reversed. What hangs together and would cost too much is solved row by row.
 //
 // What joints pull also turns with their bodies. A step does not see that, so light bodies under great loads
 // would swing ever wider: they get a greater inertia in the solver, as far as that needs (Andrews, Teichmann
@@ -40,11 +40,14 @@ class JointSystem {
   struct Held {
     uint32_t joint, row;
   };
+  void find_neighbours();
+  std::span<const uint32_t> neighbours(uint32_t joint) const;
   void put_in_order();
   void walk(uint32_t from, std::vector<uint32_t>& order);
-  void find_neighbours();
-  void hold();
-  bool assemble();
+  void list_held();
+  void find_first();
+  bool let_go_of_costly();
+  void factorise();
   void solve_held();
   bool let_go();
 
@@ -53,17 +56,19 @@ class JointSystem {
   std::vector<uint32_t> neighbours_, neighbours_begin_;
   std::vector<bool> walked_;
   std::vector<Held> held_;
+  std::vector<uint32_t> place_;  ///< of each joint's first row in held_; none: no row of it holds
   EnvelopeFactor factor_;
-  std::vector<uint32_t> first_;
+  std::vector<uint32_t> first_;  ///< of each of held_, the first one that it depends on
   std::vector<double> side_;
-  bool is_factorised_ = false, holds_all_ = false;
+  bool holds_all_ = false;
   int times_let_go_ = 0;
 };
 
 /// Sums what joints that were solved pull at a body.
 class HeldInertia {
  public:
-  /// Greater inertia for the bodies of the joints, by their last impulses. `step_s`: of the step that follows.
+  /// Greater inertia for the bodies of the joints, by their last impulses. `step_s`: of the step that
+  /// follows.
   void grow(std::span<JointRows* const> joints, float step_s);
   /// As it was.
   void restore();

@@ -126,10 +126,12 @@ inline constexpr float joint_relaxation = 1.3F;
 /// between. A load of 10 t on a link of 5 kg hangs 4 mm low by it.
 inline constexpr double joint_softness = 1e-5;
 
-/// Multiplications of a group's factors, in all and by row: 40 rows may depend on each other, or as many as
-/// that leaves. Beyond, the rows are solved one by one.
+/// Multiplications for the factors of rows that hang together, and more of them by row: 100 rows may all
+/// depend on each other, and of any number each on the 40 before it. Beyond, the rows are solved one by one,
+/// as those of a body with more joints are.
 inline constexpr double joint_work_max = 200'000.0;
 inline constexpr double joint_work_a_row_max = 1'000.0;
+inline constexpr size_t joints_a_body_max = 48;
 
 /// How often in a step rows that are beyond their bounds let go; each time costs factors of what is left.
 inline constexpr int joints_let_go_max = 3;

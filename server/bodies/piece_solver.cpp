@@ -95,8 +95,7 @@ void PieceSolver::start_joints(float step_s) {
     out.inverse_inertia = body->getInvInertiaTensorWorld();
     return out;
   };
-  for (JointRows* joint : joints_)
-    joint->prepare(solved(joint->body_a()), solved(joint->body_b()), step_s);
+  for (JointRows* joint : joints_) joint->prepare(solved(joint->body_a()), solved(joint->body_b()), step_s);
   system_.begin(joints_);
 }
 
