@@ -16,11 +16,6 @@ float magnitude(float value) {
   return value < 0.0F ? -value : value;
 }
 
-/// The speed that undoes a part of what is off, but no faster than a bound.
-float undoing(float off, float most, float step_s) {
-  return std::clamp(-limits::joint_undone_a_step * off / step_s, -most, most);
-}
-
 /// The turn, as a vector, that takes one axis to another one: its sine's length, at most 1.
 btVector3 turn_between(const btVector3& from, const btVector3& to, const btVector3& aside) {
   const btVector3 turn = from.cross(to);
@@ -70,6 +65,11 @@ void JointRows::replace(PieceId body, btRigidBody* now) {
   frames_[body == joint_.a.body ? 0 : 1].body = now;
 }
 
+/// The speed that undoes a part of what is off, but no faster than a bound.
+float JointRows::undoing(float off, float most) const {
+  return undo_share_ * std::clamp(-limits::joint_undone_a_step * off / step_s_, -most, most);
+}
+
 void JointRows::weigh(HoldingRow& row) const {
   row.gain_a = a_.inverse_inertia * row.turn_a;
   row.gain_b = b_.inverse_inertia * row.turn_b;
@@ -94,7 +94,7 @@ void JointRows::add_point(const Places& at) {
     btVector3 along(0.0F, 0.0F, 0.0F);
     along[i] = 1.0F;
     add(along, at.arm_a.cross(along), at.arm_b.cross(along)).wanted =
-        undoing(at.off[i], limits::joint_undo_m_s, step_s_);
+        undoing(at.off[i], limits::joint_undo_m_s);
   }
 }
 
@@ -104,7 +104,7 @@ void JointRows::add_turns(const Places& at, bool with_axis) {
       with_axis ? turn_between(at.axes_a, at.axes_b) : turn_between(at.axis_a(0), at.axis_b(0), at.axis_a(1));
   for (int i = with_axis ? 0 : 1; i < 3; ++i) {
     const btVector3 about = at.axis_a(i);
-    add(nothing, about, about).wanted = undoing(about.dot(off), limits::joint_undo_rad_s, step_s_);
+    add(nothing, about, about).wanted = undoing(about.dot(off), limits::joint_undo_rad_s);
   }
 }
 
@@ -114,7 +114,7 @@ void JointRows::add_slide(const Places& at) {
   for (int i = 1; i < 3; ++i) {
     const btVector3 along = at.axis_a(i);
     add(along, arm_a.cross(along), at.arm_b.cross(along)).wanted =
-        undoing(along.dot(at.off), limits::joint_undo_m_s, step_s_);
+        undoing(along.dot(at.off), limits::joint_undo_m_s);
   }
 }
 
@@ -133,10 +133,28 @@ void JointRows::add_line(const Places& at) {
   HoldingRow& row = add(along, at.arm_a.cross(along), at.arm_b.cross(along));
   const float longer_m = length - joint_.length_m;
   const float drifts_m_s = drift_m_s(at, along, length);
-  row.wanted = undoing(longer_m, limits::joint_undo_m_s, step_s_) - drifts_m_s;
-  if (joint_.kind != JointKind::rope) return;
-  row.high = 0.0F;                                                     // a rope pulls, and does not push
-  if (longer_m < 0.0F) row.wanted = -longer_m / step_s_ - drifts_m_s;  // it gets taut in the step, or not
+  row.wanted = undoing(longer_m, limits::joint_undo_m_s) - drifts_m_s;
+  if (joint_.kind == JointKind::rope) {
+    row.high = 0.0F;                                                     // a rope pulls, and does not push
+    if (longer_m < 0.0F) row.wanted = -longer_m / step_s_ - drifts_m_s;  // it gets taut in the step, or not
+  }
+  calm_line(at, along);
+}
+
+/// What moves aside of a taut line is drawn back by the line's force over its length. Where a step is too
+/// long to follow that, a line that is short beside its load, this draws by where the body will be.
+void JointRows::calm_line(const Places& at, const btVector3& along) {
+  const float stiffness_n_m = force_n_ / std::max(joint_.length_m, limits::joint_line_min_m);
+  const float kept = step_s_ * step_s_ * stiffness_n_m;  // impulse by a speed of 1
+  if (!(kept * (a_.inverse_mass + b_.inverse_mass) > limits::joint_calmed_from)) return;
+  btVector3 aside, across;
+  btPlaneSpace1(along, aside, across);
+  for (const btVector3& way : {aside, across}) {
+    impulses_[count_] = 0.0F;
+    HoldingRow& row = add(way, at.arm_a.cross(way), at.arm_b.cross(way));
+    row.soft = 1.0F / kept;
+    row.mass = row.mass > 0.0F ? 1.0F / (1.0F / row.mass + row.soft) : 0.0F;
+  }
 }
 
 /// The motor and the limits, which it does not drive beyond. `value`: the angle, or the way.
@@ -158,9 +176,9 @@ void JointRows::add_axis(const Places& at, float value) {
   const float undo = slides ? limits::joint_undo_m_s : limits::joint_undo_rad_s;
   const float above = value - joint_.limits->low, below = joint_.limits->high - value;
   lower.high = no_bound;
-  lower.wanted = above > 0.0F ? -above / step_s_ : undoing(above, undo, step_s_);
+  lower.wanted = above > 0.0F ? -above / step_s_ : undoing(above, undo);
   upper.low = -no_bound;
-  upper.wanted = below > 0.0F ? below / step_s_ : -undoing(below, undo, step_s_);
+  upper.wanted = below > 0.0F ? below / step_s_ : -undoing(below, undo);
   motor.wanted = std::max(lower.wanted, std::min(motor.wanted, upper.wanted));
 }
 
@@ -241,8 +259,8 @@ std::array<HeldSide, 2> JointRows::sides() const {
 
 double JointRows::is_off_m_s(size_t i) const {
   const HoldingRow& row = rows_[i];
-  return double{row.wanted} - double{speed_of(row)} -
-         limits::joint_softness * double{impulses_[i]} / double{row.mass};
+  const double softness = double{row.soft} + limits::joint_softness / double{row.mass};
+  return double{row.wanted} - double{speed_of(row)} - softness * double{impulses_[i]};
 }
 
 void JointRows::change(size_t i, float impulse) {
@@ -273,17 +291,28 @@ void JointRows::solve() {
     const HoldingRow& row = rows_[i];
     if (!is_open(i)) continue;
     const float before = impulses_[i];
-    const float change = limits::joint_relaxation * (row.wanted - speed_of(row)) * row.mass;
+    const float change =
+        limits::joint_relaxation * (row.wanted - speed_of(row) - row.soft * before) * row.mass;
     impulses_[i] = std::clamp(before + change, row.low, row.high);
     give(row, impulses_[i] - before);
   }
 }
 
+/// Whether something keeps it from undoing what is off.
+bool JointRows::is_opposed() const {
+  for (size_t i = 0; i < count_; ++i) {
+    const HoldingRow& row = rows_[i];
+    if (i == motor_ || !holds_[i] || magnitude(row.wanted) < limits::joint_opposed_min) continue;
+    if (magnitude(row.wanted - speed_of(row)) > 0.5F * magnitude(row.wanted)) return true;
+  }
+  return false;
+}
+
 void JointRows::finish(float step_s) {
   btVector3 force = nothing, torque = nothing;
   for (size_t i = 0; i < count_; ++i) {
-    if (i == motor_) continue;
     const HoldingRow& row = rows_[i];
+    if (i == motor_ || row.soft > 0.0F) continue;
     if (row.along.isZero())
       torque += row.turn_b * impulses_[i];
     else
@@ -292,6 +321,13 @@ void JointRows::finish(float step_s) {
   pulled_n_ = force / step_s;
   force_n_ = pulled_n_.length();
   torque_nm_ = torque.length() / step_s;
+  // What works against it, such as a body between, does so in the next step too.
+  if (is_opposed()) {
+    undo_share_ *= 0.5F;
+    for (float& impulse : impulses_) impulse *= 0.5F;
+  } else {
+    undo_share_ = std::min(1.0F, 1.1F * undo_share_ + 0.001F);
+  }
   is_driven_ = false;
   if (motor_ < count_ && joint_.motor.greatest > 0.0F && joint_.motor.speed != 0.0F) {
     const float share = speed_of(rows_[motor_]) / joint_.motor.speed;
@@ -304,15 +340,14 @@ void JointRows::finish(float step_s) {
 
 // A force f at a place r from the centre turns the body by r × f. By a turn about an axis e of length 1, that
 // becomes (e × r) × f more.
-btVector3 JointRows::stiffness(bool of_b) const {
+btVector3 JointRows::turning_stiffness(bool of_b) const {
   const HeldFrame& frame = frames_[of_b ? 1 : 0];
   const btVector3 force = frame.body->getWorldTransform().getBasis().transpose() * pulled_n_;
-  const btVector3& arm = frame.place;
   btVector3 out;
   for (int i = 0; i < 3; ++i) {
     btVector3 axis(0.0F, 0.0F, 0.0F);
     axis[i] = 1.0F;
-    out[i] = axis.cross(arm).cross(force).length() + torque_nm_;
+    out[i] = axis.cross(frame.place).cross(force).length() + torque_nm_;
   }
   return out;
 }

@@ -44,6 +44,7 @@ struct HoldingRow {
   btVector3 gain_a{0.0F, 0.0F, 0.0F}, gain_b{0.0F, 0.0F, 0.0F};  ///< spin by an impulse of 1
   float mass = 0.0F;  ///< impulse that changes the speed by 1; 0: nothing does
   float wanted = 0.0F, low = 0.0F, high = 0.0F;
+  float soft = 0.0F;  ///< speed by which an impulse of 1 gives way
 };
 
 /// One of a joint's bodies, in a step.
@@ -96,8 +97,8 @@ class JointRows {
   float torque_nm() const { return torque_nm_; }
   /// Whether these break it.
   bool breaks() const;
-  /// The torque that they have gained on a body by its turn about each of its axes, by its size, N m.
-  btVector3 stiffness(bool of_b) const;
+  /// The torque that they gain on a body by its turn about each of its axes, by its size, N m.
+  btVector3 turning_stiffness(bool of_b) const;
   /// Whether its motor moved it in the last step.
   bool is_driven() const { return is_driven_; }
 
@@ -109,9 +110,12 @@ class JointRows {
   void add_slide(const Places& at);
   float drift_m_s(const Places& at, const btVector3& along, float length_m) const;
   void add_line(const Places& at);
+  void calm_line(const Places& at, const btVector3& along);
   void add_axis(const Places& at, float value);
   HoldingRow& add(const btVector3& along, const btVector3& turn_a, const btVector3& turn_b);
   void weigh(HoldingRow& row) const;
+  float undoing(float off, float most) const;
+  bool is_opposed() const;
   float speed_of(const HoldingRow& row) const;
   void give(const HoldingRow& row, float impulse);
 
@@ -121,6 +125,7 @@ class JointRows {
   float force_n_ = 0.0F, torque_nm_ = 0.0F;
   btVector3 pulled_n_{0.0F, 0.0F, 0.0F};  ///< the force on b
   bool is_driven_ = false;
+  float undo_share_ = 1.0F;  ///< of the speed by which it undoes what is off
 
   static constexpr size_t rows_max = 8;     ///< a hinge with limits and a motor: 3 + 2 + 2 + 1
   std::array<float, rows_max> impulses_{};  ///< of each row, kept from step to step: the rows of a kind are

@@ -193,39 +193,46 @@ void JointSystem::iterate(int iteration) {
   for (size_t i = 0; i < count; ++i) joints_[iteration % 2 == 0 ? i : count - 1 - i]->solve();
 }
 
+HeldInertia::Grown& HeldInertia::grown(const btRigidBody& body) {
+  const auto number = [](const Grown& one) { return one.body->getCompanionId(); };
+  const auto found = std::ranges::lower_bound(bodies_, body.getCompanionId(), {}, number);
+  CHECK(found != bodies_.end() && found->body == &body);
+  return *found;
+}
+
 void HeldInertia::grow(std::span<JointRows* const> joints, float step_s) {
-  std::vector<std::pair<int, uint32_t>> places;  // of the bodies by their number in the solver
-  bodies_.clear();
-  const auto grown = [&](btRigidBody* body) -> Grown& {
-    const auto found = std::ranges::lower_bound(places, std::pair(body->getCompanionId(), 0U));
-    if (found != places.end() && found->first == body->getCompanionId()) return bodies_[found->second];
-    places.insert(found, {body->getCompanionId(), static_cast<uint32_t>(bodies_.size())});
-    bodies_.push_back({body, btVector3(0.0F, 0.0F, 0.0F), body->getInvInertiaDiagLocal()});
-    return bodies_.back();
+  const auto each_side = [&](const auto& visit) {
+    for (const JointRows* joint : joints)
+      for (const bool is_b : {false, true}) {
+        btRigidBody* const body = is_b ? joint->body_b() : joint->body_a();
+        if (body != nullptr && !body->isStaticOrKinematicObject()) visit(*body, *joint, is_b);
+      }
   };
-  for (const JointRows* joint : joints)
-    for (const bool is_b : {false, true}) {
-      btRigidBody* const body = is_b ? joint->body_b() : joint->body_a();
-      if (body == nullptr || body->isStaticOrKinematicObject()) continue;
-      grown(body).stiffness += joint->stiffness(is_b);
-    }
-  for (Grown& body : bodies_) {
-    btVector3 inverse = body.inverse_before;
+  bodies_.clear();
+  each_side([&](btRigidBody& body, const JointRows&, bool) { bodies_.push_back({&body}); });
+  std::ranges::sort(bodies_, {}, [](const Grown& one) { return one.body->getCompanionId(); });
+  const auto same = [](const Grown& a, const Grown& b) { return a.body == b.body; };
+  bodies_.erase(std::unique(bodies_.begin(), bodies_.end(), same), bodies_.end());
+  each_side([&](const btRigidBody& body, const JointRows& joint, bool is_b) {
+    grown(body).stiffness_n_m += joint.turning_stiffness(is_b);
+  });
+  for (Grown& one : bodies_) {
+    btVector3 inverse = one.inverse_before = one.body->getInvInertiaDiagLocal();
     for (int i = 0; i < 3; ++i) {
-      const float least = limits::joint_inertia_share * step_s * step_s * body.stiffness[i];
+      const float least = limits::joint_inertia_share * step_s * step_s * one.stiffness_n_m[i];
       if (inverse[i] * least > 1.0F) inverse[i] = 1.0F / least;
     }
-    if (inverse == body.inverse_before) continue;
-    body.body->setInvInertiaDiagLocal(inverse);
-    body.body->updateInertiaTensor();
+    if (inverse == one.inverse_before) continue;
+    one.body->setInvInertiaDiagLocal(inverse);
+    one.body->updateInertiaTensor();
   }
 }
 
 void HeldInertia::restore() {
-  for (const Grown& body : bodies_) {
-    if (body.body->getInvInertiaDiagLocal() == body.inverse_before) continue;
-    body.body->setInvInertiaDiagLocal(body.inverse_before);
-    body.body->updateInertiaTensor();
+  for (const Grown& one : bodies_) {
+    if (one.body->getInvInertiaDiagLocal() == one.inverse_before) continue;
+    one.body->setInvInertiaDiagLocal(one.inverse_before);
+    one.body->updateInertiaTensor();
   }
   bodies_.clear();
 }

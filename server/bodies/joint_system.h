@@ -9,8 +9,8 @@
 // 1969), reversed. What hangs together and would cost too much is solved row by row.
 //
 // What joints pull also turns with their bodies. A step does not see that, so light bodies under great loads
-// would swing ever wider: they get a greater inertia in the solver, as far as that needs (Andrews, Teichmann
-// and Kövecses, Geometric stiffness for real-time constrained multibody dynamics, 2017).
+// would swing ever wider: they get a greater inertia in the solver, as far as that needs (Andrews,
+// Teichmann and Kövecses, Geometric stiffness for real-time constrained multibody dynamics, 2017).
 //
 // Not thread-safe. Private to this folder.
 #pragma once
@@ -64,22 +64,23 @@ class JointSystem {
   int times_let_go_ = 0;
 };
 
-/// Sums what joints that were solved pull at a body.
+/// Greater inertias for the bodies of joints, by their last impulses.
 class HeldInertia {
  public:
-  /// Greater inertia for the bodies of the joints, by their last impulses. `step_s`: of the step that
-  /// follows.
+  /// `step_s`: of the step that follows. The bodies have their numbers in the solver.
   void grow(std::span<JointRows* const> joints, float step_s);
-  /// As it was.
+  /// As they were.
   void restore();
 
  private:
   struct Grown {
     btRigidBody* body;
-    btVector3 stiffness;  ///< torque by a turn about each of its own axes, N m
-    btVector3 inverse_before;
+    btVector3 stiffness_n_m{0.0F, 0.0F, 0.0F};  ///< by a turn about each of its axes
+    btVector3 inverse_before{0.0F, 0.0F, 0.0F};
   };
-  std::vector<Grown> bodies_;
+  Grown& grown(const btRigidBody& body);
+
+  std::vector<Grown> bodies_;  ///< in the order of their numbers
 };
 
 }  // namespace scree

@@ -122,6 +122,10 @@ inline constexpr float joint_undo_rad_s = 4.0F;
 inline constexpr float joint_warm_share = 0.95F;
 inline constexpr float joint_relaxation = 1.3F;
 
+/// A joint that does not get half of the speed by which it undoes what is off is opposed, by another joint or
+/// by a body between: it wants half as much, step by step. Not below this speed, m/s or rad/s.
+inline constexpr float joint_opposed_min = 0.05F;
+
 /// By which a held row gives way, as a share of its own: joints that contradict each other agree on something
 /// between. A load of 10 t on a link of 5 kg hangs 4 mm low by it.
 inline constexpr double joint_softness = 1e-5;
@@ -136,9 +140,14 @@ inline constexpr size_t joints_a_body_max = 48;
 /// How often in a step rows that are beyond their bounds let go; each time costs factors of what is left.
 inline constexpr int joints_let_go_max = 3;
 
-/// Least inertia of a body by what its joints pull, times a step squared: at a quarter it swings at the edge
-/// of what a step follows, and bodies in chains swing with their neighbours.
+/// Least inertia of a body by what its joints pull, times a step squared: at a quarter it swings at
+/// the edge of what a step follows, and bodies in chains swing with their neighbours.
 inline constexpr float joint_inertia_share = 0.5F;
+
+/// Likewise, the stiffness of a line aside over the mass, times a step squared, from which it is calmed: at 4
+/// it flies apart. And a line that is shorter counts as so long there, metres: it may be of no length.
+inline constexpr float joint_calmed_from = 0.5F;
+inline constexpr float joint_line_min_m = 1e-3F;
 
 /// Share of its speed at which a motor still moves its bodies, so that they stay awake: what it pushes
 /// against in vain may sleep.
