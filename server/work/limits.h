@@ -25,8 +25,8 @@ inline constexpr float ground_point_cost_us = 0.02F;
 inline constexpr float contact_cost_us = 1.7F;
 inline constexpr float pair_cost_us = 0.45F;
 
-/// A joint of a body that is awake, in a step: up to eight rows that are solved 24 times.
-inline constexpr float joint_cost_us = 6.0F;
+/// A joint of a body that is awake, in a step: up to eight rows, and factors with those of its neighbours.
+inline constexpr float joint_cost_us = 8.0F;
 
 /// A piece that is alive, moving or not, in a tick: its rest, its place in what is published, the look
 /// whether it is buried. It is no part of the load by bodies: frozen pieces are no crowd.
