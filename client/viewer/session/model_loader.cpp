@@ -6,6 +6,12 @@
 
 namespace scree {
 
+namespace {
+
+constexpr size_t faults_max = 16;
+
+}  // namespace
+
 struct ModelLoader::Inbox {
   struct Done {
     Digest model;
@@ -63,6 +69,7 @@ bool ModelLoader::take_in(const SceneProps& props) {
       is_new = true;
     }
     const bool fits = each.mesh && bytes_ + each.mesh->bytes() <= limits::model_meshes_bytes_max;
+    if (!fits && faults_.size() >= faults_max) continue;  // nobody wants to know
     if (!fits) {
       faults_.push_back("props are drawn by their parts, for their model " + hex_of(each.model) +
                         " cannot be shown: " +
