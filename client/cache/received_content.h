@@ -1,6 +1,6 @@
 // A world's palette, the images that its rows name, and the models of its props, as they come over the wire
-// or from the cache: bytes that their SHA-256 names (proto/content.proto), which one server's client need not
-// be sent by another.
+// or from the cache. They are bytes that their SHA-256 names (proto/content.proto), which one server's client
+// need not be sent by another.
 //
 // Invariant: all that is held is an image with the hash that names it, or a model's bytes, which only a
 // reader can judge (content/model/glb.h); palettes are decoded at once. A server that sends other bytes, more
@@ -67,7 +67,7 @@ class ReceivedContent {
   void want_image(const Digest& digest);
   void want_images();
   void hold_model(const Digest& digest, std::vector<uint8_t> bytes);
-  /// Of what is wanted, for people.
+  /// Words for it, for people.
   std::string what_is(const Digest& digest) const;
   bool hold_image(const Digest& digest, std::vector<uint8_t> bytes);
   bool take(const Digest& digest, std::vector<uint8_t> bytes);

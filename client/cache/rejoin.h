@@ -50,7 +50,7 @@ class Rejoin {
   /// of no more use.
   Result<void> before(const ServerMessage& message, Mirror& mirror);
   void after(const ServerMessage& message, Mirror& mirror, ServerChannel& connection);
-  /// The palette, or the image, that is whole with this message.
+  /// The palette, the image or the model that is whole with this message.
   std::optional<Digest> take_content(const ServerMessage& message);
   /// A prop that is here has this model.
   void want_model(const Digest& model) {

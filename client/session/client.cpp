@@ -127,7 +127,7 @@ void Client::take_content(const ServerMessage& message, MirrorChanges& changes) 
     mirror_->set_palette(content.palette());
     changes.palette = true;
   } else {
-    changes.image = whole;
+    if (whole && content.find(*whole)) changes.image = whole;
   }
 }
 

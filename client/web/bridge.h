@@ -3,8 +3,8 @@
 // world, the camera, the drawing, reconnecting.
 //
 // scree.js is an ES module whose default export makes the client: `const client = await createScree({canvas,
-// wasmBinary, readModel})`, with the bytes of scree.wasm, so that the page can show how much of them has
-// come, and the reader of props' models (page/glb.js), which this side calls in scree_frame(). Numbers go by
+// wasmBinary, readModel})`. It gets the bytes of scree.wasm, so that the page can show how much of them has
+// come. `readModel` reads models of props (page/glb.js); this side calls it in scree_frame(). Numbers go by
 // client._scree_NAME(…), texts by client.ccall("scree_NAME", result, types, values).
 //
 // All calls are from the page's one thread, never from within each other. Nothing waits and nothing throws.

@@ -5,8 +5,8 @@
 // (content/model/glb.h), and has them by their hash, as it has the palette's images. A client that gets a
 // prop asks for its model (client/cache/received_content.h), reads the bytes off its main thread, and hands
 // the mesh to the renderer, which draws an instance for each prop (client/render/pieces/prop_views.h). The
-// page reads in JavaScript (client/web/page/glb.js). Whoever read it, checked_model() is the last door: what
-// it lets through can be drawn.
+// page reads in JavaScript (client/web/page/glb.js). All go through checked_model(): what it lets through can
+// be drawn.
 #pragma once
 
 #include <array>
@@ -29,7 +29,8 @@ namespace limits {
 inline constexpr size_t model_bytes_max = size_t{4} << 20;
 inline constexpr size_t model_json_bytes_max = size_t{1} << 20;
 
-/// Vertices and triangles of a model, with a mesh as often as nodes have it: 4 MiB on the GPU. Above: refused.
+/// Vertices and triangles of a model, with a mesh as often as nodes have it: 4 MiB on the GPU. Above:
+/// refused.
 inline constexpr size_t model_vertices_max = size_t{1} << 17;
 inline constexpr size_t model_triangles_max = size_t{1} << 17;
 

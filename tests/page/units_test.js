@@ -498,7 +498,9 @@ test('a hostile model throws its reason, and is shown by its parts', (context) =
     [(scene) => { scene.meshes[0].primitives[0].indices = 0; }, /indices/], [(scene) => { scene.meshes[0].primitives[0].material = 7; }, /lacks/],
     [(scene) => { scene.scene = 3; }, /lacks/], [(scene) => { scene.extensionsRequired = ['KHR_draco_mesh_compression']; }, /extension/],
     [(scene) => { scene.nodes = [{ children: [...Array(4095).keys()].map((i) => i + 1) }, ...Array(4095).fill({ mesh: 0 })];
-      scene.meshes[0].primitives = Array(5).fill(scene.meshes[0].primitives[0]); }, /too many/],
+      scene.meshes[0].primitives = Array(3).fill(scene.meshes[0].primitives[0]); }, /too many/],
+    [(scene) => { scene.nodes = [{ children: [...Array(4095).keys()].map((i) => i + 1) }, ...Array(4095).fill({ mesh: 0 })];
+      scene.accessors[1].count = 3; scene.meshes[0].primitives = Array(5).fill(scene.meshes[0].primitives[0]); }, /too many vertices/],
   ];
   for (const [change, words] of faults) assert.throws(() => read_glb(box_glb(change)), words, String(change));
   const said = context.mock.method(console, 'warn', () => {});

@@ -38,8 +38,8 @@ std::vector<Layer> bench_layers() {
   };
 }
 
-/// The layers of the programs and of the tests.
-std::vector<Layer> other_layers() {
+/// The layers that both sides share.
+std::vector<Layer> shared_layers() {
   return {
       {"cmake/", {}},  // precompiled headers of libraries
       {"shared/base/", {}},
@@ -58,6 +58,12 @@ std::vector<Layer> other_layers() {
       {"content/model/", {"shared/prop/"}},
       {"content/files/", {"content/", "content/model/", "proto/", "crypto/"}},
       {"content/", {"shared/material/"}},
+  };
+}
+
+/// The layers of the programs and of the tests.
+std::vector<Layer> other_layers() {
+  return {
       {"tools/import/", {"ground/", "content/files/"}},
       {"tools/export/", {"tools/import/", "server/app/", "client/session/"}},
       {"transport/", {"crypto/"}},
@@ -114,7 +120,8 @@ std::vector<Layer> other_layers() {
 /// Rooms come before the folder that they lie in: the first match is a file's layer.
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> table = [] {
-    std::vector<Layer> all = other_layers();
+    std::vector<Layer> all = shared_layers();
+    std::ranges::move(other_layers(), std::back_inserter(all));
     std::ranges::move(bench_layers(), std::back_inserter(all));
     return all;
   }();
