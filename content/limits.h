@@ -12,6 +12,10 @@ inline constexpr size_t palette_file_bytes_max = size_t{256} << 10;
 /// goes.
 inline constexpr size_t palette_line_bytes_max = 500;
 
+/// Models that a folder may have, and their bytes in all, which the server keeps in memory. Above: refused.
+inline constexpr size_t models_max = 256;
+inline constexpr size_t models_bytes_max = size_t{64} << 20;
+
 /// Bytes of an image's path.
 inline constexpr size_t image_path_bytes_max = 200;
 

@@ -53,6 +53,11 @@ inline constexpr uint64_t tiles_between_bounds = 64;
 inline constexpr size_t contents_asked_max = 8;
 inline constexpr size_t content_memory_max = size_t{65} << 20;
 
+/// Models of props that are wanted in one session, twice as many as a server has, and their files' bytes in
+/// memory. Above: the parts of props are drawn.
+inline constexpr size_t models_wanted_max = 512;
+inline constexpr size_t model_files_memory_max = size_t{65} << 20;
+
 /// Metres beyond the radius of interest up to which chunks are offered, for who moves.
 inline constexpr float offer_margin_m = 8.0F;
 

@@ -6,6 +6,7 @@
 #include "crypto/sha256.h"
 #include "proto/palette_codec.h"
 #include "shared/material/material_image.h"
+#include "shared/prop/model_mesh.h"
 
 namespace scree {
 
@@ -17,7 +18,12 @@ void ReceivedContent::begin_session(const std::optional<Digest>& palette) {
   asked_.clear();
   given_up_.clear();
   fault_.clear();
+  models_.clear();
   wanted_palette_.reset();
+  if (palette != current_ || model_bytes_ > limits::model_files_memory_max / 2) {  // make room
+    held_models_.clear();
+    model_bytes_ = 0;
+  }
   if (palette != current_) {  // of another world, whose content is in the folder
     held_.clear();
     held_bytes_ = 0;
@@ -47,6 +53,11 @@ ReceivedContent::Bytes ReceivedContent::find(const Digest& digest) const {
   return found == held_.end() ? nullptr : found->second;
 }
 
+ReceivedContent::Bytes ReceivedContent::find_model(const Digest& digest) const {
+  const auto found = held_models_.find(digest);
+  return found == held_models_.end() ? nullptr : found->second;
+}
+
 bool ReceivedContent::is_new(const Digest& digest) const {
   return !asked_.contains(digest) && !given_up_.contains(digest) &&
          std::ranges::find(wanted_, digest) == wanted_.end();
@@ -67,6 +78,28 @@ void ReceivedContent::want_images() {
   for (const MaterialRow& row : palette_->rows)
     for (const std::optional<Digest>& image : {row.look.albedo, row.look.normal})
       if (image) want_image(*image);
+}
+
+void ReceivedContent::want_model(const Digest& model) {
+  if (models_.size() >= limits::models_wanted_max || !models_.insert(model).second) return;
+  if (held_models_.contains(model) || !is_new(model)) return;
+  auto bytes = folder_.read(model);
+  if (bytes && bytes->size() <= limits::model_bytes_max &&
+      model_bytes_ + bytes->size() <= limits::model_files_memory_max)
+    hold_model(model, std::move(*bytes));
+  else
+    wanted_.push_back(model);
+}
+
+void ReceivedContent::hold_model(const Digest& digest, std::vector<uint8_t> bytes) {
+  model_bytes_ += bytes.size();
+  held_models_[digest] = std::make_shared<const std::vector<uint8_t>>(std::move(bytes));
+}
+
+std::string ReceivedContent::what_is(const Digest& digest) const {
+  return digest == wanted_palette_  ? "the server's palette"
+         : models_.contains(digest) ? "the model of a prop"
+                                    : "an image of the server's palette";
 }
 
 bool ReceivedContent::hold_image(const Digest& digest, std::vector<uint8_t> bytes) {
@@ -100,9 +133,14 @@ void ReceivedContent::drop(const Digest& digest, const std::string& fault) {
 /// Empty: the part may be added.
 std::string ReceivedContent::fault_of(const ContentMessage& message, const Partial& partial) const {
   if (message.total == 0) return " is not there";
-  const size_t most = message.digest == wanted_palette_ ? palette_bytes_max : limits::image_bytes_max;
-  if (message.total > most || held_bytes_ + message.total > limits::content_memory_max)
-    return " has too many bytes: " + std::to_string(message.total);
+  const bool is_palette = message.digest == wanted_palette_;
+  const bool is_model = !is_palette && models_.contains(message.digest);
+  const size_t most = is_palette ? palette_bytes_max
+                      : is_model ? limits::model_bytes_max
+                                 : limits::image_bytes_max;
+  const bool fits = is_model ? model_bytes_ + message.total <= limits::model_files_memory_max
+                             : held_bytes_ + message.total <= limits::content_memory_max;
+  if (message.total > most || !fits) return " has too many bytes: " + std::to_string(message.total);
   if (message.total != partial.total || message.offset != partial.bytes.size())
     return " comes in parts that do not follow one another";
   return {};
@@ -119,8 +157,7 @@ std::optional<Digest> ReceivedContent::accept(const ContentMessage& message) {
   Partial& partial = asked->second;
   if (message.offset > 0 && partial.bytes.empty()) return std::nullopt;  // of an earlier request
   if (message.offset == 0) partial = {{}, message.total};
-  const std::string what =
-      digest == wanted_palette_ ? "the server's palette" : "an image of the server's palette";
+  const std::string what = what_is(digest);
   if (const std::string fault = fault_of(message, partial); !fault.empty()) {
     drop(digest, what + fault);
     return std::nullopt;
@@ -142,6 +179,11 @@ bool ReceivedContent::take(const Digest& digest, std::vector<uint8_t> bytes) {
   if (digest == wanted_palette_) {
     if (!use_palette(bytes)) return false;
     folder_.write(digest, bytes);
+    return true;
+  }
+  if (models_.contains(digest)) {
+    folder_.write(digest, bytes);
+    hold_model(digest, std::move(bytes));
     return true;
   }
   if (!hold_image(digest, std::move(bytes))) return false;

@@ -24,6 +24,7 @@ struct CacheConfig {
   std::string folder{};  ///< empty: kept until the program ends
   size_t bytes_max = 0;  ///< of the chunks in memory, and of all files
   bool images = false;   ///< those of the palette's rows are wanted
+  bool models = false;   ///< those of props are wanted
 };
 
 class Rejoin {
@@ -49,8 +50,12 @@ class Rejoin {
   /// of no more use.
   Result<void> before(const ServerMessage& message, Mirror& mirror);
   void after(const ServerMessage& message, Mirror& mirror, ServerChannel& connection);
-  /// The palette, or the image, that is whole with this message.
+  /// The palette, the image or the model that is whole with this message.
   std::optional<Digest> take_content(const ServerMessage& message);
+  /// A prop that is here has this model.
+  void want_model(const Digest& model) {
+    if (config_.models) content_.want_model(model);
+  }
   /// Sends the interest, and an offer of what is kept of what comes into it.
   void follow(glm::vec3 eye_m, float radius_m, Mirror& mirror, ServerChannel& connection);
   /// Call often: asks for tiles of the ground that were missed and for content, packs a few chunks, and

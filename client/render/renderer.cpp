@@ -312,6 +312,10 @@ Result<void> Renderer::draw_unseen(DrawMethod& method, const Camera& camera, int
   return {};
 }
 
+void Renderer::set_models(const ModelMeshes& models) {
+  parts_->props.set_models(models);
+}
+
 Result<void> Renderer::set_props(const SceneProps& props) {
   return parts_->props.show(props);
 }

@@ -15,6 +15,7 @@
 #include "client/render/scene/particle.h"
 #include "client/render/scene/quality.h"
 #include "shared/material/palette.h"
+#include "shared/prop/model_mesh.h"
 
 namespace scree {
 
@@ -44,6 +45,9 @@ class Renderer {
   void set_palette(const std::shared_ptr<const Palette>& palette);
   /// The images of palettes that have come, from now on. A row whose image is missing shows its colour.
   void set_images(const MaterialTexelSet& images);
+
+  /// The models of props that have come, from now on. A prop whose model is not among them shows its parts.
+  void set_models(const ModelMeshes& models);
 
   /// The props that are drawn from now on, with every method, where they are now. The cost grows with their
   /// number, and with that of new shapes. Fails if the driver cannot make what draws them.

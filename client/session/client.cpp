@@ -110,6 +110,10 @@ Client::Event Client::apply(Received received) {
   Result<MirrorChanges> changes = taken ? mirror_->apply(message) : tl::unexpected(taken.error());
   if (!changes) return lose({{"the server's data cannot be applied: " + changes.error().message}, {}});
   take_content(message, *changes);
+  for (const PieceId id : changes->props_added)
+    if (const auto prop = mirror_->props().find(id);
+        prop != mirror_->props().end() && prop->second.prop->model)
+      rejoin_.want_model(*prop->second.prop->model);
   predictions_->notice(message);
   rejoin_.after(message, *mirror_, *channel_);
   while (const std::optional<RepairMessage> repair = mirror_->next_repair_request()) channel_->send(*repair);
@@ -123,7 +127,7 @@ void Client::take_content(const ServerMessage& message, MirrorChanges& changes) 
     mirror_->set_palette(content.palette());
     changes.palette = true;
   } else {
-    changes.image = whole;
+    if (whole && content.find(*whole)) changes.image = whole;
   }
 }
 

@@ -113,7 +113,9 @@ class Client {
   double draw_tick(double now_s) { return playback_.draw_tick(now_s); }
   /// The bytes of an image that the palette names; null: it has not come, and perhaps never will.
   ReceivedContent::Bytes content(const Digest& image) const { return rejoin_.content().find(image); }
-  /// The cache, the tiles of the ground, and the palette with its images.
+  /// The bytes of the model of a prop; null: it has not come, and perhaps never will.
+  ReceivedContent::Bytes model(const Digest& model) const { return rejoin_.content().find_model(model); }
+  /// The cache, the tiles of the ground, and the palette with its images, and models.
   const Rejoin& rejoin() const { return rejoin_; }
   /// The server, for people.
   std::string where() const { return connector_->where(); }

@@ -3,8 +3,9 @@
 // world, the camera, the drawing, reconnecting.
 //
 // scree.js is an ES module whose default export makes the client: `const client = await createScree({canvas,
-// wasmBinary})`, with the bytes of scree.wasm, so that the page can show how much of them has come. Numbers
-// go by client._scree_NAME(…), texts by client.ccall("scree_NAME", result, types, values).
+// wasmBinary, readModel})`. It gets the bytes of scree.wasm, so that the page can show how much of them has
+// come. `readModel` reads models of props (page/glb.js); this side calls it in scree_frame(). Numbers go by
+// client._scree_NAME(…), texts by client.ccall("scree_NAME", result, types, values).
 //
 // All calls are from the page's one thread, never from within each other. Nothing waits and nothing throws.
 // Texts are UTF-8 and end in NUL. A text that is returned belongs to this side and holds until the same

@@ -2,20 +2,47 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <emscripten/em_js.h>
 #include <emscripten/html5.h>
 #include <glm/trigonometric.hpp>
 
 #include "client/web/limits.h"
 #include "shared/base/timing.h"
 
+// clang-format off
+/// Calls the page's reader (page/glb.js). What it returns is of malloc(), and begins with two counts. Null: it
+/// could not read the bytes, and has said so.
+EM_JS(uint32_t*, scree_read_model, (const uint8_t* bytes, size_t size), {
+  const mesh = Module["readModel"] && Module["readModel"](HEAPU8.slice(bytes, bytes + size));
+  const place = mesh ? _malloc(mesh.length) : 0;
+  if (place) HEAPU8.set(mesh, place);
+  return place;
+});
+// clang-format on
+
 namespace scree {
 namespace {
+
+Result<ModelMesh> read_page_model(std::span<const uint8_t> bytes) {
+  uint32_t* const read = scree_read_model(bytes.data(), bytes.size());
+  if (read == nullptr) return fail("");
+  std::vector<ModelVertex> vertices(read[0]);
+  std::vector<uint32_t> corners(read[1]);
+  std::memcpy(vertices.data(), read + 2, vertices.size() * sizeof(ModelVertex));
+  std::memcpy(corners.data(), read + 2 + vertices.size() * sizeof(ModelVertex) / sizeof(uint32_t),
+              corners.size() * sizeof(uint32_t));
+  std::free(read);
+  return checked_model(std::move(vertices), std::move(corners));
+}
 
 SessionChoice session_choice() {
   SessionChoice choice;
   choice.interest_radius_m = traits_of(AutoQuality::first).view_radius_m;
   choice.program = "scree-web";
   choice.cache.bytes_max = limits::page_cache_bytes;
+  choice.cache.models = true;
   choice.apply_s = limits::page_apply_s;
   return choice;
 }
@@ -23,8 +50,8 @@ SessionChoice session_choice() {
 }  // namespace
 
 Result<std::unique_ptr<PageClient>> PageClient::begin(PageSocket& socket) {
-  Result<std::unique_ptr<View>> view =
-      View::create(all_methods().front(), traits_of(AutoQuality::first).view_radius_m);
+  Result<std::unique_ptr<View>> view = View::create(
+      all_methods().front(), traits_of(AutoQuality::first).view_radius_m, nullptr, read_page_model);
   if (!view) return fail(view.error().message);
   return std::unique_ptr<PageClient>(
       new PageClient(std::move(*view), std::make_unique<SocketConnector>(socket, "this server")));

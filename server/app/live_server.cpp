@@ -119,6 +119,7 @@ bool LiveServer::State::step() {
     admitted = admission.admit(std::move(admitted.commands),
                                {*world, *pager, generator, saved_world->status().health.ok()});
     if (config.hooks.before && !ask_host(*world, admitted)) return false;
+    refuse_missing_models(admitted);
   }
   if (!limits_to_set.empty())  // a recording has them as any change of settings
     admitted.commands.insert(admitted.commands.begin(),

@@ -45,6 +45,8 @@ struct LiveConfig {
   /// null: none were given. `world` has them, too.
   std::shared_ptr<const Palette> materials;
   std::shared_ptr<const ContentFiles> images;
+  /// Models of props (content/files/model_folder.h); null: none, and a prop that names one is refused.
+  std::shared_ptr<const ContentFiles> models;
   std::string trace_path;  ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
   double still_seconds = limits::still_seconds_max;  ///< without a tick: the simulation stands still

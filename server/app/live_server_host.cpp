@@ -1,5 +1,8 @@
-// LiveServer's host: its rules, and its commands.
+// LiveServer's host: its rules, and its commands; and what is refused for want of the host's files.
+#include <algorithm>
+
 #include "server/app/live_server_state.h"
+#include "server/app/prop_models.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -18,6 +21,21 @@ bool LiveServer::State::ask_host(const World& world, Admitted& admitted) {
   admission.answered(refused);
   admitted.refused.insert(admitted.refused.end(), refused.begin(), refused.end());
   return true;
+}
+
+/// The world knows a model's name alone, so that worlds and recordings do not depend on files.
+void LiveServer::State::refuse_missing_models(Admitted& admitted) {
+  std::vector<Reply> refused;
+  std::erase_if(admitted.commands, [&](const Command& command) {
+    const auto may = check_model(command.body, config.models.get());
+    if (may) return false;
+    Reply reply{command.session, command.request, may.error().message, 0};
+    reply.reason = may.error().reason;
+    refused.push_back(std::move(reply));
+    return true;
+  });
+  admission.answered(refused);
+  admitted.refused.insert(admitted.refused.end(), refused.begin(), refused.end());
 }
 
 bool LiveServer::push(Command command) {

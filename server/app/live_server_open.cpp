@@ -3,6 +3,7 @@
 
 #include "server/app/ground_giver.h"
 #include "server/app/live_server_state.h"
+#include "server/app/prop_models.h"
 #include "server/app/world_materials.h"
 #include "server/world/settings.h"
 #include "server/world/world_snapshot.h"
@@ -49,6 +50,7 @@ Result<void> LiveServer::State::open() {
   config.net.tick_rate_hz = config.world.tick_rate_hz;
   config.net.palette = config.world.palette;
   config.net.images = config.images;
+  config.net.models = config.models;
   tell_missing_images(*config.world.palette, config.images.get());
   period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
   TRY(open_events());
@@ -56,6 +58,7 @@ Result<void> LiveServer::State::open() {
   World* const world = feed->world();
   TickDelta keyframe = world == nullptr ? TickDelta() : world->keyframe();
   if (world == nullptr) keyframe.spawn = spawn;
+  tell_missing_models(keyframe.props_spawned, config.models.get());
   report.settings = keyframe.settings;  // ticks say only what changes
   auto listening = TRY(NetServer::listen(config.net, commands, std::move(keyframe)));
   net = std::move(listening);

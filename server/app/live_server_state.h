@@ -52,6 +52,7 @@ struct LiveServer::State {
   void run();
   bool step();
   bool ask_host(const World& world, Admitted& admitted);
+  void refuse_missing_models(Admitted& admitted);
   bool wait_for_clients();
   bool time_is_over() const {
     return config.seconds_max > 0.0 && Clock::now() >= started + seconds(config.seconds_max);

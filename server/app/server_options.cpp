@@ -42,6 +42,7 @@ struct Raw {
   std::string durability = "second";
   std::string ground;     ///< empty: generated
   std::string materials;  ///< file of a palette; empty: the built-in one, or a kept world's
+  std::string models;     ///< folder of the models of props; empty: none
   std::string web;        ///< empty: the folder beside the program
   bool loop = false;      ///< of a replay
   bool end = false;
@@ -102,6 +103,10 @@ void add_world(CLI::App& app, Raw& raw) {
       "file of the world's materials (TOML; content/materials.toml is the built-in one); a saved "
       "world continues with its own, or with this file: the same materials with other numbers, and "
       "more at the end");
+  app.add_option(
+      "--models", raw.models,
+      "folder of models (.glb, binary glTF 2.0) by which clients draw props that name them by their "
+      "SHA-256");
   bounded(app.add_option("--seed", world.terrain.random_seed, "random seed of the terrain"),
           whole_within(0, std::numeric_limits<uint32_t>::max()))
       ->capture_default_str();
@@ -234,6 +239,14 @@ void parse_web(Raw& raw) {
 void parse_end(Raw& raw) {
   if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
   if (raw.end) raw.options.live.replay.at_end = AtEnd::end;
+}
+
+void parse_models(Raw& raw) {
+  if (raw.models.empty()) return;
+  auto folder = read_model_folder(raw.models);
+  if (!folder) throw CLI::ValidationError("--models", folder.error().message);
+  raw.options.live.models = std::move(folder->contents);
+  raw.options.models = std::move(folder->files);
 }
 
 /// A world's own limits are the only ones. Settings come in any order, so they are compared here, at last.
@@ -373,6 +386,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     parse_end(raw);
     parse_web(raw);
     parse_world(raw);
+    parse_models(raw);
   } catch (const CLI::ParseError& error) {
     const bool mistaken = error.get_exit_code() != 0;
     const std::string fault = mistaken ? fault_in_file(named_file(*config), fault_of) : std::string();

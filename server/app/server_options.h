@@ -6,14 +6,16 @@
 #include <string>
 #include <variant>
 
+#include "content/files/model_folder.h"
 #include "server/app/live_server.h"
 
 namespace scree {
 
 struct ServerOptions {
   LiveConfig live;
-  std::string report_path;  ///< empty: none
-  std::string token_made;   ///< file of an admin token that was made; empty: none
+  std::string report_path;        ///< empty: none
+  std::string token_made;         ///< file of an admin token that was made; empty: none
+  std::vector<ModelFile> models;  ///< live.models, for the log
   std::string log_level = "info";
 };
 

@@ -8,6 +8,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "server/app/prop_models.h"
 #include "server/app/resident_memory.h"
 #include "server/app/server_options.h"
 #include "shared/base/program_output.h"
@@ -72,6 +73,7 @@ int run(const ServerOptions& options) {
     spdlog::error("{}", server.error().message);
     return failed;
   }
+  tell_models(options.models);
   if (!options.token_made.empty())
     spdlog::warn("an admin token was made: it is the line in {}, which only this server's user can read",
                  options.token_made);

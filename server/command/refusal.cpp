@@ -38,6 +38,7 @@ constexpr Row rows[] = {
     {Refusal::terrain_unreadable, "terrain_unreadable"},
     {Refusal::session_over, "session_over"},
     {Refusal::host, "host"},
+    {Refusal::model_missing, "model_missing"},
     {Refusal::replay, "replay"},
     {Refusal::requests_per_second, "requests_per_second"},
     {Refusal::commands_waiting, "commands_waiting"},

@@ -39,6 +39,8 @@ enum class Refusal : uint8_t {
   session_over,
   // The host's own rule refuses a request (server/app/host_hooks.h).
   host,
+  // The server does not have the model that a prop names.
+  model_missing,
   // The network side refuses a request.
   replay,
   requests_per_second,

@@ -38,7 +38,8 @@ PublisherConfig publisher_config(const NetConfig& config) {
           config.heartbeat_s,
           config.chunks,
           config.palette,
-          config.images};
+          config.images,
+          config.models};
 }
 
 /// Where strangers come by a proxy or under a name, a connection from loopback may be anybody's: then it has
@@ -218,7 +219,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           },
           [&](const AskContentMessage& content) -> Done {
             return may_wait(publisher_.ask_content(session.id(), content), limits::contents_wanted_max,
-                            "palettes and images", "contents_wanted_max");
+                            "palettes, images and models", "contents_wanted_max");
           },
           [&](const QueryMessage& query) -> Done {
             pass_query(query, session, sessions_, publisher_, figures_.counts());

@@ -103,6 +103,7 @@ struct NetConfig {
   std::shared_ptr<ChunkSupply> chunks;  ///< as of PublisherConfig
   std::shared_ptr<const Palette> palette = shared_builtin_palette();  ///< as of ContentStream
   std::shared_ptr<const ContentFiles> images{};                       ///< likewise
+  std::shared_ptr<const ContentFiles> models{};                       ///< likewise
   size_t net_threads = 0;  ///< that encode and send; 0: as many as the machine has cores
   WebConfig web;
   /// status.json for operators (docs/browser.md); on the network thread. Empty, or an empty text: there is

@@ -10,11 +10,14 @@
 
 namespace scree {
 
-ContentStream::ContentStream(std::shared_ptr<const Palette> own, std::shared_ptr<const ContentFiles> images)
+ContentStream::ContentStream(std::shared_ptr<const Palette> own,
+                             const std::shared_ptr<const ContentFiles>& images,
+                             const std::shared_ptr<const ContentFiles>& models)
     : own_(std::move(own)) {
-  if (images != nullptr)
-    for (const auto& [digest, bytes] : *images)
-      images_.emplace(digest, Bytes(images, &bytes));  // which keeps all of them
+  for (const auto& files : {images, models})
+    if (files != nullptr)
+      for (const auto& [digest, bytes] : *files)
+        files_.emplace(digest, Bytes(files, &bytes));  // which keeps all of them
   take_settings({});
 }
 
@@ -45,8 +48,8 @@ void ContentStream::drop_former(Queue& queue) const {
 
 ContentStream::Bytes ContentStream::find(const Digest& digest) const {
   if (digest == digest_) return palette_;
-  const auto image = images_.find(digest);
-  return image == images_.end() ? nullptr : image->second;
+  const auto file = files_.find(digest);
+  return file == files_.end() ? nullptr : file->second;
 }
 
 bool ContentStream::ask(uint64_t session, uint64_t party, const AskContentMessage& request) {

@@ -1,8 +1,8 @@
-// Answers requests for content (proto/content.proto): the palette's bytes as it stands, and the images that
-// its rows name. What waits is bounded (limits::contents_wanted_max a session), and so are the bytes of a
-// tick, of each session and of all. Parties take turns, and the sessions of a party share its turns
-// (SessionTurns). Nothing is sent to a session twice. A palette that has changed waits no longer: the session
-// is told of the next one, and asks for that. No sockets and no clock. Not thread-safe.
+// Answers requests for content (proto/content.proto): the palette's bytes as it stands, the images that its
+// rows name, and the models of props. What waits is bounded (limits::contents_wanted_max a session), and so
+// are the bytes of a tick, of each session and of all. Parties take turns, and the sessions of a party share
+// its turns (SessionTurns). Nothing is sent to a session twice. A palette that has changed waits no longer:
+// the session is told of the next one, and asks for that. No sockets and no clock. Not thread-safe.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +20,15 @@
 
 namespace scree {
 
-/// The bytes of images by their SHA-256.
+/// The bytes of images, or of models, by their SHA-256.
 using ContentFiles = std::map<Digest, std::vector<uint8_t>>;
 
 class ContentStream {
  public:
-  /// `own`: the palette without changed numbers; null: clients are told of none. `images` may be null.
-  ContentStream(std::shared_ptr<const Palette> own, std::shared_ptr<const ContentFiles> images);
+  /// `own`: the palette without changed numbers; null: clients are told of none. `images` and `models` may be
+  /// null.
+  ContentStream(std::shared_ptr<const Palette> own, const std::shared_ptr<const ContentFiles>& images,
+                const std::shared_ptr<const ContentFiles>& models = nullptr);
 
   /// SHA-256 of the palette's bytes; nothing where there is none.
   const std::optional<Digest>& palette() const { return digest_; }
@@ -61,7 +63,7 @@ class ContentStream {
   SharedBytes next_part(uint64_t session, Queue& queue);
 
   std::shared_ptr<const Palette> own_;
-  std::map<Digest, Bytes> images_;
+  std::map<Digest, Bytes> files_;
   std::optional<Digest> digest_;
   std::set<Digest> former_;  ///< palettes of before
   Bytes palette_;

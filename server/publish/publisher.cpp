@@ -30,7 +30,7 @@ Publisher::Publisher(const PublisherConfig& config, Workers& workers)
       motions_(no_motions(config)),
       ground_(config.terrain),
       tiles_(config.terrain.heights),
-      content_(config.palette, config.images),
+      content_(config.palette, config.images, config.models),
       queries_(config.terrain, config.tick_rate_hz, state_),
       pager_(config.chunks),
       board_(config.tick_rate_hz) {}

@@ -53,6 +53,7 @@ struct PublisherConfig {
   std::shared_ptr<ChunkSupply> chunks = {};     ///< null: all chunks stay in memory
   std::shared_ptr<const Palette> palette = {};  ///< as of ContentStream, as the next one
   std::shared_ptr<const ContentFiles> images = {};
+  std::shared_ptr<const ContentFiles> models = {};
 };
 
 class Publisher {

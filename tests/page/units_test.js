@@ -7,6 +7,7 @@ import { Backoff } from './page/backoff.js';
 import { all, brief } from './page/figures.js';
 import { STICK, TAP, Thumbs, tilt } from './page/gestures.js';
 import { terrain_part } from './page/gate.js';
+import { read_glb, read_model } from './page/glb.js';
 import { is_taken, kind_of } from './page/keyboard.js';
 import { buffer_size, layout_of } from './page/layout.js';
 import { events_near, part_of, rows_of, span_of, tick_at } from './page/marks.js';
@@ -423,4 +424,87 @@ test('a fill may be as the ground, paint may not, and what a world lacks is its 
   assert.equal(chosen('fill', 'brick'), 'brick');
   assert.equal(chosen('fill', 'amber'), 'rock');
   assert.equal(materials_for({ use: 'paint', material: 'amber' }, []).chosen, '');
+});
+
+/** A box about the origin as binary glTF, whose scene `change` may change. */
+function box_glb(change = () => {}, edit_buffer = () => {}) {
+  const scene = {
+    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
+    materials: [{ pbrMetallicRoughness: { baseColorFactor: [0.64, 0.25, 0, 1] } }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 8, type: 'VEC3' }, { bufferView: 1, componentType: 5123, count: 36, type: 'SCALAR' }],
+    bufferViews: [{ buffer: 0, byteLength: 96 }, { buffer: 0, byteOffset: 96, byteLength: 72 }], buffers: [{ byteLength: 168 }],
+  };
+  change(scene);
+  const places = [...Array(24).keys()].map((i) => ((Math.floor(i / 3) >> i % 3) & 1 ? 0.5 : -0.5));
+  const corners = [0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5];
+  const json = new TextEncoder().encode(JSON.stringify(scene)), padded = (json.length + 3) & ~3;
+  const bytes = new Uint8Array(20 + padded + 8 + 168).fill(0x20), view = new DataView(bytes.buffer);
+  [0x46546c67, 2, bytes.length, padded, 0x4e4f534a].forEach((word, i) => view.setUint32(4 * i, word, true));
+  bytes.set(json, 20);
+  const buffer = 20 + padded + 8;
+  view.setUint32(buffer - 8, 168, true);
+  view.setUint32(buffer - 4, 0x004e4942, true);
+  places.forEach((place, i) => view.setFloat32(buffer + 4 * i, place, true));
+  corners.forEach((corner, i) => view.setUint16(buffer + 96 + 2 * i, corner, true));
+  edit_buffer(view, buffer);
+  return bytes;
+}
+
+/** The places, normals, colours and corners of what read_glb() returns. */
+function mesh_of(bytes) {
+  const [count, corners] = new Uint32Array(bytes.buffer, 0, 2), view = new DataView(bytes.buffer, 8);
+  assert.equal(bytes.length, 8 + 20 * count + 4 * corners);
+  const vertices = [...Array(count).keys()].map((i) => ({
+    place: [0, 4, 8].map((at) => view.getFloat32(20 * i + at, true)),
+    normal: [12, 13, 14].map((at) => view.getInt8(20 * i + at)),
+    colour: [16, 17, 18, 19].map((at) => view.getUint8(20 * i + at)),
+  }));
+  return { vertices, corners: [...new Uint32Array(bytes.buffer, 8 + 20 * count)] };
+}
+
+test('a model is its triangles in their colours', () => {
+  const mesh = mesh_of(read_glb(box_glb()));
+  assert.equal(mesh.vertices.length, 8);
+  assert.equal(mesh.corners.length, 36);
+  assert.deepEqual(mesh.vertices[0], { place: [-0.5, -0.5, -0.5], normal: [0, 0, 0], colour: [204, 128, 0, 0] });
+  const moved = mesh_of(read_glb(box_glb((scene) => { scene.nodes[0] = { mesh: 0, translation: [1, 2, 3], scale: [2, 1, 1] }; })));
+  assert.deepEqual(moved.vertices[0].place, [0, 1.5, 2.5]);
+  const turned = mesh_of(read_glb(box_glb((scene) => { scene.nodes[0].rotation = [0, 0, Math.SQRT1_2, Math.SQRT1_2]; })));
+  [0.5, 0.5, -0.5].forEach((value, axis) => assert.ok(Math.abs(turned.vertices[1].place[axis] - value) < 1e-6));
+  const inner = mesh_of(read_glb(box_glb((scene) => { scene.nodes = [{ children: [1], scale: [2, 2, 2] }, { mesh: 0, translation: [1, 0, 0] }]; })));
+  assert.deepEqual(inner.vertices[7].place, [3, 1, 1]);
+  const mirrored = mesh_of(read_glb(box_glb((scene) => { scene.nodes[0].scale = [-1, 1, 1]; })));
+  assert.deepEqual(mirrored.corners.slice(0, 3), [2, 0, 1]);
+  const normals = mesh_of(read_glb(box_glb((scene) => { scene.meshes[0].primitives[0].attributes.NORMAL = 0; })));
+  assert.deepEqual(normals.vertices[7].normal, [73, 73, 73]);
+});
+
+test('a hostile model throws its reason, and is shown by its parts', (context) => {
+  const good = box_glb();
+  for (let length = 0; length < good.length; ++length) assert.throws(() => read_glb(good.slice(0, length)), `${length} bytes`);
+  const faults = [
+    [(scene) => { scene.accessors[0].count = 9; }, /beyond its buffer/], [(scene) => { scene.accessors[0].count = 4194304; }, /buffer/],
+    [(scene) => { scene.accessors[0].count = -1; }, /whole number/], [(scene) => { scene.accessors[0].count = 'x'; }, /whole number/],
+    [(scene) => { scene.accessors[1].count = 35; }, /whole triangles/], [(scene) => { scene.accessors[0].count = 7; }, /index/],
+    [(scene) => { scene.bufferViews[1].byteOffset = 97; }, /buffer/], [(scene) => { scene.accessors[0].componentType = 5130; }, /type/],
+    [(scene) => { scene.accessors[0].type = 'MAT4'; }, /type/], [(scene) => { scene.accessors[0].type = 'toString'; }, /type/],
+    [(scene) => { scene.accessors[0].bufferView = 2; }, /lacks/], [(scene) => { scene.accessors[0].sparse = {}; }, /sparse/],
+    [(scene) => { scene.bufferViews[0].buffer = 1; }, /another buffer/], [(scene) => { scene.buffers[0].uri = 'http://there'; }, /another file/],
+    [(scene) => { scene.nodes[0].mesh = 1; }, /lacks/], [(scene) => { scene.nodes[0].children = [0]; }, /tree/],
+    [(scene) => { scene.nodes[0].children = [4096]; }, /nodes/], [(scene) => { scene.nodes[0].children = { a: 1 }; }, /list/],
+    [(scene) => { scene.nodes[0].translation = [1, 2]; }, /numbers/], [(scene) => { scene.nodes[0].scale = [1e30, 1, 1]; }, /bounds/],
+    [(scene) => { scene.nodes[0].scale = [null, 1, 1]; }, /numbers/], [(scene) => { scene.meshes[0].primitives[0].mode = 1; }, /triangles/],
+    [(scene) => { scene.meshes[0].primitives[0].indices = 0; }, /indices/], [(scene) => { scene.meshes[0].primitives[0].material = 7; }, /lacks/],
+    [(scene) => { scene.scene = 3; }, /lacks/], [(scene) => { scene.extensionsRequired = ['KHR_draco_mesh_compression']; }, /extension/],
+    [(scene) => { scene.nodes = [{ children: [...Array(4095).keys()].map((i) => i + 1) }, ...Array(4095).fill({ mesh: 0 })];
+      scene.meshes[0].primitives = Array(3).fill(scene.meshes[0].primitives[0]); }, /too many/],
+    [(scene) => { scene.nodes = [{ children: [...Array(4095).keys()].map((i) => i + 1) }, ...Array(4095).fill({ mesh: 0 })];
+      scene.accessors[1].count = 3; scene.meshes[0].primitives = Array(5).fill(scene.meshes[0].primitives[0]); }, /too many vertices/],
+  ];
+  for (const [change, words] of faults) assert.throws(() => read_glb(box_glb(change)), words, String(change));
+  const said = context.mock.method(console, 'warn', () => {});
+  assert.equal(read_model(new Uint8Array(30)), null);
+  assert.equal(said.mock.callCount(), 1);
+  assert.ok(read_model(box_glb()) instanceof Uint8Array);
 });

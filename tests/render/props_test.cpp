@@ -8,8 +8,10 @@
 #include "client/render/methods.h"
 #include "client/viewer/pictures/png.h"
 #include "content/builtin_palette.h"
+#include "content/model/glb.h"
 #include "tests/support/offscreen_fixture.h"
 #include "tests/support/prop_world.h"
+#include "tests/support/written_glb.h"
 
 namespace scree {
 namespace {
@@ -196,6 +198,59 @@ TEST_P(Props, are_hidden_by_ground_and_cast_a_shadow_on_it) {
   const auto foot = pixel_of(glm::vec3(1.0F, 2.0F, 2.0F) - sun * (2.0F / sun.y));
   const auto brightness = [&](const Image& image) {
     const auto at = 3 * static_cast<size_t>(foot[1] * width + foot[0]);
+    return image.rgb[at] + image.rgb[at + 1] + image.rgb[at + 2];
+  };
+  EXPECT_LT(brightness(shaded), brightness(bare) * 8 / 10);
+}
+
+TEST_P(Props, are_drawn_as_their_model_once_it_is_there) {
+  const Digest name{1};
+  Prop prop = of(azure, {box_of(glm::vec3(0.2F))});
+  prop.model = name;
+  put(3, prop, {0.0F, 1.5F, 0.0F});
+  const Image parts = show("model_parts");
+  EXPECT_EQ(pixels(parts, is_red), 0U);
+  EXPECT_GT(pixels(parts, is_blue), 30U);
+
+  const auto mesh =
+      read_glb(box_glb({0.7F, 0.02F, 0.02F}, {0.8F, 0.5F, 0.1F}, R"(,"translation":[0,0.2,0])"));
+  ASSERT_TRUE(mesh) << mesh.error().message;
+  renderer_->set_models({{name, std::make_shared<const ModelMesh>(*mesh)}});
+  const Image model = show("model");
+  EXPECT_EQ(pixels(model, is_blue), 0U);
+  for (const float x : {-0.7F, 0.0F, 0.7F})
+    for (const float y : {-0.2F, 0.6F}) {
+      const auto [column, row] = pixel_of({x, 1.5F + y, 0.1F});
+      EXPECT_TRUE(is_red(model, column, row)) << x << " " << y;
+    }
+  const auto [column, row] = pixel_of({0.0F, 0.9F, 0.1F});
+  EXPECT_FALSE(is_red(model, column, row)) << "the node lifts it";
+
+  put(3, prop, {0.0F, 1.5F, 0.0F}, glm::angleAxis(1.5707963F, glm::vec3(0.0F, 0.0F, 1.0F)));
+  const Image upright = show("model_upright");
+  const auto right = pixel_of({0.5F, 1.5F, 0.1F}), above = pixel_of({-0.2F, 2.2F, 0.1F});
+  EXPECT_FALSE(is_red(upright, right[0], right[1]));
+  EXPECT_TRUE(is_red(upright, above[0], above[1]));
+
+  renderer_->set_models({});
+  put(3, prop, {0.0F, 1.5F, 0.0F});
+  EXPECT_EQ(differing_pixels(show("model_gone"), parts, 0), 0U);
+}
+
+TEST_P(Props, models_cast_their_own_shadow) {
+  const Digest name{1};
+  Prop prop = of(azure, {box_of(glm::vec3(0.02F))});
+  prop.model = name;
+  put(3, prop, {1.0F, 2.0F, 2.0F});
+  const Image bare = show("model_shadow_before");
+  const auto mesh = read_glb(box_glb({0.7F, 0.02F, 0.02F}, {0.6F, 0.1F, 0.6F}));
+  ASSERT_TRUE(mesh);
+  renderer_->set_models({{name, std::make_shared<const ModelMesh>(*mesh)}});
+  const Image shaded = show("model_shadow");
+  const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
+  const auto foot = pixel_of(glm::vec3(1.0F, 2.0F, 2.0F) - sun * (2.0F / sun.y));
+  const auto at = 3 * static_cast<size_t>(foot[1] * width + foot[0]);
+  const auto brightness = [&](const Image& image) {
     return image.rgb[at] + image.rgb[at + 1] + image.rgb[at + 2];
   };
   EXPECT_LT(brightness(shaded), brightness(bare) * 8 / 10);

@@ -38,8 +38,8 @@ std::vector<Layer> bench_layers() {
   };
 }
 
-/// The layers of the programs and of the tests.
-std::vector<Layer> other_layers() {
+/// The layers that both sides share.
+std::vector<Layer> shared_layers() {
   return {
       {"cmake/", {}},  // precompiled headers of libraries
       {"shared/base/", {}},
@@ -55,8 +55,15 @@ std::vector<Layer> other_layers() {
       {"proto/", {"shared/operation/", "shared/query/"}},
       {"crypto/", {"shared/base/"}},
       {"ground/", {"proto/", "crypto/", "content/"}},
-      {"content/files/", {"content/", "proto/", "crypto/"}},
+      {"content/model/", {"shared/prop/"}},
+      {"content/files/", {"content/", "content/model/", "proto/", "crypto/"}},
       {"content/", {"shared/material/"}},
+  };
+}
+
+/// The layers of the programs and of the tests.
+std::vector<Layer> other_layers() {
+  return {
       {"tools/import/", {"ground/", "content/files/"}},
       {"tools/export/", {"tools/import/", "server/app/", "client/session/"}},
       {"transport/", {"crypto/"}},
@@ -99,7 +106,7 @@ std::vector<Layer> other_layers() {
       {"client/viewer/events/", {"client/viewer/base/"}},
       {"client/viewer/sound/", {"client/viewer/events/"}},
       {"client/viewer/viewing/",
-       {"client/viewer/session/", "client/viewer/pictures/", "client/viewer/sound/"}},
+       {"client/viewer/session/", "client/viewer/pictures/", "client/viewer/sound/", "content/model/"}},
       {"client/viewer/window/", {"client/viewer/viewing/"}},
       {"client/viewer/", {"client/viewer/window/"}},
       {"client/web/", {"client/viewer/viewing/"}},
@@ -113,7 +120,8 @@ std::vector<Layer> other_layers() {
 /// Rooms come before the folder that they lie in: the first match is a file's layer.
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> table = [] {
-    std::vector<Layer> all = other_layers();
+    std::vector<Layer> all = shared_layers();
+    std::ranges::move(other_layers(), std::back_inserter(all));
     std::ranges::move(bench_layers(), std::back_inserter(all));
     return all;
   }();

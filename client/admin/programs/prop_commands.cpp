@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crypto/sha256.h"
 #include "shared/base/option_check.h"
+#include "shared/base/regular_file.h"
+#include "shared/prop/model_mesh.h"
 
 namespace scree {
 
@@ -38,6 +41,31 @@ Result<PropPart> part_of(const PropWords& words) {
   return part;
 }
 
+/// The digest that 64 hexadecimal digits write; nothing where it is other text.
+std::optional<Digest> digest_of(const std::string& text) {
+  Digest digest{};
+  if (text.size() != 2 * digest.size()) return std::nullopt;
+  for (size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    const int digit = c >= '0' && c <= '9'   ? c - '0'
+                      : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                      : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                             : -1;
+    if (digit < 0) return std::nullopt;
+    digest[i / 2] = static_cast<uint8_t>(digest[i / 2] * 16 + digit);
+  }
+  return digest;
+}
+
+/// The server says whether it has that model.
+Result<Digest> model_named(const std::string& model) {
+  if (const auto digest = digest_of(model)) return *digest;
+  TRY(check_is_small_file(model, limits::model_bytes_max));
+  const Result<std::string> read = read_bytes_of(model, limits::model_bytes_max);
+  if (!read) return fail(model + ": " + read.error().message);
+  return sha256({reinterpret_cast<const uint8_t*>(read->data()), read->size()});
+}
+
 Result<Request> addition_of(const PropWords& words, const AdminServer& server) {
   AddPropRequest add;
   add.prop.parts = {TRY(part_of(words))};
@@ -48,6 +76,7 @@ Result<Request> addition_of(const PropWords& words, const AdminServer& server) {
     const auto palette = TRY(read_materials(server));
     add.prop.material = TRY(material_named(palette, words.material));
   }
+  if (!words.model.empty()) add.prop.model = TRY(model_named(words.model));
   add.place_m = vector_of(words.at_m);
   add.velocity_m_s = vector_of(words.velocity_m_s);
   add.spin_rad_s = vector_of(words.spin_rad_s);
@@ -107,6 +136,10 @@ PropCommands add_prop_commands(CLI::App& app, PropWords& words) {
   commands.add->add_option("--mass", words.mass_kg, "kilograms; 0: by the density of its material")
       ->capture_default_str();
   commands.add->add_option("--material", words.material, "the material by which it is drawn and weighs");
+  commands.add->add_option(
+      "--model", words.model,
+      "the model that shows it, which the server must have (--models): its file (.glb), or "
+      "the SHA-256 of that");
   commands.add->add_option("--motion", words.motion, "dynamic, kinematic or fixed")
       ->check(CLI::IsMember(std::vector<std::string>{"dynamic", "kinematic", "fixed"}))
       ->capture_default_str();

@@ -21,6 +21,7 @@ struct PropWords {
   std::array<float, 3> at_m{}, velocity_m_s{}, spin_rad_s{}, impulse_n_s{};
   float mass_kg = 0.0F, energy_j = 4.2e6F;
   std::string motion = "dynamic", material;
+  std::string model;  ///< a file, or its SHA-256; empty: none
   uint64_t tag = 0;
   uint32_t id = 0;
   std::vector<float> half_m;  ///< of a box; else a ball of this radius

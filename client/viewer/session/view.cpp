@@ -4,21 +4,22 @@
 
 namespace scree {
 
-Result<std::unique_ptr<View>> View::create(const MethodEntry& method, float view_radius_m,
-                                           DecodeImage decode) {
+Result<std::unique_ptr<View>> View::create(const MethodEntry& method, float view_radius_m, DecodeImage decode,
+                                           DecodeModel decode_model) {
   Result<std::unique_ptr<Renderer>> renderer = Renderer::create(view_radius_m);
   if (!renderer) return fail(renderer.error().message);
-  std::unique_ptr<View> view(new View(std::move(*renderer), method, view_radius_m, decode));
+  std::unique_ptr<View> view(new View(std::move(*renderer), method, view_radius_m, decode, decode_model));
   if (Result<void> chosen = view->methods_.choose(method); !chosen) return fail(chosen.error().message);
   return view;
 }
 
 View::View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m,
-           DecodeImage decode)
+           DecodeImage decode, DecodeModel decode_model)
     : renderer_(std::move(renderer)),
       pool_(default_worker_threads()),
       methods_(pool_, view_radius_m, method),
-      images_(pool_, decode) {}
+      images_(pool_, decode),
+      models_(pool_, decode_model) {}
 
 View::~View() = default;
 
@@ -41,6 +42,8 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
   if (images_.follow(*palette, [&](const Digest& image) { return session.content(image); }))
     renderer_->set_images(images_.texels());
   const Scene scene = session.scene(now_s);
+  if (models_.follow(scene.props, [&](const Digest& model) { return session.model(model); }))
+    renderer_->set_models(models_.meshes());
   TRY(renderer_->set_props(scene.props));
   return methods_.follow(step.changes, scene, camera);
 }

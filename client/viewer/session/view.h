@@ -7,6 +7,7 @@
 #include "client/render/renderer.h"
 #include "client/render/scene/work_pool.h"
 #include "client/viewer/session/image_loader.h"
+#include "client/viewer/session/model_loader.h"
 #include "client/viewer/session/viewer_session.h"
 
 namespace scree {
@@ -14,9 +15,11 @@ namespace scree {
 class View {
  public:
   /// Fails without a suitable OpenGL, or without a feature that the method needs.
-  /// Without a decoder, materials show their colours instead of their images.
+  /// Without a decoder, materials show their colours instead of their images, and props their parts instead
+  /// of their models.
   static Result<std::unique_ptr<View>> create(const MethodEntry& method, float view_radius_m,
-                                              DecodeImage decode = nullptr);
+                                              DecodeImage decode = nullptr,
+                                              DecodeModel decode_model = nullptr);
   ~View();
 
   /// Takes in a step of the session.
@@ -33,16 +36,18 @@ class View {
   MethodSwitch& methods() { return methods_; }
   /// Whether no image of a material waits to be decoded.
   bool images_complete() const { return images_.complete(); }
+  ModelLoader& models() { return models_; }
   Renderer& renderer() { return *renderer_; }
 
  private:
-  View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m,
-       DecodeImage decode);
+  View(std::unique_ptr<Renderer> renderer, const MethodEntry& method, float view_radius_m, DecodeImage decode,
+       DecodeModel decode_model);
 
   std::unique_ptr<Renderer> renderer_;
   WorkPool pool_;
   MethodSwitch methods_;
   ImageLoader images_;
+  ModelLoader models_;
 };
 
 }  // namespace scree

@@ -78,6 +78,12 @@ class ViewerSession {
   bool connected() const { return client_.connected(); }
   /// The file of an image that the palette names; null: it has not come, and perhaps never will.
   ReceivedContent::Bytes content(const Digest& image) const { return client_.content(image); }
+  /// The file of a prop's model; null: it has not come, and perhaps never will.
+  ReceivedContent::Bytes model(const Digest& model) const { return client_.model(model); }
+  /// What was wrong with the server's content last; empty: nothing.
+  const std::string& content_fault() const { return client_.rejoin().content().fault(); }
+  /// Whether no content is on its way.
+  bool content_settled() const { return client_.rejoin().content().is_settled(); }
   /// Whether the edits around the camera have arrived: no chunk came for a while.
   bool joined(double now_s) const { return client_.loaded(now_s); }
   /// Whether any piece was made in this world.

@@ -7,6 +7,7 @@
 #include "client/viewer/pictures/picture_difference.h"
 #include "client/viewer/pictures/png.h"
 #include "client/viewer/session/sight.h"
+#include "content/model/glb.h"
 
 namespace scree {
 namespace {
@@ -22,6 +23,7 @@ SessionChoice session_of(const ViewerOptions& options, Quality quality) {
   choice.name = options.name;
   choice.cache = options.cache;
   choice.cache.images = true;
+  choice.cache.models = true;
   return choice;
 }
 
@@ -43,7 +45,7 @@ Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
   Result<Sounds> sounds = Sounds::begin(options.sound && !options.offscreen, options.sound_file);
   if (!sounds) return fail(sounds.error().message);
   Result<std::unique_ptr<View>> view =
-      View::create(*options.method, session_of(options, quality).interest_radius_m, decode_png);
+      View::create(*options.method, session_of(options, quality).interest_radius_m, decode_png, read_glb);
   if (!view) return fail(view.error().message);
   return std::unique_ptr<Viewing>(new Viewing(options, quality, std::move(*view), std::move(*sounds)));
 }
@@ -62,8 +64,18 @@ Viewing::Viewing(const ViewerOptions& given, Quality quality, std::unique_ptr<Vi
 
 Result<void> Viewing::step(double now_s) {
   TRY(Visit::step(now_s));
+  tell_content_faults();
   if (session.mirror() != nullptr) sounds_.step(events(), camera, now_s);
   return check_gl_errors();
+}
+
+/// Each once: what is drawn instead is no reason to stop.
+void Viewing::tell_content_faults() {
+  for (const std::string& fault : view->models().drain_faults())
+    std::fprintf(stderr, "scree-viewer: warning: %s\n", fault.c_str());
+  if (session.content_fault() == told_fault_) return;
+  told_fault_ = session.content_fault();
+  if (!told_fault_.empty()) std::fprintf(stderr, "scree-viewer: warning: %s\n", told_fault_.c_str());
 }
 
 Result<void> Viewing::check_gl_errors() {
@@ -80,7 +92,8 @@ Result<void> Viewing::finish() {
 Moment Viewing::moment(double now_s) {
   Moment moment;
   moment.now_s = now_s;
-  moment.current = view->methods().complete() && view->images_complete();
+  moment.current = view->methods().complete() && view->images_complete() &&
+                   view->models().complete(session.content_settled());
   moment.joined = joined(now_s);
   moment.carved = session.carved();
   if (Mirror* mirror = session.mirror()) {

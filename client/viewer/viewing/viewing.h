@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "client/viewer/sound/sounds.h"
 #include "client/viewer/viewing/options.h"
@@ -36,8 +37,10 @@ class Viewing : public Visit {
   Moment moment(double now_s);
   Result<void> shoot(const ScreenshotOrder& order, double now_s);
   Result<void> check_gl_errors();
+  void tell_content_faults();
 
   Sounds sounds_;
+  std::string told_fault_;  ///< of the server's content
 };
 
 }  // namespace scree

@@ -1,4 +1,5 @@
 // The client, scree.wasm, as the page's modules use it: client/web/bridge.h says what each call does.
+import { read_model } from './glb.js';
 import createScree from './scree.js';
 
 /** By how much scree.wasm is smaller compressed, about: a server says the compressed length alone. */
@@ -27,7 +28,7 @@ export class Client {
 
   static async load(canvas, wasmBinary) {
     const client = new Client();
-    client.#wasm = await createScree({ canvas, wasmBinary });
+    client.#wasm = await createScree({ canvas, wasmBinary, readModel: read_model });
     return client;
   }
 

@@ -23,6 +23,7 @@
 #include "tests/fuzz/support/scratch_file.h"
 #include "tests/support/vox_bytes.h"
 #include "tests/support/wire_samples.h"
+#include "tests/support/written_glb.h"
 
 namespace scree {
 namespace {
@@ -322,6 +323,12 @@ void write_config(Corpora& corpora) {
                             .bytes);
 }
 
+void write_models(Corpora& corpora) {
+  corpora.add("models", box_glb({0.5F, 0.25F, 0.1F}, {0.5F, 0.5F, 0.5F}));
+  corpora.add("models", box_glb({1.0F, 0.0F, 0.0F}, {1.0F, 0.1F, 1.0F},
+                                R"(,"rotation":[0,0.6,0,0.8],"scale":[-1,2,1],"translation":[0,3,0])"));
+}
+
 void write_vox(Corpora& corpora) {
   VoxBytes plain;
   plain.model({3, 4, 5}, {{0, 0, 0, 1}, {2, 3, 4, 255}});
@@ -363,6 +370,7 @@ int main(int argc, char** argv) {
   write_texts(corpora);
   write_config(corpora);
   write_vox(corpora);
+  write_models(corpora);
   write_web(corpora);
   write_choices(corpora);
   corpora.print();
