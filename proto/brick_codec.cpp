@@ -130,6 +130,22 @@ Result<void> read_each(std::span<const uint8_t> content, size_t voxels, Volume& 
   return {};
 }
 
+constexpr const char* subject_volume = "volume of a piece";
+
+VoxelBox read_volume_box(ByteReader& reader) {
+  const VoxelCoord lo = read_coord(reader, VoxelCoord{}, limits::voxel_coordinate_max, "corner");
+  const auto side = [&] {
+    const auto length = static_cast<int32_t>(reader.varint("side", limits::window_side_max));
+    if (length == 0) reader.refuse("a side of no voxels");
+    return length;
+  };
+  VoxelCoord size;
+  size.x = side();
+  size.y = side();
+  size.z = side();
+  return {lo, lo + size};
+}
+
 }  // namespace
 
 std::vector<uint8_t> encode_bricks(std::span<const BrickView> bricks) {
@@ -220,17 +236,9 @@ std::vector<uint8_t> encode_volume(const Volume& volume) {
 }
 
 Result<Volume> decode_volume(std::span<const uint8_t> bytes) {
-  ByteReader reader(bytes, "volume of a piece");
-  const VoxelCoord lo = read_coord(reader, VoxelCoord{}, limits::voxel_coordinate_max, "corner");
-  const auto side = [&] {
-    const auto length = static_cast<int32_t>(reader.varint("side", limits::window_side_max));
-    if (length == 0) reader.refuse("a side of no voxels");
-    return length;
-  };
-  VoxelCoord size;
-  size.x = side();
-  size.y = side();
-  size.z = side();
+  ByteReader reader(bytes, subject_volume);
+  const VoxelBox box = read_volume_box(reader);
+  const VoxelCoord lo = box.lo, size = box.size();
   constexpr auto side_max = static_cast<uint64_t>(limits::window_side_max);
   Volume volume;
   volume.mass =
@@ -249,7 +257,7 @@ Result<Volume> decode_volume(std::span<const uint8_t> bytes) {
   else
     volume.masses = read_masses(reader, volume.mass);
   if (reader.failed()) return tl::unexpected(reader.error());
-  volume.window = Window(VoxelBox{lo, lo + size});
+  volume.window = Window(box);
   volume.materials.box = volume.window.box;
   const size_t voxels = volume.window.codes.size();
   const std::vector<uint8_t> content = decompress(reader, one ? voxels : 2 * voxels, voxels);
@@ -258,6 +266,13 @@ Result<Volume> decode_volume(std::span<const uint8_t> bytes) {
   if (one) return volume;
   TRY(read_each(content, voxels, volume));
   return volume;
+}
+
+Result<VoxelBox> decode_volume_box(std::span<const uint8_t> bytes) {
+  ByteReader reader(bytes, subject_volume);
+  const VoxelBox box = read_volume_box(reader);
+  if (reader.failed()) return tl::unexpected(reader.error());
+  return box;
 }
 
 }  // namespace scree

@@ -62,6 +62,7 @@ struct Writing {
   void operator()(const SetMotorMessage& from) const { write(*to.mutable_set_motor(), from); }
   void operator()(const CutOutMessage& from) const { write(*to.mutable_cut_out(), from); }
   void operator()(const ReleaseMessage& from) const { write(*to.mutable_release(), from); }
+  void operator()(const AddPieceMessage& from) const { write(*to.mutable_add_piece(), from); }
   void operator()(const QueryMessage& from) const { write(*to.mutable_query(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
@@ -155,6 +156,8 @@ Result<ClientMessage> read_about_bodies(const wire::ClientMessage& from, FieldCh
       return checked(read(from.cut_out(), check));
     case wire::ClientMessage::kRelease:
       return checked(read(from.release(), check));
+    case wire::ClientMessage::kAddPiece:
+      return checked(read(from.add_piece(), check));
     default:
       return UnknownMessage{};
   }
@@ -227,6 +230,7 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
     case wire::ClientMessage::kSetMotor:
     case wire::ClientMessage::kCutOut:
     case wire::ClientMessage::kRelease:
+    case wire::ClientMessage::kAddPiece:
       return read_about_bodies(from, check, checked);
     case wire::ClientMessage::kQuery:
       return checked(read(from.query(), check));

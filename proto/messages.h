@@ -105,6 +105,7 @@ using RemoveJointMessage = RequestMessage<RemoveJointRequest>;
 using SetMotorMessage = RequestMessage<SetMotorRequest>;
 using CutOutMessage = RequestMessage<CutOutRequest>;
 using ReleaseMessage = RequestMessage<ReleaseRequest>;
+using AddPieceMessage = RequestMessage<AddPieceRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairMessage {
@@ -172,7 +173,7 @@ using ClientMessage =
                  OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
                  AskContentMessage, AddPropMessage, RemovePropMessage, MovePropMessage, PushMessage,
                  BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage,
-                 CutOutMessage, ReleaseMessage, QueryMessage, UnknownMessage>;
+                 CutOutMessage, ReleaseMessage, AddPieceMessage, QueryMessage, UnknownMessage>;
 
 // ---- server to client
 

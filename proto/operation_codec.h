@@ -45,5 +45,7 @@ Result<std::vector<BrickPatch>> decode_bricks(std::span<const uint8_t> bytes,
 
 std::vector<uint8_t> encode_volume(const Volume& volume);
 Result<Volume> decode_volume(std::span<const uint8_t> bytes);
+/// The box of a volume, whose other bytes are not looked at.
+Result<VoxelBox> decode_volume_box(std::span<const uint8_t> bytes);
 
 }  // namespace scree

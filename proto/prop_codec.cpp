@@ -146,6 +146,16 @@ void write(wire::Release& to, const ReleaseMessage& from) {
   to.set_piece(from.piece);
 }
 
+void write(wire::AddPiece& to, const AddPieceMessage& from) {
+  to.set_request(from.request);
+  to.set_volume(to_string(from.volume));
+  scree::write(*to.mutable_place(), from.place_m);
+  if (from.turn != no_turn) write_turn(*to.mutable_turn(), from.turn);
+  scree::write(*to.mutable_velocity_m_s(), from.velocity_m_s);
+  scree::write(*to.mutable_spin_rad_s(), from.spin_rad_s);
+  to.set_merges(!from.kept);
+}
+
 void write(wire::PropHere& to, const PropMessage& from) {
   to.set_id(from.id);
   write(*to.mutable_prop(), from.prop);
@@ -203,6 +213,19 @@ CutOutMessage read(const wire::CutOut& from, FieldChecker& check) {
 
 ReleaseMessage read(const wire::Release& from, FieldChecker& /*check*/) {
   return {{from.piece()}, from.request()};
+}
+
+AddPieceMessage read(const wire::AddPiece& from, FieldChecker& check) {
+  AddPieceMessage add;
+  add.request = from.request();
+  const std::span<const uint8_t> volume = as_span(from.volume());
+  add.volume.assign(volume.begin(), volume.end());
+  add.place_m = check.vec3(from.place(), "place of a piece");
+  if (from.has_turn()) add.turn = read_turn(from.turn(), "turn of a piece", check);
+  add.velocity_m_s = check.vec3(from.velocity_m_s(), "velocity of a piece");
+  add.spin_rad_s = check.vec3(from.spin_rad_s(), "spin of a piece");
+  add.kept = !from.merges();
+  return add;
 }
 
 PropMessage read(const wire::PropHere& from, FieldChecker& check) {

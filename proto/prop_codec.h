@@ -15,6 +15,7 @@ void write(wire::Break& to, const BreakMessage& from);
 void write(wire::Blast& to, const BlastMessage& from);
 void write(wire::CutOut& to, const CutOutMessage& from);
 void write(wire::Release& to, const ReleaseMessage& from);
+void write(wire::AddPiece& to, const AddPieceMessage& from);
 void write(wire::PropHere& to, const PropMessage& from);
 
 /// Kinds that are unknown are noted as such: a request with one is refused.
@@ -26,6 +27,7 @@ BreakMessage read(const wire::Break& from, FieldChecker& check);
 BlastMessage read(const wire::Blast& from, FieldChecker& check);
 CutOutMessage read(const wire::CutOut& from, FieldChecker& check);
 ReleaseMessage read(const wire::Release& from, FieldChecker& check);
+AddPieceMessage read(const wire::AddPiece& from, FieldChecker& check);
 /// Refuses a prop that validate() refuses, or without a mass.
 PropMessage read(const wire::PropHere& from, FieldChecker& check);
 

@@ -168,6 +168,13 @@ Result<Palette> read_materials(const AdminServer& server) {
   return palette_from(talk);
 }
 
+Result<WorldFacts> read_world(const AdminServer& server) {
+  Talk talk = TRY(join(server));
+  const float voxel_size_m = talk.welcome().terrain.voxel_size_m;
+  auto palette = TRY(palette_from(talk));
+  return WorldFacts{voxel_size_m, std::move(palette)};
+}
+
 Result<ImageFactsOf> read_images(const AdminServer& server, const MaterialRow& row) {
   ImageFactsOf images;
   Talk talk = TRY(join(server));

@@ -43,6 +43,12 @@ std::string status_lines(const StatusMessage& status, const std::vector<std::str
 
 /// The materials of the server's world as they stand. Needs no token where anonymous sessions are taken.
 Result<Palette> read_materials(const AdminServer& server);
+/// What who brings voxels to the world has to know of it.
+struct WorldFacts {
+  float voxel_size_m = 0.0F;
+  Palette palette;
+};
+Result<WorldFacts> read_world(const AdminServer& server);
 /// All rows, with a few numbers each; or as JSON, with all.
 std::string materials_lines(const Palette& palette);
 std::string materials_json(const Palette& palette);

@@ -25,6 +25,7 @@ constexpr Row rows[] = {
     {Refusal::body_missing, "body_missing"},
     {Refusal::shape_misses, "shape_misses"},
     {Refusal::body_not_kept, "body_not_kept"},
+    {Refusal::piece_invalid, "piece_invalid"},
     {Refusal::props_max, "props_max"},
     {Refusal::joint_invalid, "joint_invalid"},
     {Refusal::joint_missing, "joint_missing"},

@@ -25,6 +25,7 @@ enum class Refusal : uint8_t {
   body_missing,
   shape_misses,
   body_not_kept,
+  piece_invalid,
   props_max,
   joint_invalid,
   joint_missing,

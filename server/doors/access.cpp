@@ -128,7 +128,8 @@ Role role_for(const Request& request) {
           [](const RemoveJointRequest&) { return Role::director; },
           [](const SetMotorRequest&) { return Role::director; },
           [](const CutOutRequest&) { return Role::director; },
-          [](const ReleaseRequest&) { return Role::director; }},
+          [](const ReleaseRequest&) { return Role::director; },
+          [](const AddPieceRequest&) { return Role::director; }},
       request);
 }
 

@@ -39,13 +39,31 @@ PropMessage read_prop_here(std::span<const uint8_t> bytes, FieldChecker& check) 
   return {};
 }
 
-using PackedProps = google::protobuf::RepeatedPtrField<std::string>;
+using PackedList = google::protobuf::RepeatedPtrField<std::string>;
 
-void write_props(PackedProps& to, const std::vector<PropMessage>& from) {
+void write_pieces(PackedList& to, const std::vector<PieceMessage>& from) {
+  for (const PieceMessage& piece : from) *to.Add() = without_length(encode(ServerMessage(piece)));
+}
+
+std::vector<PieceMessage> read_pieces(const PackedList& from, FieldChecker& check) {
+  std::vector<PieceMessage> pieces;
+  size_t voxels = 0;
+  for (const std::string& packed : from) {
+    if (check.failed()) break;
+    pieces.push_back(read_piece(as_span(packed), check));
+    voxels += pieces.back().volume.window.codes.size();
+    if (voxels > limits::piece_voxels_max)
+      check.refuse(
+          fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max));
+  }
+  return pieces;
+}
+
+void write_props(PackedList& to, const std::vector<PropMessage>& from) {
   for (const PropMessage& prop : from) *to.Add() = without_length(encode(ServerMessage(prop)));
 }
 
-std::vector<PropMessage> read_props(const PackedProps& from, FieldChecker& check) {
+std::vector<PropMessage> read_props(const PackedList& from, FieldChecker& check) {
   std::vector<PropMessage> props;
   for (const std::string& packed : from) {
     if (check.failed()) break;
@@ -114,6 +132,7 @@ std::vector<uint8_t> encode(const RecordedFrame& frame) {
   to.set_field_hash(frame.field_hash);
   to.set_state_hash(frame.state_hash);
   write(*to.mutable_settings(), frame.settings);
+  write_pieces(*to.mutable_pieces(), frame.pieces);
   write_props(*to.mutable_props(), frame.props);
   to.set_props_gone(pack_ids(frame.props_gone));
   write_joints(*to.mutable_joints(), frame.joints);
@@ -131,6 +150,7 @@ Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
   frame.field_hash = from.field_hash();
   frame.state_hash = from.state_hash();
   frame.settings = check.settings(from.settings());
+  frame.pieces = read_pieces(from.pieces(), check);
   frame.props = read_props(from.props(), check);
   frame.props_gone = check.value_or_refuse(unpack_piece_ids(from.props_gone(), "props that are gone"));
   frame.joints = read_joints(from.joints(), check);
@@ -145,8 +165,7 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
     const size_t count = std::min(limits::bricks_per_message_max, bricks.size() - at);
     to.add_bricks(to_string(encode_bricks(bricks.subspan(at, count))));
   }
-  for (const PieceMessage& piece : keyframe.pieces)
-    to.add_pieces(without_length(encode(ServerMessage(piece))));
+  write_pieces(*to.mutable_pieces(), keyframe.pieces);
   to.set_poses(to_string(pack_transforms(keyframe.poses)));
   write(*to.mutable_ledger(), keyframe.ledger);
   to.set_field_hash(keyframe.field_hash);
@@ -168,15 +187,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
     if (check.failed()) break;
     keyframe.bricks.insert(keyframe.bricks.end(), bricks.begin(), bricks.end());
   }
-  size_t voxels = 0;
-  for (const std::string& packed : from.pieces()) {
-    if (check.failed()) break;
-    keyframe.pieces.push_back(read_piece(as_span(packed), check));
-    voxels += keyframe.pieces.back().volume.window.codes.size();
-    if (voxels > limits::piece_voxels_max)
-      check.refuse(
-          fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max));
-  }
+  keyframe.pieces = read_pieces(from.pieces(), check);
   keyframe.ledger = read(from.ledger(), check);
   keyframe.field_hash = from.field_hash();
   keyframe.state_hash = from.state_hash();

@@ -52,10 +52,11 @@ struct RecordedFrame {
   Ledger ledger;
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
-  SettingValues settings;           ///< as TickDelta::settings
-  std::vector<PropMessage> props;   ///< that were added, with their poses; ordered by id
-  std::vector<PieceId> props_gone;  ///< of those that were there before; ordered
-  JointsMessage joints;             ///< added, or with another motor; and those that were there before
+  SettingValues settings;            ///< as TickDelta::settings
+  std::vector<PieceMessage> pieces;  ///< that no operation made, without their poses; ordered by id
+  std::vector<PropMessage> props;    ///< that were added, with their poses; ordered by id
+  std::vector<PieceId> props_gone;   ///< of those that were there before; ordered
+  JointsMessage joints;              ///< added, or with another motor; and those that were there before
 };
 
 struct RecordedKeyframe {

@@ -57,7 +57,10 @@ std::string text_of(const Command& command, const Palette& palette) {
           [](const RemoveJointRequest& remove) { return fmt::format("remove joint {}", remove.joint); },
           [](const SetMotorRequest& set) { return fmt::format("set the motor of joint {}", set.joint); },
           [](const CutOutRequest& cut_out) { return "cut out a " + text_of(cut_out.shape); },
-          [](const ReleaseRequest& release) { return fmt::format("release piece {}", release.piece); }},
+          [](const ReleaseRequest& release) { return fmt::format("release piece {}", release.piece); },
+          [](const AddPieceRequest& add) {
+            return fmt::format("add a piece of {} bytes of voxels", add.volume.size());
+          }},
       command.body);
   return fmt::format("session {}, request {}: {}", command.session, command.request, body);
 }

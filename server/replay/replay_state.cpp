@@ -107,6 +107,19 @@ Result<void> ReplaySource::State::apply_operation(const Operation& operation, Ti
   return {};
 }
 
+/// No operation before them names them, and those after may, so they come first.
+Result<void> ReplaySource::State::add_pieces(RecordedFrame& frame, TickDelta& delta) {
+  for (PieceMessage& added : frame.pieces) {
+    auto volume = std::make_shared<const Volume>(std::move(added.volume));
+    if (props.contains(added.id) || !pieces.try_emplace(added.id, volume).second)
+      return damaged(fmt::format("piece {} is added a second time", added.id));
+    if (materials && !materials->enter(flows_poured(masses_of(*volume))))
+      return damaged("a piece that is added needs more than all dust");
+    delta.spawned.push_back({added.id, std::move(volume)});
+  }
+  return {};
+}
+
 Result<void> ReplaySource::State::change_props(const RecordedFrame& frame, TickDelta& delta) {
   for (const PieceId gone : frame.props_gone)
     if (props.erase(gone) == 0) return damaged(fmt::format("prop {} is gone, and was not there", gone));
@@ -158,7 +171,7 @@ Result<void> ReplaySource::State::place_pieces(const RecordedFrame& frame, TickD
 
 Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* before, bool undoable) {
   CHECK(tick < reader->last_tick());
-  const auto frame = reader->frame(tick + 1);
+  auto frame = reader->frame(tick + 1);
   TRY(frame);
   PlayedTick undo;
   if (undoable) undo = {{}, pieces, poses, props, joints, ledger, materials, settings, state_hash};
@@ -167,8 +180,10 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   delta->tick = ++tick;
   work_us = 0.0F;
   std::set<BrickCoord> changed;
+  TRY(add_pieces(*frame, *delta));
   for (const Operation& operation : frame->operations)
     TRY(apply_operation(operation, *delta, changed, notes ? &undo.bricks : nullptr));
+  std::ranges::sort(delta->spawned, {}, &SpawnedPiece::id);
   TRY(change_props(*frame, *delta));
   TRY(change_joints(*frame, *delta));
   TRY(place_pieces(*frame, *delta));

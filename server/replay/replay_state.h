@@ -78,6 +78,7 @@ struct ReplaySource::State {
   Result<void> restore(KeyframeParts parts, BricksBefore& before);
   Result<void> apply_operation(const Operation& operation, TickDelta& delta, std::set<BrickCoord>& changed,
                                BricksBefore* before);
+  Result<void> add_pieces(RecordedFrame& frame, TickDelta& delta);
   Result<void> change_props(const RecordedFrame& frame, TickDelta& delta);
   Result<void> change_joints(const RecordedFrame& frame, TickDelta& delta);
   void tell_props(TickDelta& delta) const;

@@ -79,6 +79,9 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  },
                  [](const ReleaseRequest& release) {
                    return Asked{"release", {}, fmt::format("piece {}", release.piece)};
+                 },
+                 [](const AddPieceRequest& add) {
+                   return Asked{"add_piece", {}, fmt::format("{} bytes of voxels", add.volume.size())};
                  }},
       request);
 }

@@ -1,6 +1,7 @@
 #include "server/store/recording.h"
 
 #include <algorithm>
+#include <set>
 
 #include "shared/base/check.h"
 
@@ -22,6 +23,15 @@ Result<RecordingHeader> from_recorded(const RecordedHeader& header) {
 }
 
 namespace {
+
+/// Enters the pieces that were added, and that no operation made; some may be gone again.
+void add_pieces(RecordedFrame& frame, const TickDelta& delta) {
+  std::set<PieceId> made;
+  for (const AppliedOperation& applied : delta.operations)
+    made.insert(applied.created.begin(), applied.created.end());
+  for (const SpawnedPiece& piece : delta.spawned)
+    if (!made.contains(piece.id)) frame.pieces.push_back({piece.id, *piece.volume, {}});
+}
 
 /// Enters the props that were added and that still are there, where others went, and which are gone.
 void add_props(RecordedFrame& frame, const TickDelta& delta, const PublishedState& before) {
@@ -71,6 +81,7 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
     const auto known = before.pieces().find(piece.id);
     if (known == before.pieces().end() || known->second.pose != piece.pose) frame.moved.push_back(piece);
   }
+  add_pieces(frame, delta);
   add_props(frame, delta, before);
   add_joints(frame, delta, before);
   std::ranges::sort(frame.moved, {}, &PieceState::id);

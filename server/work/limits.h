@@ -82,6 +82,9 @@ inline constexpr float prop_cost_us = 60.0F;
 inline constexpr float prop_part_cost_us = 40.0F;
 inline constexpr float prop_touch_cost_us = 5.0F;
 inline constexpr float broken_voxels = 4096.0F;
+/// A piece that a request brings, and a voxel of its box: read, redistanced, and with hull and body.
+inline constexpr float added_cost_us = 400.0F;
+inline constexpr float added_voxel_cost_us = 0.2F;
 /// A voxel that is looked at for what a blast breaks.
 inline constexpr float blast_voxel_cost_us = 0.01F;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "proto/operation_codec.h"
 #include "server/work/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -54,6 +55,11 @@ struct Pricing {
            rest_price_us(voxels);
   }
   float operator()(const ReleaseRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const AddPieceRequest& request) const {
+    const Result<VoxelBox> box = decode_volume_box(request.volume);
+    CHECK(box.has_value());
+    return added_price_us(Window::count(*box));
+  }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
     return cut_price_us(cutter, limits::broken_voxels, request.seeds);
@@ -73,6 +79,10 @@ uint32_t pieces_at_once(Cutter cutter, float voxels, uint32_t wanted) {
 
 Cutter cutter_for(Cutter wanted, float voxels, float limit_us) {
   return cut_price_us(wanted, voxels, 2) > limit_us ? cheapest_cutter : wanted;
+}
+
+float added_price_us(size_t voxels) {
+  return limits::added_cost_us + limits::added_voxel_cost_us * static_cast<float>(voxels);
 }
 
 float price_us(const Request& request, const Field& field, Cutter cutter) {

@@ -19,6 +19,8 @@ uint32_t pieces_at_once(Cutter cutter, float voxels, uint32_t wanted);
 /// The cutter for a volume of so many voxels: the one that is wanted, or cheapest_cutter where that
 /// one's price is over the limit.
 Cutter cutter_for(Cutter wanted, float voxels, float limit_us = limits::polygons_at_once_us);
+/// Making a piece of a box of so many voxels that a request brings.
+float added_price_us(size_t voxels);
 /// Carrying out a valid request in this field. A carve's price is that of all its pieces.
 float price_us(const Request& request, const Field& field, Cutter cutter);
 

@@ -29,20 +29,6 @@ std::string whole(double bound) {
   return std::to_string(static_cast<int64_t>(bound));
 }
 
-CheckedRequest check_place(glm::vec3 place_m) {
-  if (std::max(std::abs(place_m.x), std::abs(place_m.z)) <= limits::world_half_width_m &&
-      std::abs(place_m.y) <= limits::world_half_height_m)
-    return {};
-  return refuse(Refusal::prop_invalid,
-                "the prop's place lies outside the world (limits.world_half_width_m, "
-                "world_half_height_m)");
-}
-
-CheckedRequest check_turn(const glm::quat& turn) {
-  if (std::abs(glm::dot(turn, turn) - 1.0F) < 1e-3F) return {};
-  return refuse(Refusal::prop_invalid, "the prop's rotation is no unit quaternion");
-}
-
 CheckedRequest check_speeds(glm::vec3 velocity_m_s, glm::vec3 spin_rad_s) {
   if (!is_number(velocity_m_s) || !is_number(spin_rad_s))
     return refuse(Refusal::prop_invalid, "the prop's speed is not finite");
@@ -61,6 +47,20 @@ tl::unexpected<Refused> no_prop(PieceId id) {
 
 }  // namespace
 
+CheckedRequest check_place(glm::vec3 place_m, Refusal reason, const std::string& body) {
+  if (std::max(std::abs(place_m.x), std::abs(place_m.z)) <= limits::world_half_width_m &&
+      std::abs(place_m.y) <= limits::world_half_height_m)
+    return {};
+  return refuse(reason, "the " + body +
+                            "'s place lies outside the world (limits.world_half_width_m, "
+                            "world_half_height_m)");
+}
+
+CheckedRequest check_turn(const glm::quat& turn, Refusal reason, const std::string& body) {
+  if (std::abs(glm::dot(turn, turn) - 1.0F) < 1e-3F) return {};
+  return refuse(reason, "the " + body + "'s rotation is no unit quaternion");
+}
+
 void tell_of_prop(const World::State& state, EventKind kind, PieceId id, TickDelta& delta) {
   delta.told.push_back({.kind = kind,
                         .tick = delta.tick,
@@ -75,8 +75,8 @@ CheckedRequest check(const World::State& state, const AddPropRequest& request) {
   if (!state.palette->has(request.prop.material))
     return refuse(Refusal::prop_invalid, "material " + std::to_string(row_number(request.prop.material)) +
                                              " of the prop is none of this world's palette");
-  TRY(check_place(request.place_m));
-  TRY(check_turn(request.turn));
+  TRY(check_place(request.place_m, Refusal::prop_invalid, "prop"));
+  TRY(check_turn(request.turn, Refusal::prop_invalid, "prop"));
   TRY(check_speeds(request.velocity_m_s, request.spin_rad_s));
   if (state.props.size() < state.config.props_max) return {};
   return refuse(Refusal::props_max, std::to_string(state.props.size()) +
@@ -92,8 +92,8 @@ CheckedRequest check(const World::State& state, const RemovePropRequest& request
 CheckedRequest check(const World::State& state, const MovePropRequest& request) {
   const auto found = state.props.find(request.prop);
   if (found == state.props.end()) return no_prop(request.prop);
-  if (request.place_m) TRY(check_place(*request.place_m));
-  if (request.turn) TRY(check_turn(*request.turn));
+  if (request.place_m) TRY(check_place(*request.place_m, Refusal::prop_invalid, "prop"));
+  if (request.turn) TRY(check_turn(*request.turn, Refusal::prop_invalid, "prop"));
   TRY(check_speeds(request.velocity_m_s.value_or(glm::vec3(0.0F)),
                    request.spin_rad_s.value_or(glm::vec3(0.0F))));
   if (found->second.prop->motion == PropMotion::fixed && (request.velocity_m_s || request.spin_rad_s))
@@ -135,7 +135,7 @@ CheckedRequest check(const World::State& state, const BreakRequest& request) {
 }
 
 CheckedRequest check(const World::State& /*state*/, const BlastRequest& request) {
-  if (!is_number(request.centre_m) || !check_place(request.centre_m))
+  if (!is_number(request.centre_m) || !check_place(request.centre_m, Refusal::blast_invalid, "blast"))
     return refuse(Refusal::blast_invalid, "the blast's place lies outside the world");
   if (is_blast_energy(request.energy_j)) return {};
   return refuse(Refusal::blast_invalid,

@@ -2,6 +2,8 @@
 // broken where they are. Refusals that no wait could mend are those of check().
 #pragma once
 
+#include <string>
+
 #include "server/command/refusal.h"
 #include "server/world/world_state.h"
 #include "shared/operation/request.h"
@@ -12,6 +14,10 @@ namespace scree {
 void tell_of_prop(const World::State& state, EventKind kind, PieceId id, TickDelta& delta);
 
 using CheckedRequest = tl::expected<void, Refused>;
+
+/// Refuses a place outside the world, and what is no rotation; `body` is the word for what it is of.
+CheckedRequest check_place(glm::vec3 place_m, Refusal reason, const std::string& body);
+CheckedRequest check_turn(const glm::quat& turn, Refusal reason, const std::string& body);
 
 CheckedRequest check(const World::State& state, const AddPropRequest& request);
 CheckedRequest check(const World::State& state, const RemovePropRequest& request);

@@ -44,16 +44,20 @@ std::optional<CarveRequest> carve_in(const Request& request) {
 
 PieceGrant grant_for(const World::State& state, const Command& command) {
   const std::optional<CarveRequest> carve = carve_in(command.body);
-  if (!carve || carve->seeds == 0) return {};
+  const bool adds = std::holds_alternative<AddPieceRequest>(command.body);
+  const uint32_t wanted = carve ? carve->seeds : (adds ? 1 : 0);
+  if (wanted == 0) return {};
   const PieceRoom room{.alive = state.pieces.size(),
                        .pieces_max = state.config.pieces_max,
                        .bodies_load = state.work.bodies_load(),
                        .others_wait = state.requests.others_wait(party_of(command))};
-  return state.shares.grant(party_of(command), carve->seeds, room);
+  return state.shares.grant(party_of(command), wanted, room);
 }
 
 float cost_with(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
   std::optional<CarveRequest> carve = carve_in(request.command.body);
+  const bool adds = std::holds_alternative<AddPieceRequest>(request.command.body);
+  if (adds && grant.pieces == 0) return limits::refusal_cost_us;
   if (!carve || grant.pieces == carve->seeds) return request.cost_us;
   if (grant.pieces == 0) return limits::refusal_cost_us;
   carve->seeds = grant.pieces;

@@ -15,6 +15,7 @@
 #include "server/world/joint_requests.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
+#include "server/world/piece_addition.h"
 #include "server/world/piece_carving.h"
 #include "server/world/prop_requests.h"
 #include "server/world/refracture_stage.h"
@@ -244,6 +245,9 @@ struct Executing {
   Outcome operator()(const CutOutRequest& request) const {
     return cut_out(state, request, party, grant, delta);
   }
+  Outcome operator()(const AddPieceRequest& request) const {
+    return add_piece(state, request, party, grant, delta);
+  }
   Outcome operator()(const FillRequest& request) const { return fill(state, request, party, delta); }
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, party, delta); }
   Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
@@ -271,19 +275,20 @@ bool may_begin(const World::State& state, float cost_us) {
 
 void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
   Reply reply{command.session, command.request, {}, 0};
+  const auto name_first = [&] {
+    if (*outcome == 0) return;
+    reply.prop = *outcome;
+    const auto is_part = [&](const SpawnedPiece& one) { return one.id >= *outcome; };
+    reply.pieces = static_cast<uint32_t>(std::ranges::count_if(delta.spawned, is_part));
+  };
   if (outcome) {
-    std::visit(Overloaded{[&](const PaintRequest&) { reply.painted = *outcome; },
-                          [&](const AddPropRequest&) { reply.prop = *outcome; },
-                          [&](const AddJointRequest&) { reply.joint = *outcome; },
-                          [&](const CutOutRequest&) {
-                            if (*outcome == 0) return;
-                            reply.prop = *outcome;
-                            const auto is_part = [&](const SpawnedPiece& one) { return one.id >= *outcome; };
-                            reply.pieces =
-                                static_cast<uint32_t>(std::ranges::count_if(delta.spawned, is_part));
-                          },
-                          [&](const auto&) { reply.pieces = *outcome; }},
-               command.body);
+    std::visit(
+        Overloaded{[&](const PaintRequest&) { reply.painted = *outcome; },
+                   [&](const AddPropRequest&) { reply.prop = *outcome; },
+                   [&](const AddJointRequest&) { reply.joint = *outcome; },
+                   [&](const CutOutRequest&) { name_first(); }, [&](const AddPieceRequest&) { name_first(); },
+                   [&](const auto&) { reply.pieces = *outcome; }},
+        command.body);
   } else {
     reply.refusal = outcome.error().message;
     reply.reason = outcome.error().reason;

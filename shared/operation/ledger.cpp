@@ -16,6 +16,13 @@ MaterialLedger::MaterialLedger(const Ledger& all, const MaterialMasses& pieces, 
   row(material).converted += row(material).error();
 }
 
+std::vector<MaterialFlow> flows_poured(std::span<const MaterialMass> masses) {
+  std::vector<MaterialFlow> flows;
+  for (const MaterialMass& one : masses)
+    flows.push_back({.material = one.material, .pieces = one.mass, .poured = one.mass});
+  return flows;
+}
+
 MaterialLedger::Row& MaterialLedger::row(Material material) {
   if (rows_.size() <= row_number(material)) rows_.resize(row_number(material) + 1);
   return rows_[row_number(material)];

@@ -24,7 +24,7 @@ struct Ledger {
   MassUnits terrain = 0;  ///< gain of the terrain since the start (negative: loss)
   MassUnits pieces = 0;   ///< in pieces alive; not negative
   MassUnits dust = 0;     ///< merges take it up again; not negative
-  MassUnits poured = 0;   ///< added by fills
+  MassUnits poured = 0;   ///< added by fills, and by pieces that requests bring
   MassUnits moved = 0;    ///< taken out of the terrain since the start, in all; for scale
 
   MassUnits error() const { return terrain + pieces + dust - poured; }
@@ -41,6 +41,9 @@ struct MaterialFlow {
 
   bool operator==(const MaterialFlow&) const = default;
 };
+
+/// The flows of a piece of these masses that is poured in.
+std::vector<MaterialFlow> flows_poured(std::span<const MaterialMass> masses);
 
 /// The ledger of each material. Invariants: of each row, terrain + pieces + dust = poured + converted; dust
 /// and pieces are not negative; all that is converted sums up to 0.

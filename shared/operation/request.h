@@ -134,6 +134,21 @@ struct CutOutRequest {
   bool operator==(const CutOutRequest&) const = default;
 };
 
+/// Adds a piece of voxels that the request brings; its mass is poured in. Parts that do not connect become a
+/// piece each. The reply has the first one's id.
+struct AddPieceRequest {
+  /// As a piece's volume on the wire (proto/operation_codec.h), read when the request's turn comes: its codes
+  /// and materials count; its mass, masses and centre do not.
+  std::vector<uint8_t> volume;
+  glm::vec3 place_m{0.0F};  ///< of the volume's voxel (0, 0, 0)
+  glm::quat turn{1.0F, 0.0F, 0.0F, 0.0F};
+  glm::vec3 velocity_m_s{0.0F};  ///< of its centre of mass
+  glm::vec3 spin_rad_s{0.0F};
+  bool kept = true;  ///< else it becomes terrain where it comes to rest, as any piece
+
+  bool operator==(const AddPieceRequest&) const = default;
+};
+
 /// A kept piece may become terrain from now on.
 struct ReleaseRequest {
   PieceId piece = 0;
@@ -157,7 +172,7 @@ struct LeaveRequest {
 using Request =
     std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest, AddPropRequest,
                  RemovePropRequest, MovePropRequest, PushRequest, BreakRequest, BlastRequest, AddJointRequest,
-                 RemoveJointRequest, SetMotorRequest, CutOutRequest, ReleaseRequest>;
+                 RemoveJointRequest, SetMotorRequest, CutOutRequest, ReleaseRequest, AddPieceRequest>;
 
 /// The shape of a request that edits terrain, or in which it does; nothing: it edits none.
 inline std::optional<Shape> shape_of(const Request& request) {

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "shared/base/limits.h"
+#include "shared/falling/connected.h"
 #include "shared/falling/island.h"
 #include "shared/field/edit.h"
 #include "shared/fracture/material_shares.h"
@@ -15,52 +16,6 @@
 namespace scree {
 
 namespace {
-
-/// Solid voxels that connect by faces.
-struct Connected {
-  VoxelBox box;
-  VoxelCoord start;
-  size_t voxels = 0;
-};
-
-/// Follows the solid voxels that connect to one, and marks them.
-Connected connected_to(const Window& window, VoxelCoord start, std::vector<uint8_t>& marks) {
-  Connected found{{start, start + VoxelCoord{1, 1, 1}}, start, 0};
-  std::vector<VoxelCoord> ahead;
-  const auto reach = [&](VoxelCoord v) {
-    if (!window.box.holds(v)) return;
-    const size_t at = window.index(v.x, v.y, v.z);
-    if (window.codes[at] >= 0 || marks[at] != 0) return;
-    marks[at] = 1;
-    ahead.push_back(v);
-  };
-  reach(start);
-  while (!ahead.empty()) {
-    const VoxelCoord v = ahead.back();
-    ahead.pop_back();
-    ++found.voxels;
-    found.box = hull_of(found.box, {v, v + VoxelCoord{1, 1, 1}});
-    for (const int step : {-1, 1}) {
-      reach({v.x + step, v.y, v.z});
-      reach({v.x, v.y + step, v.z});
-      reach({v.x, v.y, v.z + step});
-    }
-  }
-  return found;
-}
-
-/// All that are connected, in the order of their first voxels.
-std::vector<Connected> connected_in(const Window& window) {
-  std::vector<Connected> all;
-  std::vector<uint8_t> marks(window.codes.size(), 0);
-  const VoxelBox& box = window.box;
-  size_t at = 0;
-  for (int x = box.lo.x; x < box.hi.x; ++x)
-    for (int y = box.lo.y; y < box.hi.y; ++y)
-      for (int z = box.lo.z; z < box.hi.z; ++z, ++at)
-        if (window.codes[at] < 0 && marks[at] == 0) all.push_back(connected_to(window, {x, y, z}, marks));
-  return all;
-}
 
 /// As many as may be pieces, the largest first.
 void keep_largest(std::vector<Connected>& all) {
@@ -89,7 +44,7 @@ Volume rest_of(const Window& after, const Connected& one) {
 /// slivers that belong to none, is dust. Masses are those of their codes.
 std::vector<CutPiece> rests_of(const Window& after, MassUnits& dust) {
   MassUnits left = mass_of(after);
-  std::vector<Connected> all = connected_in(after);
+  std::vector<Connected> all = connected_in(after).all;
   keep_largest(all);
   std::vector<CutPiece> rests;
   for (const Connected& one : all) {
@@ -184,7 +139,7 @@ PieceCutLook look_at_cut(const PieceCut& cut, const Volume& piece, float voxel_s
   const Window shape = shape_in(cut, piece, voxel_size_m);
   Window after = piece.window;
   carve(after, shape);
-  return {after.codes != piece.window.codes, connected_in(after).size()};
+  return {after.codes != piece.window.codes, connected_in(after).all.size()};
 }
 
 }  // namespace scree

@@ -78,7 +78,7 @@ program_of() {
     'bench paper' | 'bench matrix' | 'bench peers' | 'bench scale') program=scree-studies ;;
   esac
   case $1 in
-    server | viewer | bot | replay | world | scene | import | export | admin | token | bench | pictures) ;;
+    server | viewer | bot | replay | world | scene | import | export | place | admin | token | bench | pictures) ;;
     *) return 1 ;;
   esac
 }

@@ -60,6 +60,19 @@ inline Lines describe(const CutOutMessage& m) {
 inline Lines describe(const ReleaseMessage& m) {
   return {fmt::format("release: request {}, piece {}", m.request, m.piece)};
 }
+inline Lines describe(const AddPieceMessage& m) {
+  const auto volume = decode_volume(m.volume);
+  Lines lines{fmt::format("add piece: request {}, place {}, turn {}, {}", m.request, words(m.place_m),
+                          words(m.turn), m.kept ? "kept" : "merges"),
+              fmt::format("velocity {}, spin {}", words(m.velocity_m_s), words(m.spin_rad_s))};
+  if (!volume) return lines;
+  const VoxelCoord lo = volume->window.box.lo, size = volume->window.box.size();
+  const auto is_solid = [](Code code) { return code < 0; };
+  lines.push_back(fmt::format("volume: {} x {} x {} voxels from ({}, {}, {}), {} of them solid", size.x,
+                              size.y, size.z, lo.x, lo.y, lo.z,
+                              std::ranges::count_if(volume->window.codes, is_solid)));
+  return lines;
+}
 inline Lines describe(const ContactsMessage& m) {
   Lines lines{fmt::format("contacts: tick {}", m.tick)};
   for (const ContactEvent& one : m.contacts)

@@ -19,6 +19,8 @@
 #include "server/doors/limits.h"
 #include "server/net/limits.h"
 #include "server/publish/limits.h"
+#include "shared/operation/added_piece_limits.h"
+#include "shared/operation/limits.h"
 #include "tests/proto/message_words.h"
 #include "tests/proto/prop_words.h"
 #include "tests/proto/query_words.h"
@@ -191,6 +193,10 @@ std::map<std::string, double> stated_limits() {
           {"interest_keep_factor", limits::interest_keep_factor},
           {"edit_reach_min_m", limits::edit_reach_min_m},
           {"edit_reach_max_m", limits::edit_reach_max_m},
+          {"added_piece_bytes_max", limits::added_piece_bytes_max},
+          {"added_piece_side_max", limits::added_piece_side_max},
+          {"added_piece_voxels_max", limits::added_piece_voxels_max},
+          {"cut_rests_max", limits::cut_rests_max},
           {"blast_speed_max_m_s", limits::blast_speed_max_m_s},
           {"world_half_width_m", limits::world_half_width_m},
           {"world_half_height_m", limits::world_half_height_m},

@@ -110,6 +110,7 @@ std::vector<Layer> other_layers() {
       {"client/viewer/window/", {"client/viewer/viewing/"}},
       {"client/viewer/", {"client/viewer/window/"}},
       {"client/web/", {"client/viewer/viewing/"}},
+      {"tools/place/", {"tools/import/", "client/admin/"}},
       {"tools/film/process/", {"shared/base/"}},
       {"tools/film/",
        {"tools/film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/events/"}},

@@ -277,6 +277,18 @@ inline std::vector<ServerMessage> server_messages() {
       UnknownMessage{}};
 }
 
+inline AddPieceMessage add_piece() {
+  AddPieceMessage add;
+  add.request = 34;
+  add.volume = encode_volume(volume());
+  add.place_m = {1.0F, 2.0F, -3.0F};
+  add.turn = {0.6F, 0.0F, 0.8F, 0.0F};
+  add.velocity_m_s = {0.0F, -5.0F, 0.5F};
+  add.spin_rad_s = {0.0F, 1.0F, 0.0F};
+  add.kept = false;
+  return add;
+}
+
 inline std::vector<ClientMessage> client_messages() {
   CarveMessage carve;
   carve.request = 5;
@@ -334,6 +346,7 @@ inline std::vector<ClientMessage> client_messages() {
           CarveMessage{{.shape = sphere({0.0F, 1.0F, 2.0F}, 1.0F), .piece = 77}, 33},
           CutOutMessage{{box({4.0F, 5.0F, 6.0F}, {1.0F, 2.0F, 1.0F})}, 31},
           ReleaseMessage{{34}, 32},
+          add_piece(),
           query(),
           GoodbyeMessage{},
           AskHealthMessage{},

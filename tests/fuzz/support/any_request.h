@@ -2,6 +2,7 @@
 // out, and now and then of any numbers. Lengths in metres.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <string>
@@ -12,6 +13,7 @@
 #include "shared/base/limits.h"
 #include "shared/operation/request.h"
 #include "tests/fuzz/support/fuzz_input.h"
+#include "tests/support/given_voxels.h"
 #include "tests/support/materials.h"
 
 namespace scree {
@@ -117,6 +119,28 @@ inline std::optional<Material> any_fill(FuzzInput& input) {
   return input.flag() ? std::optional(any_number_of_material(input)) : std::nullopt;
 }
 
+/// A small volume of full voxels, or of any codes, and now and then bytes that are none.
+inline AddPieceRequest any_added_piece(FuzzInput& input) {
+  const auto side = [&] { return 1 + static_cast<int>(input.below(7)); };
+  const VoxelCoord size{side(), side(), side()};
+  const uint32_t how = input.below(4);
+  Volume volume = given_voxels(size, [&](VoxelCoord) -> std::optional<Material> {
+    const uint8_t byte = input.byte();
+    if (how == 0 || byte % 4 != 0) return Material{static_cast<uint8_t>(how == 1 ? byte / 4 : 0)};
+    return std::nullopt;
+  });
+  if (how == 2)
+    for (Code& code : volume.window.codes) code = std::max<Code>(static_cast<Code>(input.byte()), -127);
+  AddPieceRequest add = piece_of(volume, any_place(input));
+  for (uint32_t broken = input.below(16) == 15 ? input.below(4) : 0; broken > 0; --broken)
+    add.volume[input.byte() % add.volume.size()] ^= static_cast<uint8_t>(1U + input.below(255));
+  if (input.flag()) add.turn = {0.6F, 0.0F, 0.8F, 0.0F};
+  if (input.flag()) add.velocity_m_s = input.place(20.0F);
+  if (input.flag()) add.spin_rad_s = input.place(5.0F);
+  add.kept = input.flag();
+  return add;
+}
+
 inline Request any_request(FuzzInput& input) {
   switch (input.below(10)) {
     case 0:
@@ -136,6 +160,8 @@ inline Request any_request(FuzzInput& input) {
       carve.piece = input.byte();
       return carve;
     }
+    case 7:
+      return any_added_piece(input);
     default:
       return any_carve(input);
   }

@@ -208,6 +208,7 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       if (kind == 1) return PaintMessage{{known(any_shape(input)), any_material(input)}, number};
       if (kind == 3) return CutOutMessage{{known(any_shape(input))}, number};
       if (kind == 4) return ReleaseMessage{{input.byte()}, number};
+      if (kind == 6) return AddPieceMessage{any_added_piece(input), number};
       CarveMessage carve{known(any_carve(input)), number};
       if (kind == 5) carve.piece = input.byte();
       return carve;
