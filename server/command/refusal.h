@@ -27,6 +27,7 @@ enum class Refusal : uint8_t {
   body_not_kept,
   props_max,
   joint_invalid,
+  joint_apart,
   joint_missing,
   joints_max,
   blast_speed,

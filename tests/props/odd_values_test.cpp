@@ -19,6 +19,8 @@ void expect_goes_on(World& world) {
   auto restored = World::restore(*value);
   ASSERT_TRUE(restored.has_value()) << restored.error().message;
   EXPECT_EQ(encode((*restored)->snapshot()), bytes);
+  world.renew();
+  EXPECT_EQ((*restored)->step({})->state_hash, world.step({})->state_hash);
 }
 
 TEST(OddValues, negative_zeros_and_lengths_that_a_hull_has_not_are_saved_as_they_count) {
