@@ -12,7 +12,7 @@ constexpr double most_written = 1e15, digits_of_floats = 1e7;
 constexpr int digits_wanted = 5, decimals_most = 7;
 
 /// To the digits that a float has.
-double rounded(double number) {
+double to_float_digits(double number) {
   double step = 1.0;
   while (std::abs(number) / step >= digits_of_floats) step *= 10.0;
   return step == 1.0 ? number : std::round(number / step) * step;
@@ -44,7 +44,7 @@ std::string plain(double number) {
   if (!std::isfinite(number)) return "no number";
   if (std::abs(number) >= most_written) return number < 0.0 ? "less than -10^15" : "more than 10^15";
   char digits[64];
-  std::snprintf(digits, sizeof digits, "%.*f", decimals_of(std::abs(number)), rounded(number));
+  std::snprintf(digits, sizeof digits, "%.*f", decimals_of(std::abs(number)), to_float_digits(number));
   std::string text(digits);
   if (text.find('.') != std::string::npos) {
     while (text.back() == '0') text.pop_back();

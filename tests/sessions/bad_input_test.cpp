@@ -114,7 +114,7 @@ TEST_F(BadInputTest, carve_over_the_limits) {
 TEST_F(BadInputTest, carve_far_away) {
   CarveMessage carve = good_carve(100);
   carve.shape.a.x = 1e7F;
-  expect_answered(carve, "limits.world_half_width_m");
+  expect_answered(carve, "the place is outside the world");
 }
 
 TEST_F(BadInputTest, wrong_protocol_version) {
