@@ -25,9 +25,10 @@ bool is_number(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+/// Refuses also what is no number, axis by axis: the greater of a number and of none may be the number.
 CheckedRequest check_place(glm::vec3 place_m) {
-  if (std::max(std::abs(place_m.x), std::abs(place_m.z)) <= limits::world_half_width_m &&
-      std::abs(place_m.y) <= limits::world_half_height_m)
+  if (std::abs(place_m.x) <= limits::world_half_width_m &&
+      std::abs(place_m.z) <= limits::world_half_width_m && std::abs(place_m.y) <= limits::world_half_height_m)
     return {};
   return refuse(Refusal::prop_invalid, "the prop's place lies outside the world: farther than " +
                                            plain(limits::world_half_width_m) + " m to a side, or " +

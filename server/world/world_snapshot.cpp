@@ -190,7 +190,7 @@ class Restoring {
         return fail("its ledger has more than there can be (limits.ledger_mass_max)");
     s_.ledger = measure_ ? measured() : m_.ledger;
     const Ledger& ledger = s_.ledger;
-    for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.poured, ledger.moved})
+    for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.moved})
       if (mass < 0) return fail("its ledger has less than nothing");
     if (ledger.pieces != s_.mass_of_pieces()) return fail("its ledger does not hold the mass of its pieces");
     if (!measure_ && ledger.terrain != s_.measure_terrain(ground_))

@@ -229,7 +229,7 @@ MassUnits World::State::measure_terrain(const GroundMasses& ground) {
 
 void World::State::check() const {
   CHECK(ledger.error() == 0);
-  CHECK(ledger.pieces >= 0 && ledger.dust >= 0 && ledger.poured >= 0 && ledger.moved >= 0);
+  CHECK(ledger.pieces >= 0 && ledger.dust >= 0 && ledger.moved >= 0);
   CHECK_EQ(bodies.size(), pieces.size() + props.size());
   CHECK_EQ(bodies.joints(), joints.size());
   CHECK_EQ(traits.size(), pieces.size());

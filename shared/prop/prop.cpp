@@ -56,6 +56,8 @@ Result<void> check_size(const PropPart& part) {
 Result<void> check_part(const PropPart& part) {
   TRY(validate_kind(part.kind, "kind of the prop's part"));
   if (!is_finite(part.place_m)) return fail("the place of a prop's part is not finite");
+  // A file that has what the kind does not use must be read again, too.
+  if (!is_finite(part.half_m)) return fail("the size of a prop's part is not finite");
   if (!(std::abs(glm::dot(part.turn, part.turn) - 1.0F) < 1e-3F))
     return fail("the rotation of a prop's part is no unit quaternion");
   TRY(check_size(part));
