@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 
 #include "proto/joint_codec.h"
 #include "proto/limits.h"
