@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "proto/body_list_codec.h"
 #include "proto/limits.h"
 #include "shared/base/text.h"
 
@@ -38,6 +39,8 @@ struct WritingAct {
     control.set_move(static_cast<wire::ReplayMove>(from.move));
     control.set_value(from.value);
   }
+  void operator()(const ListBodiesRequest& from) const { write(*to.mutable_list_bodies(), from); }
+  void operator()(const ListJointsRequest& from) const { write(*to.mutable_list_joints(), from); }
 };
 
 static_assert(wire::ReplayPlay_ARRAYSIZE == kind_count<ReplayPlay>);
@@ -78,6 +81,10 @@ AdminRequest read_act(const wire::Admin& from, FieldChecker& check) {
       return LiftBanRequest{address(from.lift_ban().address())};
     case wire::Admin::kControlReplay:
       return read(from.control_replay(), check);
+    case wire::Admin::kListBodies:
+      return read(from.list_bodies(), check);
+    case wire::Admin::kListJoints:
+      return read(from.list_joints(), check);
     case wire::Admin::ACT_NOT_SET:
       break;
   }
@@ -135,12 +142,14 @@ void write(wire::AdminList& to, const AdminListMessage& from) {
     added.set_left_s(from.bans[i].left_s);
     added.set_reason(showable(from.bans[i].reason, limits::admin_reason_bytes_max));
   }
+  write_bodies(to, from);
 }
 
 AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& check) {
   AdminListMessage list;
   list.request = from.request();
-  const auto rows = static_cast<size_t>(std::max(from.sessions_size(), from.bans_size()));
+  const auto rows = static_cast<size_t>(
+      std::max({from.sessions_size(), from.bans_size(), from.bodies_size(), from.joints_size()}));
   if (rows > limits::admin_rows_max) {
     check.refuse(fmt::format("{} rows are over the limit of {}", rows, limits::admin_rows_max));
     return list;
@@ -150,6 +159,7 @@ AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& chec
     list.bans.push_back({check.text(row.address(), limits::address_bytes_max, "address of a ban"),
                          row.left_s(),
                          check.text(row.reason(), limits::admin_reason_bytes_max, "reason of a ban")});
+  read_bodies(from, list, check);
   return list;
 }
 

@@ -15,8 +15,9 @@ static_assert(wire::JointEnd_ARRAYSIZE == kind_count<JointEnd>);
 
 void write_side(wire::JointSide& to, const JointSide& from) {
   to.set_body(from.body);
-  if (from.place_m != glm::vec3(0.0F)) scree::write(*to.mutable_place(), from.place_m);
-  if (from.turn == glm::quat(1.0F, 0.0F, 0.0F, 0.0F)) return;
+  const JointSide usual;
+  if (!same_bits(from.place_m, usual.place_m)) scree::write(*to.mutable_place(), from.place_m);
+  if (same_bits(from.turn, usual.turn)) return;
   wire::Turn& turn = *to.mutable_turn();
   turn.set_x(from.turn.x);
   turn.set_y(from.turn.y);
@@ -94,13 +95,14 @@ void write(wire::SetMotor& to, const SetMotorMessage& from) {
   to.set_greatest(from.motor.greatest);
 }
 
+void write(wire::JointHere& to, const KnownJoint& from) {
+  to.set_id(from.id);
+  write_joint(*to.mutable_joint(), from.joint);
+}
+
 void write(wire::Joints& to, const JointsMessage& from) {
   CHECK(from.here.size() <= limits::joints_a_message && from.gone.size() <= limits::joints_a_message);
-  for (const KnownJoint& one : from.here) {
-    wire::JointHere& here = *to.add_here();
-    here.set_id(one.id);
-    write_joint(*here.mutable_joint(), one.joint);
-  }
+  for (const KnownJoint& one : from.here) write(*to.add_here(), one);
   for (const EndedJoint& one : from.gone) {
     wire::JointGone& gone = *to.add_gone();
     gone.set_id(one.id);
@@ -123,6 +125,12 @@ SetMotorMessage read(const wire::SetMotor& from, FieldChecker& check) {
           from.request()};
 }
 
+KnownJoint read(const wire::JointHere& from, FieldChecker& check) {
+  KnownJoint known{from.id(), read_joint(from.joint(), check)};
+  if (const Result<void> valid = validate(known.joint); !valid) check.refuse(valid.error().message);
+  return known;
+}
+
 JointsMessage read(const wire::Joints& from, FieldChecker& check) {
   JointsMessage joints;
   check_count(from.here(), check);
@@ -131,9 +139,7 @@ JointsMessage read(const wire::Joints& from, FieldChecker& check) {
     if (check.failed()) break;
     if (one.id() == 0 || (!joints.here.empty() && one.id() <= joints.here.back().id))
       check.refuse("the ids of joints do not ascend");
-    joints.here.push_back({one.id(), read_joint(one.joint(), check)});
-    if (const Result<void> valid = validate(joints.here.back().joint); !valid)
-      check.refuse(valid.error().message);
+    joints.here.push_back(read(one, check));
   }
   for (const wire::JointGone& one : from.gone()) {
     if (check.failed()) break;

@@ -95,6 +95,12 @@ inline constexpr uint32_t ban_minutes_max = 5'256'000;
 /// Rows of sessions, or of bans, in one answer to an administrator: under 500 KiB. The rest is left out.
 inline constexpr size_t admin_rows_max = 2048;
 
+/// Ids of bodies that a list of them may be asked for by. Above: refused, and the connection ends.
+inline constexpr size_t bodies_named_max = 64;
+
+/// Pieces in one message of those that are kept, or are no more. More come in several.
+inline constexpr size_t kept_pieces_max = 1024;
+
 /// Length of a line of chat, bytes: two lines of a screen. Above: refused; a server's own are cut.
 inline constexpr size_t line_bytes_max = 200;
 

@@ -106,45 +106,48 @@ size_t bytes_of(const AnswerMessage& message) {
 }  // namespace
 
 size_t memory_bytes(const ServerMessage& message) {
-  const size_t held =
-      std::visit(Overloaded{
-                     [](const WelcomeMessage& m) { return m.ticket.size(); },
-                     [](const RefusalMessage& m) { return m.reason.size() + m.name.size(); },
-                     [](const FrameMessage& m) {
-                       return bytes_of(m.operations) + bytes_of(m.patches) + bytes_of(m.dropped_chunks) +
-                              bytes_of(m.removed_pieces) + bytes_of(m.transforms) + bytes_of(m.motions);
-                     },
-                     [](const ChunkMessage& m) { return bytes_of(m.bricks); },
-                     [](const UnchangedChunksMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
-                     [](const PieceMessage& m) { return bytes_of(m.volume); },
-                     [](const PropMessage& m) { return bytes_of(m.prop); },
-                     [](const ContactsMessage& m) { return m.contacts.size() * sizeof(ContactEvent); },
-                     [](const JointsMessage& m) { return bytes_of(m.here) + bytes_of(m.gone); },
-                     [](const AnswerMessage& m) { return bytes_of(m); },
-                     [](const GroundMessage& m) { return bytes_of(m.bricks); },
-                     [](const TileMessage& m) { return m.bytes.size(); },
-                     [](const ContentMessage& m) { return m.part.size(); },
-                     [](const PaletteChangedMessage&) { return size_t{0}; },
-                     [](const ResetMessage&) { return size_t{0}; },
-                     [](const ReplyMessage& m) { return m.refusal.size() + m.refusal_name.size(); },
-                     [](const StatusMessage& m) {
-                       return bytes_of(m.settings) + bytes_of(m.refusals) + bytes_of(m.stages) +
-                              bytes_of(m.materials.rows());
-                     },
-                     [](const CursorsMessage& m) { return bytes_of(m.cursors); },
-                     [](const PersonsMessage& m) { return bytes_of(m.persons); },
-                     [](const PlaybackMessage& m) { return m.refusal.size(); },
-                     [](const MarksMessage& m) { return bytes_of(m.marks); },
-                     [](const RecordedCursorsMessage& m) { return bytes_of(m.cursors); },
-                     [](const UnknownMessage& m) { return m.value.size(); },
-                     [](const HealthMessage& m) { return bytes_of(m.faults); },
-                     [](const SaidMessage& m) { return m.name.size() + m.text.size(); },
-                     [](const AdminListMessage& m) { return bytes_of(m.sessions) + bytes_of(m.bans); },
-                     [](const PhysicsMessage& m) {
-                       return bytes_of(m.bodies) + bytes_of(m.contacts) + bytes_of(m.searched);
-                     },
-                 },
-                 message);
+  const size_t held = std::visit(
+      Overloaded{
+          [](const WelcomeMessage& m) { return m.ticket.size(); },
+          [](const RefusalMessage& m) { return m.reason.size() + m.name.size(); },
+          [](const FrameMessage& m) {
+            return bytes_of(m.operations) + bytes_of(m.patches) + bytes_of(m.dropped_chunks) +
+                   bytes_of(m.removed_pieces) + bytes_of(m.transforms) + bytes_of(m.motions);
+          },
+          [](const ChunkMessage& m) { return bytes_of(m.bricks); },
+          [](const UnchangedChunksMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
+          [](const PieceMessage& m) { return bytes_of(m.volume); },
+          [](const PropMessage& m) { return bytes_of(m.prop); },
+          [](const ContactsMessage& m) { return m.contacts.size() * sizeof(ContactEvent); },
+          [](const JointsMessage& m) { return bytes_of(m.here) + bytes_of(m.gone); },
+          [](const KeptPiecesMessage& m) { return bytes_of(m.kept) + bytes_of(m.released); },
+          [](const AnswerMessage& m) { return bytes_of(m); },
+          [](const GroundMessage& m) { return bytes_of(m.bricks); },
+          [](const TileMessage& m) { return m.bytes.size(); },
+          [](const ContentMessage& m) { return m.part.size(); },
+          [](const PaletteChangedMessage&) { return size_t{0}; },
+          [](const ResetMessage&) { return size_t{0}; },
+          [](const ReplyMessage& m) { return m.refusal.size() + m.refusal_name.size(); },
+          [](const StatusMessage& m) {
+            return bytes_of(m.settings) + bytes_of(m.refusals) + bytes_of(m.stages) +
+                   bytes_of(m.materials.rows());
+          },
+          [](const CursorsMessage& m) { return bytes_of(m.cursors); },
+          [](const PersonsMessage& m) { return bytes_of(m.persons); },
+          [](const PlaybackMessage& m) { return m.refusal.size(); },
+          [](const MarksMessage& m) { return bytes_of(m.marks); },
+          [](const RecordedCursorsMessage& m) { return bytes_of(m.cursors); },
+          [](const UnknownMessage& m) { return m.value.size(); },
+          [](const HealthMessage& m) { return bytes_of(m.faults); },
+          [](const SaidMessage& m) { return m.name.size() + m.text.size(); },
+          [](const AdminListMessage& m) {
+            return bytes_of(m.sessions) + bytes_of(m.bans) + bytes_of(m.bodies) + bytes_of(m.joints);
+          },
+          [](const PhysicsMessage& m) {
+            return bytes_of(m.bodies) + bytes_of(m.contacts) + bytes_of(m.searched);
+          },
+      },
+      message);
   return sizeof(ServerMessage) + held;
 }
 

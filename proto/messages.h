@@ -8,11 +8,14 @@
 #include <variant>
 #include <vector>
 
+#include "proto/admin_rows.h"
+#include "proto/body_list.h"
 #include "proto/contact_message.h"
 #include "proto/content.h"
 #include "proto/cursor.h"
 #include "proto/health.h"
 #include "proto/joint_message.h"
+#include "proto/kept_pieces.h"
 #include "proto/marks.h"
 #include "proto/paging_status.h"
 #include "proto/playback_state.h"
@@ -119,7 +122,8 @@ struct AckMessage {
   Tick tick = 0;
 };
 
-/// Requests of an administrator. SettingsRequest changes all its settings, or none.
+/// Requests of an administrator; a director may list bodies and joints, too. SettingsRequest changes all its
+/// settings, or none.
 struct ListSessionsRequest {};
 struct KickRequest {
   uint64_t session = 0;
@@ -136,8 +140,9 @@ struct ListBansRequest {};
 struct LiftBanRequest {
   std::string address;
 };
-using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
-                                  ListBansRequest, LiftBanRequest, ControlReplayRequest>;
+using AdminRequest =
+    std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest, ListBansRequest,
+                 LiftBanRequest, ControlReplayRequest, ListBodiesRequest, ListJointsRequest>;
 
 /// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {
@@ -346,34 +351,14 @@ struct ContactView {
   float impulse_n_s = 0.0F;
 };
 
-/// A session, as an administrator sees it.
-struct SessionRow {
-  uint64_t session = 0;
-  std::string name;     ///< the person's
-  std::string program;  ///< the client's
-  std::string address;
-  Role role = Role::viewer;
-  uint64_t token_id = 0;  ///< 0: it came without an access token
-  uint32_t joined_s = 0;  ///< seconds since it joined
-  uint64_t sent_bytes = 0;
-  bool encrypted = false;
-
-  bool operator==(const SessionRow&) const = default;
-};
-
-struct BanRow {
-  std::string address;
-  uint64_t left_s = 0;  ///< seconds until it ends; 0: when it is lifted
-  std::string reason;
-
-  bool operator==(const BanRow&) const = default;
-};
-
-/// The answer to ListSessionsRequest, or to ListBansRequest.
+/// The answer to a request that lists something.
 struct AdminListMessage {
   uint32_t request = 0;
   std::vector<SessionRow> sessions{};
   std::vector<BanRow> bans{};
+  std::vector<BodyRow> bodies{};     ///< ordered by id, at most limits::admin_rows_max
+  std::vector<KnownJoint> joints{};  ///< likewise
+  uint32_t left_out = 0;             ///< bodies or joints that would be more
 };
 
 /// The bodies, contacts and searches of a tick, for display. Lengths are rounded to 1/256 m on the wire.
@@ -389,7 +374,8 @@ using ServerMessage =
                  ReplyMessage, StatusMessage, CursorsMessage, PhysicsMessage, GroundMessage, AdminListMessage,
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
-                 PropMessage, ContactsMessage, JointsMessage, AnswerMessage, UnknownMessage>;
+                 PropMessage, ContactsMessage, JointsMessage, KeptPiecesMessage, AnswerMessage,
+                 UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -15,6 +15,7 @@ static_assert(wire::PropPartKind_ARRAYSIZE == kind_count<PropPartKind>);
 static_assert(wire::PropMotion_ARRAYSIZE == kind_count<PropMotion>);
 
 constexpr glm::quat no_turn(1.0F, 0.0F, 0.0F, 0.0F);
+constexpr glm::vec3 no_vector(0.0F);
 
 void write_turn(wire::Turn& to, const glm::quat& from) {
   to.set_x(from.x);
@@ -30,9 +31,10 @@ glm::quat read_turn(const wire::Turn& from, const char* what, FieldChecker& chec
 
 void write_part(wire::PropPart& to, const PropPart& from) {
   to.set_kind(static_cast<wire::PropPartKind>(from.kind));
-  if (from.place_m != glm::vec3(0.0F)) scree::write(*to.mutable_place(), from.place_m);
-  if (from.turn != no_turn) write_turn(*to.mutable_turn(), from.turn);
-  if (from.kind != PropPartKind::hull) scree::write(*to.mutable_half(), from.half_m);
+  if (!same_bits(from.place_m, no_vector)) scree::write(*to.mutable_place(), from.place_m);
+  if (!same_bits(from.turn, no_turn)) write_turn(*to.mutable_turn(), from.turn);
+  if (from.kind != PropPartKind::hull || !same_bits(from.half_m, PropPart().half_m))
+    scree::write(*to.mutable_half(), from.half_m);
   to.set_corners(pack_points(from.corners_m));
 }
 
@@ -95,9 +97,9 @@ void write(wire::AddProp& to, const AddPropMessage& from) {
   to.set_request(from.request);
   write(*to.mutable_prop(), from.prop);
   scree::write(*to.mutable_place(), from.place_m);
-  if (from.turn != no_turn) write_turn(*to.mutable_turn(), from.turn);
-  if (from.velocity_m_s != glm::vec3(0.0F)) write(*to.mutable_velocity_m_s(), from.velocity_m_s);
-  if (from.spin_rad_s != glm::vec3(0.0F)) write(*to.mutable_spin_rad_s(), from.spin_rad_s);
+  if (!same_bits(from.turn, no_turn)) write_turn(*to.mutable_turn(), from.turn);
+  if (!same_bits(from.velocity_m_s, no_vector)) write(*to.mutable_velocity_m_s(), from.velocity_m_s);
+  if (!same_bits(from.spin_rad_s, no_vector)) write(*to.mutable_spin_rad_s(), from.spin_rad_s);
 }
 
 void write(wire::RemoveProp& to, const RemovePropMessage& from) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "proto/admin_codec.h"
+#include "proto/body_list_codec.h"
 #include "proto/byte_stream.h"
 #include "proto/codec.h"
 #include "proto/content_codec.h"
@@ -16,7 +17,6 @@
 #include "proto/prop_codec.h"
 #include "proto/query_codec.h"
 #include "proto/talk_codec.h"
-#include "proto/transforms.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
 #include "shared/base/text.h"
@@ -134,6 +134,7 @@ struct Writing {
   void operator()(const ContactsMessage& from) const { write(*to.mutable_contacts(), from); }
   void operator()(const PropMessage& from) const { write(*to.mutable_prop(), from); }
   void operator()(const JointsMessage& from) const { write(*to.mutable_joints(), from); }
+  void operator()(const KeptPiecesMessage& from) const { write(*to.mutable_kept_pieces(), from); }
   void operator()(const AnswerMessage& from) const { write(*to.mutable_answer(), from); }
   void operator()(const ResetMessage&) const { to.mutable_reset(); }
   void operator()(const ReplyMessage& from) const {
@@ -346,6 +347,8 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
       return checked(read(from.prop(), check));
     case wire::ServerMessage::kJoints:
       return checked(read(from.joints(), check));
+    case wire::ServerMessage::kKeptPieces:
+      return checked(read(from.kept_pieces(), check));
     case wire::ServerMessage::kAnswer:
       return checked(read(from.answer(), check));
     case wire::ServerMessage::kReset:

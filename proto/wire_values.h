@@ -1,9 +1,11 @@
 // Converts the values that several messages share between our types and Protobuf's. Internal to proto/.
 #pragma once
 
+#include <cstring>
 #include <scree.pb.h>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "proto/messages.h"
@@ -85,6 +87,14 @@ class FieldChecker {
   Error error_;
   std::string unknown_;
 };
+
+/// Whether two values are the same to the bit: what is left out because it is the usual comes back as it was,
+/// and -0 is not 0.
+template <typename Value>
+bool same_bits(const Value& a, const Value& b) {
+  static_assert(std::is_trivially_copyable_v<Value>);
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
 
 void write(wire::Vec3& to, glm::vec3 from);
 void write(wire::Shape& to, const Shape& from);

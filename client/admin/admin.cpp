@@ -1,5 +1,7 @@
 #include "client/admin/admin.h"
 
+#include <algorithm>
+
 #include "client/cache/received_content.h"
 #include "client/connection/connection.h"
 #include "client/connection/health_probe.h"
@@ -78,13 +80,24 @@ class Talk {
   size_t at_ = 0;
 };
 
-Result<Talk> join(const AdminServer& server, bool administers = true) {
+Result<Talk> join(const AdminServer& server, HelloMessage hello) {
   const Clock::time_point until = Clock::now() + server.within;
-  HelloMessage hello;
   hello.client = "scree-admin";
-  hello.administers = administers;
   auto connected = TRY(Connection::connect(server, hello, server.within));
   return Talk(std::move(connected), until);
+}
+
+Result<Talk> join(const AdminServer& server) {
+  HelloMessage hello;
+  hello.administers = true;
+  return join(server, hello);
+}
+
+/// Where a request acts; the origin where it is of no place.
+glm::vec3 eye_for(const Request& request) {
+  if (const std::optional<Shape> shape = shape_of(request)) return centre_of(*shape);
+  const glm::vec3* const place_m = place_of(request);
+  return place_m == nullptr ? glm::vec3(0.0F) : *place_m;
 }
 
 Result<StatusMessage> status_of(Talk& talk) {
@@ -242,7 +255,10 @@ Result<void> lift_ban(const AdminServer& server, const LiftBanRequest& lift) {
 }
 
 Result<ReplyMessage> ask_world(const AdminServer& server, const Request& request) {
-  Talk talk = TRY(join(server, !shape_of(request)));
+  HelloMessage hello;
+  hello.administers = !shape_of(request);
+  hello.eye_m = eye_for(request);
+  Talk talk = TRY(join(server, hello));
   std::visit(Overloaded{[&](const auto& asked) {
                           talk.send(RequestMessage<std::decay_t<decltype(asked)>>{asked, 1});
                         },
@@ -250,6 +266,35 @@ Result<ReplyMessage> ask_world(const AdminServer& server, const Request& request
                         [](const LeaveRequest&) { CHECK(!"a request about bodies"); }},
              request);
   return talk.answer<ReplyMessage>();
+}
+
+Result<AdminListMessage> list_bodies(const AdminServer& server, const ListBodiesRequest& request) {
+  auto asked = TRY(ask<AdminListMessage>(server, request));
+  return std::move(asked.first);
+}
+
+Result<AdminListMessage> list_joints(const AdminServer& server, const ListJointsRequest& request) {
+  auto asked = TRY(ask<AdminListMessage>(server, request));
+  return std::move(asked.first);
+}
+
+Result<SpaceAnswer> ask_space(const AdminServer& server, const Question& question, int64_t as_of) {
+  const SpaceBox bounds = bounds_of(question);
+  const glm::dvec3 middle_m = 0.5 * (bounds.lo + bounds.hi);
+  HelloMessage hello;
+  hello.eye_m = glm::vec3(middle_m);
+  hello.interest_radius_m = static_cast<float>(reach_from(question, middle_m)) + 1.0F;
+  Talk talk = TRY(join(server, hello));
+  const auto now = static_cast<int64_t>(talk.welcome().tick);
+  talk.send(
+      QueryMessage{1, static_cast<Tick>(as_of < 0 ? std::max<int64_t>(1, now + as_of) : as_of), {question}});
+  const auto said = TRY(talk.next<AnswerMessage>("answer"));
+  if (!said.refusal.empty()) return fail(said.refusal);
+  if (said.answers.size() != 1) return fail("the server answered another question");
+  const QuestionReply& reply = said.answers.front();
+  if (!reply.answer)
+    return fail(reply.refusal.empty() ? "this server does not know the question" : reply.refusal);
+  return SpaceAnswer{said.tick, *reply.answer, reply.more};
 }
 
 }  // namespace scree

@@ -98,7 +98,27 @@ Result<void> ban_address(const AdminServer& server, const BanRequest& ban);
 Result<void> lift_ban(const AdminServer& server, const LiftBanRequest& lift);
 
 /// Asks for a request about bodies (AddPropRequest and others, BlastRequest), and returns the answer. A blast
-/// changes terrain, so it takes a place as any client does.
+/// changes terrain, so it takes a place as any client does. The eye is where the request acts.
 Result<ReplyMessage> ask_world(const AdminServer& server, const Request& request);
+
+/// The pieces and props, or the joints, that there are. Takes a director's token, too.
+Result<AdminListMessage> list_bodies(const AdminServer& server, const ListBodiesRequest& request);
+std::string bodies_json(const AdminListMessage& list);
+std::string bodies_lines(const AdminListMessage& list);
+Result<AdminListMessage> list_joints(const AdminServer& server, const ListJointsRequest& request);
+std::string joints_json(const AdminListMessage& list);
+std::string joints_lines(const AdminListMessage& list);
+
+/// An answer, and the tick that it is of.
+struct SpaceAnswer {
+  Tick tick = 0;
+  QuestionAnswer answer;
+  bool more = false;  ///< ids are left out
+};
+/// Asks a valid question about space, from an eye in the middle of what it is about: it takes a place as any
+/// client does. `as_of`: a tick; 0: the newest; negative: so many ticks before the newest.
+Result<SpaceAnswer> ask_space(const AdminServer& server, const Question& question, int64_t as_of = 0);
+std::string answer_json(const SpaceAnswer& said);
+std::string answer_lines(const SpaceAnswer& said);
 
 }  // namespace scree

@@ -45,6 +45,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [&](const PieceMessage& piece) { return apply_piece(piece, changes); },
           [&](const PropMessage& prop) { return apply_prop(prop, changes); },
           [&](const JointsMessage& joints) { return apply_joints(joints, changes); },
+          [&](const KeptPiecesMessage& kept) { return apply_kept(kept); },
           [&](const ResetMessage&) -> Done {
             apply_reset(changes);
             return {};
@@ -339,6 +340,7 @@ void Mirror::apply_reset(MirrorChanges& changes) {
   while (!joints_.empty()) forget_joint({joints_.begin()->first, JointEnd::body_gone}, changes);
   motions_.clear();
   props_.clear();
+  kept_.clear();
   known_motions_.clear();
   table_.clear();
   piece_voxels_ = 0;
@@ -372,6 +374,7 @@ void Mirror::remove_piece(PieceId id, MirrorChanges& changes) {
   forget_joints_of(id, changes);
   piece_voxels_ -= found->second.volume->window.codes.size();
   motions_.erase(found);
+  kept_.erase(id);
   changes.pieces_removed.push_back(id);
 }
 

@@ -101,6 +101,8 @@ class Mirror {
   std::optional<RepairMessage> next_repair_request();
 
   const std::map<PieceId, PieceMotion>& pieces() const { return motions_; }
+  /// Those of them that never become terrain until they are released, as far as the server says it.
+  const std::set<PieceId>& kept() const { return kept_; }
   const std::map<PieceId, PropMotionHere>& props() const { return props_; }
   /// Their bodies are known here.
   const std::map<JointId, Joint>& joints() const { return joints_; }
@@ -156,6 +158,7 @@ class Mirror {
   void replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes);
   Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
   Result<void> apply_prop(const PropMessage& message, MirrorChanges& changes);
+  Result<void> apply_kept(const KeptPiecesMessage& message);
   Result<void> apply_joints(const JointsMessage& message, MirrorChanges& changes);
   void forget_joint(const EndedJoint& gone, MirrorChanges& changes);
   void forget_joints_of(PieceId body, MirrorChanges& changes);
@@ -177,6 +180,7 @@ class Mirror {
   MapField field_;
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses
+  std::set<PieceId> kept_;
   std::map<PieceId, PropMotionHere> props_;
   std::map<JointId, Joint> joints_;
   std::map<PieceId, std::set<JointId>> joints_of_;  ///< by body; none is empty

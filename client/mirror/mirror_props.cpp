@@ -16,6 +16,15 @@ Result<void> Mirror::apply_prop(const PropMessage& message, MirrorChanges& chang
   return {};
 }
 
+Result<void> Mirror::apply_kept(const KeptPiecesMessage& message) {
+  for (const PieceId id : message.kept) {
+    if (!motions_.contains(id)) return fail(fmt::format("piece {} is kept, and not known here", id));
+    kept_.insert(id);
+  }
+  for (const PieceId id : message.released) kept_.erase(id);
+  return {};
+}
+
 BetweenPoses* Mirror::find_moving(PieceId id) {
   if (const auto piece = motions_.find(id); piece != motions_.end()) return &piece->second;
   const auto prop = props_.find(id);

@@ -28,6 +28,7 @@ constexpr Row rows[] = {
     {Refusal::piece_invalid, "piece_invalid"},
     {Refusal::props_max, "props_max"},
     {Refusal::joint_invalid, "joint_invalid"},
+    {Refusal::joint_apart, "joint_apart"},
     {Refusal::joint_missing, "joint_missing"},
     {Refusal::joints_max, "joints_max"},
     {Refusal::blast_speed, "blast_speed"},

@@ -28,6 +28,7 @@ enum class Refusal : uint8_t {
   piece_invalid,
   props_max,
   joint_invalid,
+  joint_apart,
   joint_missing,
   joints_max,
   blast_speed,

@@ -14,8 +14,7 @@ tl::expected<void, Refused> try_pass(const QueryMessage& query, SessionEntry& en
   const auto count = static_cast<double>(std::max<size_t>(1, query.questions.size()));
   if (!entry.queries.try_spend(steady_now_s(), count))
     return refuse(Refusal::queries_per_second,
-                  fmt::format("more than {:g} questions a second (limits.queries_per_second_max); ask again "
-                              "more slowly",
+                  fmt::format("more than {:g} questions a second: ask again more slowly",
                               limits::queries_per_second_max));
   return publisher.ask_query(entry.session->id(), query);
 }

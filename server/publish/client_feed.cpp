@@ -38,6 +38,7 @@ void ClientFeed::serve(const ServedTick& tick, const Backlog& backlog, ServedPar
   // bricks.
   if (with_poses) pieces_.serve(tick, view_, outlet_, part);
   if (reads_along) joints_.serve(tick, with_poses, view_, outlet_, part);
+  if (with_poses) kept_.serve(tick, view_, outlet_, part);
   if (reads_along) chunks_.serve(tick, view_, outlet_, part);
   if (with_status) send_status(tick, part);
   if (reads_along) physics_feed_.serve(tick, view_, outlet_, part);
@@ -57,6 +58,7 @@ bool ClientFeed::ready(size_t backlog_bytes, ServedPart& part) {
     view_.reset();
     chunks_.offer().forget();
     joints_.forget();
+    kept_.forget();
     last_frame_ = 0;
     outlet_.send(share(ResetMessage{}), part);
   }

@@ -11,6 +11,7 @@
 #include "server/publish/chunk_stream.h"
 #include "server/publish/client_view.h"
 #include "server/publish/joint_stream.h"
+#include "server/publish/kept_stream.h"
 #include "server/publish/outgoing.h"
 #include "server/publish/physics_feed.h"
 #include "server/publish/piece_stream.h"
@@ -56,6 +57,7 @@ class ClientFeed {
   ChunkStream chunks_;
   PieceStream pieces_;
   JointStream joints_;
+  KeptStream kept_;
   ReplayNews replay_;
   PhysicsFeed physics_feed_;
   bool stopped_ = false;

@@ -9,6 +9,7 @@
 #include "proto/operation_codec.h"
 #include "server/publish/chunks_near.h"
 #include "server/publish/interest_filter.h"
+#include "server/world/material_settings.h"
 #include "server/world/world.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -164,6 +165,19 @@ std::vector<Outgoing> Publisher::publish(const TickDelta& delta,
             stats_.ground_bytes + stats_.tile_bytes + stats_.content_bytes <=
         stats_.sent_bytes);
   return std::exchange(out_, {});
+}
+
+ListedWorld Publisher::listed() const {
+  auto palette = config_.palette == nullptr ? nullptr : palette_with(config_.palette, state_.settings());
+  return {state_, motions_, std::move(palette), config_.terrain.voxel_size_m, rates_};
+}
+
+AdminListMessage Publisher::list(const ListBodiesRequest& request) const {
+  return list_bodies(listed(), request);
+}
+
+AdminListMessage Publisher::list(const ListJointsRequest& request) const {
+  return list_joints(listed(), request);
 }
 
 /// Settings say which numbers of the palette stand. Clients are told after the tick's frames.

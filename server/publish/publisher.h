@@ -29,6 +29,7 @@
 #include <vector>
 
 #include "proto/messages.h"
+#include "server/publish/body_list.h"
 #include "server/publish/chunk_pager.h"
 #include "server/publish/client_feed.h"
 #include "server/publish/content_stream.h"
@@ -82,6 +83,9 @@ class Publisher {
   /// Queues questions about space (QueryStream::ask).
   tl::expected<void, Refused> ask_query(uint64_t session, const QueryMessage& query);
   std::vector<Refusal> take_query_refusals() { return queries_.take_refusals(); }
+  /// What is there, as of the tick that was published last.
+  AdminListMessage list(const ListBodiesRequest& request) const;
+  AdminListMessage list(const ListJointsRequest& request) const;
   /// WelcomeMessage::palette.
   const std::optional<Digest>& palette() const { return content_.palette(); }
 
@@ -139,6 +143,7 @@ class Publisher {
   ClientView* reader(uint64_t session, const Backlog& backlog);
   void restart();
   void take_palette(const TickDelta& delta);
+  ListedWorld listed() const;
   void count_operations(const TickDelta& delta);
   void serve_all(const TickChanges& changes, const std::function<Backlog(uint64_t)>& backlog);
   void allow_scans();

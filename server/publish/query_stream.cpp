@@ -17,12 +17,11 @@ tl::expected<void, Refused> QueryStream::ask(uint64_t session, uint64_t party, c
   if (query.as_of != 0 && !scenes_.may_ask_for(query.as_of))
     return scree::refuse(
         Refusal::query_tick,
-        fmt::format("tick {} cannot be asked for: the newest is {}, and ticks are kept for {:g} s "
-                    "(limits.query_past_s)",
+        fmt::format("tick {} cannot be asked for: the newest is {}, and ticks are kept for {:g} s",
                     query.as_of, state_.tick(), limits::query_past_s));
   if (waiting(session) + query.questions.size() > limits::queries_waiting_max)
     return scree::refuse(Refusal::queries_waiting,
-                         fmt::format("more than {} questions wait for an answer (limits.queries_waiting_max)",
+                         fmt::format("more than {} questions wait for an answer: ask again later",
                                      limits::queries_waiting_max));
   Queue& queue = queues_[session];
   queue.party = party;

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <string>
 #include <utility>
 
 #include "server/world/limits.h"
 #include "server/world/state_hash.h"
 #include "shared/base/check.h"
+#include "shared/base/plain_number.h"
+#include "shared/prop/limits.h"
 
 namespace scree {
 
@@ -48,6 +51,47 @@ bool can_be_moved(const World::State& state, const JointSide& side) {
   return prop == state.props.end() || prop->second.prop->motion == PropMotion::dynamic;
 }
 
+/// A side in the world; nothing: its body is gone.
+std::optional<Pose> placed(const World::State& state, const JointSide& side) {
+  if (side.holds_terrain()) return Pose{side.place_m, side.turn};
+  if (!state.bodies.contains(side.body)) return std::nullopt;
+  const Pose pose = state.bodies.state(side.body).pose;
+  return Pose{pose.position_m + pose.rotation * side.place_m, pose.rotation * side.turn};
+}
+
+/// How far the sides lie apart beyond what the joint leaves free.
+float gap_m(const Joint& joint, const Pose& a, const Pose& b) {
+  const glm::vec3 off_m = b.position_m - a.position_m;
+  const float away_m = glm::length(off_m);
+  switch (joint.kind) {
+    case JointKind::distance:
+      return std::abs(away_m - joint.length_m);
+    case JointKind::rope:
+      return away_m - joint.length_m;
+    case JointKind::slider: {
+      const glm::vec3 axis = a.rotation * glm::vec3(1.0F, 0.0F, 0.0F);
+      const float way_m = glm::dot(axis, off_m);
+      const float on_way_m = joint.limits ? std::clamp(way_m, joint.limits->low, joint.limits->high) : way_m;
+      return glm::length(off_m - axis * on_way_m);
+    }
+    case JointKind::fixed:
+    case JointKind::hinge:
+    case JointKind::ball:
+      break;
+  }
+  return away_m;
+}
+
+/// Refuses a joint that would drag its bodies together. Both of them are there.
+CheckedRequest check_gap(const World::State& state, const Joint& joint) {
+  const float apart_m = gap_m(joint, *placed(state, joint.a), *placed(state, joint.b));
+  if (apart_m <= limits::joint_gap_max_m) return {};
+  return refuse(Refusal::joint_apart, "the places of the joint's two sides are " + metres(apart_m) +
+                                          " farther apart than the joint lets them be, and may be " +
+                                          metres(limits::joint_gap_max_m) +
+                                          ": move the bodies, or choose other places");
+}
+
 tl::unexpected<Refused> no_joint(JointId id) {
   return refuse(Refusal::joint_missing,
                 "there is no joint " + std::to_string(id) + ": it may have broken, or lost a body");
@@ -63,12 +107,8 @@ void enter(World::State& state, JointId id, std::shared_ptr<const Joint> joint, 
 
 /// The place of a side that is still there.
 std::optional<glm::vec3> place_of(const World::State& state, const Joint& joint) {
-  for (const JointSide& side : {joint.a, joint.b}) {
-    if (side.holds_terrain()) return side.place_m;
-    if (!state.bodies.contains(side.body)) continue;
-    const Pose pose = state.bodies.state(side.body).pose;
-    return pose.position_m + pose.rotation * side.place_m;
-  }
+  for (const JointSide& side : {joint.a, joint.b})
+    if (const std::optional<Pose> at = placed(state, side)) return at->position_m;
   return std::nullopt;
 }
 
@@ -118,6 +158,7 @@ CheckedRequest check(const World::State& state, const AddJointRequest& request) 
   TRY(check_side(state, joint.b));
   if (!can_be_moved(state, joint.a) && !can_be_moved(state, joint.b))
     return refuse(Refusal::joint_invalid, "neither side of the joint is a body that can be moved");
+  TRY(check_gap(state, joint));
   if (state.joints.size() < state.config.joints_max) return {};
   return refuse(Refusal::joints_max, std::to_string(state.joints.size()) +
                                          " joints are there, which is this server's limit (joints-max): "
@@ -141,7 +182,7 @@ CheckedRequest check(const World::State& state, const SetMotorRequest& request) 
 }
 
 uint32_t perform(World::State& state, const AddJointRequest& request, uint64_t party, TickDelta& delta) {
-  Joint joint = canonical(request.joint);
+  Joint joint = request.joint;
   for (JointSide* side : {&joint.a, &joint.b})
     side->turn = side->turn / std::sqrt(glm::dot(side->turn, side->turn));
   const JointId id = state.next_piece++;
@@ -163,7 +204,6 @@ uint32_t perform(World::State& state, const SetMotorRequest& request, uint64_t /
   WorldJoint& known = state.joints.at(request.joint);
   Joint joint = *known.joint;
   joint.motor = request.motor;
-  joint = canonical(joint);
   known.joint = std::make_shared<const Joint>(joint);
   known.hash = hash_of(request.joint, joint, known.owner);
   state.bodies.set_motor(request.joint, joint.motor);

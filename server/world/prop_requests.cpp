@@ -13,6 +13,7 @@
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/base/plain_number.h"
 #include "shared/prop/limits.h"
 #include "shared/prop/prop_solid.h"
 
@@ -24,20 +25,15 @@ bool is_number(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-/// A bound that is a whole number.
-std::string whole(double bound) {
-  return std::to_string(static_cast<int64_t>(bound));
-}
-
 CheckedRequest check_speeds(glm::vec3 velocity_m_s, glm::vec3 spin_rad_s) {
   if (!is_number(velocity_m_s) || !is_number(spin_rad_s))
     return refuse(Refusal::prop_invalid, "the prop's speed is not finite");
   if (!(glm::dot(velocity_m_s, velocity_m_s) <= limits::prop_speed_max_m_s * limits::prop_speed_max_m_s))
-    return refuse(Refusal::prop_invalid, "the prop is faster than " + whole(limits::prop_speed_max_m_s) +
-                                             " m/s (limits.prop_speed_max_m_s)");
+    return refuse(Refusal::prop_invalid,
+                  "the prop is faster than " + plain(limits::prop_speed_max_m_s) + " m/s");
   if (!(glm::dot(spin_rad_s, spin_rad_s) <= limits::prop_spin_max_rad_s * limits::prop_spin_max_rad_s))
-    return refuse(Refusal::prop_invalid, "the prop spins faster than " + whole(limits::prop_spin_max_rad_s) +
-                                             " rad/s (limits.prop_spin_max_rad_s)");
+    return refuse(Refusal::prop_invalid,
+                  "the prop spins faster than " + plain(limits::prop_spin_max_rad_s) + " rad/s");
   return {};
 }
 
@@ -47,13 +43,14 @@ tl::unexpected<Refused> no_prop(PieceId id) {
 
 }  // namespace
 
+/// Refuses also what is no number, axis by axis: the greater of a number and of none may be the number.
 CheckedRequest check_place(glm::vec3 place_m, Refusal reason, const std::string& body) {
-  if (std::max(std::abs(place_m.x), std::abs(place_m.z)) <= limits::world_half_width_m &&
-      std::abs(place_m.y) <= limits::world_half_height_m)
+  if (std::abs(place_m.x) <= limits::world_half_width_m &&
+      std::abs(place_m.z) <= limits::world_half_width_m && std::abs(place_m.y) <= limits::world_half_height_m)
     return {};
-  return refuse(reason, "the " + body +
-                            "'s place lies outside the world (limits.world_half_width_m, "
-                            "world_half_height_m)");
+  return refuse(reason, "the " + body + "'s place lies outside the world: farther than " +
+                            plain(limits::world_half_width_m) + " m to a side, or " +
+                            plain(limits::world_half_height_m) + " m up or down");
 }
 
 CheckedRequest check_turn(const glm::quat& turn, Refusal reason, const std::string& body) {
@@ -110,8 +107,7 @@ CheckedRequest check(const World::State& state, const PushRequest& request) {
       !(glm::dot(request.impulse_n_s, request.impulse_n_s) <=
         limits::push_impulse_max_n_s * limits::push_impulse_max_n_s))
     return refuse(Refusal::push_invalid, "the push is no number, or of more than " +
-                                             whole(limits::push_impulse_max_n_s) +
-                                             " newton seconds (limits.push_impulse_max_n_s)");
+                                             plain(limits::push_impulse_max_n_s) + " newton seconds");
   const glm::vec3 off_m = request.at_m - state.bodies.state(request.body).pose.position_m;
   const float most_m = state.bodies.reach_m(request.body) + limits::push_slack_m;
   if (glm::dot(off_m, off_m) <= most_m * most_m) return {};
@@ -123,8 +119,7 @@ CheckedRequest check(const World::State& state, const BreakRequest& request) {
   // What is wrong in itself comes first: the rest may change while the request waits.
   if (!is_number(request.at_m)) return refuse(Refusal::push_invalid, "the place of the break is not finite");
   if (request.seeds < 2 || request.seeds > limits::seeds_max)
-    return refuse(Refusal::push_invalid,
-                  "a piece breaks into 2 to " + std::to_string(limits::seeds_max) + " (limits.seeds_max)");
+    return refuse(Refusal::push_invalid, "a piece breaks into 2 to " + plain(limits::seeds_max) + " pieces");
   if (state.props.contains(request.piece))
     return refuse(Refusal::body_missing,
                   "body " + std::to_string(request.piece) + " is a prop, which never breaks");
@@ -139,11 +134,11 @@ CheckedRequest check(const World::State& /*state*/, const BlastRequest& request)
     return refuse(Refusal::blast_invalid, "the blast's place lies outside the world");
   if (is_blast_energy(request.energy_j)) return {};
   return refuse(Refusal::blast_invalid,
-                "a blast has from " + whole(blast_energy_min_j) + " to " + whole(blast_energy_max_j) + " J");
+                "a blast has " + range_text(blast_energy_min_j, blast_energy_max_j, "J of energy"));
 }
 
 uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta) {
-  Prop prop = canonical(request.prop);
+  Prop prop = request.prop;
   if (prop.mass_kg == 0.0F)
     prop.mass_kg = std::clamp(measure_of(prop).volume_m3 * state.palette->row(prop.material).density_kg_m3,
                               limits::prop_mass_min_kg, limits::prop_mass_max_kg);

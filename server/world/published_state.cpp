@@ -100,6 +100,7 @@ void PublishedState::apply(const TickDelta& delta) {
   }
   CHECK(alive.size() == delta.pieces.size());
   pieces_ = std::move(alive);
+  kept_ = delta.kept;
   apply_props(delta);
   for (const AddedJoint& joint : delta.joints_added) joints_[joint.id] = joint.joint;
   for (const EndedJoint& joint : delta.joints_removed) joints_.erase(joint.id);
@@ -173,6 +174,7 @@ TickDelta PublishedState::without_bricks() const {
     delta.spawned.push_back({id, piece.volume});
     delta.pieces.push_back({id, piece.pose});
   }
+  delta.kept = kept_;
   for (const auto& [id, one] : props_) {
     delta.props_spawned.push_back({id, one.prop});
     delta.props.push_back({id, one.pose});

@@ -84,6 +84,8 @@ class PublishedState {
   Tick tick() const { return tick_; }
   const std::unordered_map<ChunkCoord, PublishedChunk, CoordHash>& chunks() const { return chunks_; }
   const std::map<PieceId, PublishedPiece>& pieces() const { return pieces_; }
+  /// Those that are kept, ordered; none in a replay.
+  const std::vector<PieceId>& kept() const { return kept_; }
   const std::map<PieceId, PublishedProp>& props() const { return props_; }
   const PublishedJoints& joints() const { return joints_; }
   const Ledger& ledger() const { return ledger_; }
@@ -115,6 +117,7 @@ class PublishedState {
   std::unordered_set<ChunkCoord, CoordHash> in_;
   size_t bricks_in_ = 0;
   std::map<PieceId, PublishedPiece> pieces_;
+  std::vector<PieceId> kept_;
   std::map<PieceId, PublishedProp> props_;
   PublishedJoints joints_;
   Ledger ledger_;

@@ -25,6 +25,7 @@
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
+#include "shared/base/plain_number.h"
 #include "shared/field/mass.h"
 
 namespace scree {
@@ -51,9 +52,9 @@ Checked check_edit(const World::State& state, const Operation& operation, const 
     return refuse(reason, valid.error().message);
   const float least_m = limits::request_reach_min_voxels * dx;
   if (reach_of(shape) >= least_m - limits::edit_reach_rounding_m) return {};
-  return refuse(reason, "reach " + std::to_string(reach_of(shape)) + " m may change nothing in voxels of " +
-                            std::to_string(dx) + " m: ask for " + std::to_string(least_m) +
-                            " m at least (limits.request_reach_min_voxels)");
+  return refuse(reason, "half the shape's longest extent is " + metres(reach_of(shape)) +
+                            ", which may change nothing in voxels of " + metres(dx) + ": ask for " +
+                            metres(least_m) + " at least");
 }
 
 /// The operation of a request; its seeds may be fewer than asked for.
@@ -111,9 +112,8 @@ struct Checking {
     if (Checked valid = check_edit(state, operation, request.shape, Refusal::carve_invalid); !valid)
       return valid;
     if (!(request.blast_speed_m_s >= 0.0F && request.blast_speed_m_s <= limits::blast_speed_max_m_s))
-      return refuse(Refusal::blast_speed, "the blast speed is not within 0 … " +
-                                              std::to_string(limits::blast_speed_max_m_s) +
-                                              " m/s (limits.blast_speed_max_m_s)");
+      return refuse(Refusal::blast_speed,
+                    "the blast speed must lie " + range_text(0.0, limits::blast_speed_max_m_s, "m/s"));
     // What is wrong in itself comes first: the piece may go while the carve waits.
     if (request.piece != 0) TRY(check_piece_carve(state, request));
     return {};
@@ -338,7 +338,7 @@ void drop(World::State& state, uint64_t session, TickDelta& delta) {
 
 }  // namespace
 
-bool is_valid(const World::State& state, const Command& command) {
+bool may_wait_for_turn(const World::State& state, const Command& command) {
   // They are checked again when they are carried out, and what they are of may be gone by then.
   if (std::holds_alternative<SettingsRequest>(command.body) ||
       std::holds_alternative<PushRequest>(command.body) ||

@@ -16,9 +16,9 @@ void enqueue_commands(World::State& state, std::span<const Command> commands, Ti
 /// gets fewer pieces than it asked for, waits a little, or is refused. Each command gets one reply.
 void carry_out(World::State& state, TickDelta& delta);
 
-/// Whether a command may wait: it is valid, or what made it invalid may have changed while it waited. It is
-/// checked again when its turn comes.
-bool is_valid(const World::State& state, const Command& command);
+/// Whether a command may wait for its turn: it is valid, or what is wrong may be so since it began to wait.
+/// It is checked again when its turn comes.
+bool may_wait_for_turn(const World::State& state, const Command& command);
 
 /// Enters the values of all settings in the delta.
 void publish_settings(const World::State& state, TickDelta& delta);

@@ -112,13 +112,17 @@ Applied shatter_piece(World::State& state, const ShatterOperation& operation, co
   return applied;
 }
 
-float mass_kg(const World::State& state, const Volume& volume) {
-  const float dx = state.config.terrain.voxel_size_m;
+float mass_kg(const Volume& volume, const Palette& palette, float voxel_size_m) {
+  const float dx = voxel_size_m;
   float kg = 0.0F;
   for (const MaterialMass& one : masses_of(volume))
     kg += static_cast<float>(one.mass) / units_per_voxel * dx * dx * dx *
-          state.palette->row_or_first(one.material).density_kg_m3;
+          palette.row_or_first(one.material).density_kg_m3;
   return kg;
+}
+
+float mass_kg(const World::State& state, const Volume& volume) {
+  return mass_kg(volume, *state.palette, state.config.terrain.voxel_size_m);
 }
 
 }  // namespace scree

@@ -32,7 +32,9 @@ using SetsOut = std::function<void(PieceId, BodyState&)>;
 Applied shatter_piece(World::State& state, const ShatterOperation& operation, const SetsOut& sets_out,
                       TickDelta& delta);
 
-/// By its materials, as the palette stands.
+/// By its materials.
+float mass_kg(const Volume& volume, const Palette& palette, float voxel_size_m);
+/// As the palette stands.
 float mass_kg(const World::State& state, const Volume& volume);
 
 }  // namespace scree

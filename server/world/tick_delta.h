@@ -75,6 +75,7 @@ struct TickDelta {
   std::vector<ChunkState> chunks;
   std::vector<SpawnedPiece> spawned;       ///< pieces made in this tick, ordered; some may be gone again
   std::vector<PieceState> pieces;          ///< every piece alive after the tick, ordered by id
+  std::vector<PieceId> kept;               ///< those of them that are kept, ordered; none in a replay
   std::vector<SpawnedProp> props_spawned;  ///< props added in this tick, ordered; some may be gone again
   std::vector<PieceState> props;           ///< every prop there is after the tick, ordered by id
   std::vector<ContactEvent> contacts;      ///< blows of bodies, the hardest first; none in a replay

@@ -190,7 +190,7 @@ class Restoring {
         return fail("its ledger has more than there can be (limits.ledger_mass_max)");
     s_.ledger = measure_ ? measured() : m_.ledger;
     const Ledger& ledger = s_.ledger;
-    for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.poured, ledger.moved})
+    for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.moved})
       if (mass < 0) return fail("its ledger has less than nothing");
     if (ledger.pieces != s_.mass_of_pieces()) return fail("its ledger does not hold the mass of its pieces");
     if (!measure_ && ledger.terrain != s_.measure_terrain(ground_))
@@ -252,7 +252,7 @@ class Restoring {
       for (const SessionValue& session : party.sessions)
         for (const WaitingValue& request : session.requests) {
           const auto& [asker, number, body, in_common] = request.command;
-          if (request.since > m_.tick || !is_valid(s_, {asker, number, body, in_common}))
+          if (request.since > m_.tick || !may_wait_for_turn(s_, {asker, number, body, in_common}))
             return fail("a waiting request is not valid");
         }
     return s_.requests.restore(m_.requests);
@@ -263,7 +263,7 @@ class Restoring {
       if (pending.pieces < 2 || pending.pieces > limits::seeds_max)
         return fail("a piece is to be cut into no pieces, or too many");
       TRY(validate_shatter_pattern(pending.pattern));
-      if (pending.thrown_by != nullptr && !is_valid(s_, {0, 0, *pending.thrown_by}))
+      if (pending.thrown_by != nullptr && !may_wait_for_turn(s_, {0, 0, *pending.thrown_by}))
         return fail("a cut's pieces are thrown by an operation that is not a carve");
       enter_refracture(s_, pending);
     }

@@ -69,6 +69,8 @@ Loose left_by(const Operation& operation) {
 void publish_poses(const World::State& state, TickDelta& delta) {
   for (const BodyState& body : state.bodies.states())
     (state.props.contains(body.id) ? delta.props : delta.pieces).push_back({body.id, quantise(body.pose)});
+  for (const auto& [id, traits] : state.traits)
+    if (traits.kept) delta.kept.push_back(id);
 }
 
 Tick wait_for_room(const World::State& state, uint64_t party, float price_us, Tick rest) {
@@ -227,7 +229,7 @@ MassUnits World::State::measure_terrain(const GroundMasses& ground) {
 
 void World::State::check() const {
   CHECK(ledger.error() == 0);
-  CHECK(ledger.pieces >= 0 && ledger.dust >= 0 && ledger.poured >= 0 && ledger.moved >= 0);
+  CHECK(ledger.pieces >= 0 && ledger.dust >= 0 && ledger.moved >= 0);
   CHECK_EQ(bodies.size(), pieces.size() + props.size());
   CHECK_EQ(bodies.joints(), joints.size());
   CHECK_EQ(traits.size(), pieces.size());

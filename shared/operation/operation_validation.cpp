@@ -5,6 +5,7 @@
 #include <string>
 
 #include "shared/base/limits.h"
+#include "shared/base/plain_number.h"
 #include "shared/operation/limits.h"
 #include "shared/operation/operation.h"
 
@@ -33,8 +34,7 @@ Result<void> validate_seeds(Cutter cutter, uint32_t seeds, PieceId first_piece) 
   TRY(validate_kind(cutter, "cutter"));
   if (seeds == 0) return fail("a carve needs at least one seed");
   if (seeds > limits::seeds_max)
-    return fail(std::to_string(seeds) + " seeds are over the limit of " + std::to_string(limits::seeds_max) +
-                " (limits.seeds_max)");
+    return fail(std::to_string(seeds) + " seeds are over the limit of " + std::to_string(limits::seeds_max));
   if (first_piece > UINT32_MAX - seeds) return fail("the piece ids are used up");
   return {};
 }
@@ -54,7 +54,7 @@ Result<void> validate_authored(const CarveOperation& op) {
                 std::to_string(wanted) + " (a pattern that needs points has as many as seeds, others none)");
   for (const glm::vec3& point_m : op.authored_m) {
     if (!is_finite(point_m)) return fail("an authored seed's position is not a finite number");
-    if (!in_world(point_m)) return fail("an authored seed is outside the world (limits.world_half_width_m)");
+    if (!in_world(point_m)) return fail("an authored seed is outside the world");
   }
   return {};
 }
@@ -67,8 +67,7 @@ Result<void> validate_group(const StampOperation& op, const PieceTable& pieces) 
     TRY(known(other.piece, pieces));
     if (std::ranges::find(group, other.piece, &StampedPiece::piece) != group.end())
       return fail("piece " + std::to_string(other.piece) + " is stamped twice");
-    if (!in_world(dequantise(other.pose).position_m))
-      return fail("the stamp is outside the world (limits.world_half_width_m)");
+    if (!in_world(dequantise(other.pose).position_m)) return fail("the stamp is outside the world");
     group.push_back(other);
   }
   if (!can_merge_together(group, pieces))
@@ -95,13 +94,12 @@ Result<void> validate_place(const VoxelBox& box, const std::string& what) {
   constexpr auto far = static_cast<int>(limits::world_half_width_m / limits::voxel_size_min_m);
   const VoxelBox world{{-far, -far, -far}, {far, far, far}};
   if (world.holds(box.lo) && world.holds(box.hi)) return {};
-  return fail("the " + what + " is outside the world (limits.world_half_width_m)");
+  return fail("the " + what + " is outside the world");
 }
 
 Result<void> validate_cut(const PieceCut& cut, PieceId first_piece) {
   TRY(validate_edit(cut.shape));
-  if (!in_world(dequantise(cut.pose).position_m))
-    return fail("the piece that is cut is outside the world (limits.world_half_width_m)");
+  if (!in_world(dequantise(cut.pose).position_m)) return fail("the piece that is cut is outside the world");
   if (first_piece > UINT32_MAX - limits::seeds_max - limits::cut_rests_max)
     return fail("the piece ids are used up");
   return {};
@@ -114,7 +112,7 @@ struct Validator {
   Result<void> operator()(const CarveOperation& op) const {
     TRY(validate_edit(op.shape));
     if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
-    if (!in_world(op.impact_m)) return fail("the impact is outside the world (limits.world_half_width_m)");
+    if (!in_world(op.impact_m)) return fail("the impact is outside the world");
     TRY(validate_carve_pattern(op.pattern));
     TRY(validate_authored(op));
     return validate_seeds(op.cutter, op.seeds, op.first_piece);
@@ -132,8 +130,7 @@ struct Validator {
     TRY(validate_kind(op.method, "stamp's method"));
     if (std::abs(op.shift) > stamp_shift_max)
       return fail("the stamp's shift is over ±" + std::to_string(stamp_shift_max));
-    if (!in_world(dequantise(op.pose).position_m))
-      return fail("the stamp is outside the world (limits.world_half_width_m)");
+    if (!in_world(dequantise(op.pose).position_m)) return fail("the stamp is outside the world");
     if (!op.others.empty()) return validate_group(op, pieces);
     return validate_window(op, *pieces.at(op.piece), voxel_size_m);
   }
@@ -181,13 +178,12 @@ Result<void> validate_edit(const Shape& shape) {
   TRY(validate(shape));
   const float reach = reach_of(shape);
   if (reach > limits::edit_reach_max_m + limits::edit_reach_rounding_m)
-    return fail("half the shape's longest extent is " + std::to_string(reach) + " m, and may be at most " +
-                std::to_string(limits::edit_reach_max_m) + " m (limits.edit_reach_max_m)");
+    return fail("half the shape's longest extent is " + metres(reach) + ", and may be at most " +
+                metres(limits::edit_reach_max_m));
   if (reach < limits::edit_reach_min_m - limits::edit_reach_rounding_m)
-    return fail("half the shape's longest extent is " + std::to_string(reach) + " m, and must be at least " +
-                std::to_string(limits::edit_reach_min_m) + " m (limits.edit_reach_min_m)");
-  if (!in_world(centre_of(shape)))
-    return fail("the place is outside the world (limits.world_half_width_m, limits.world_half_height_m)");
+    return fail("half the shape's longest extent is " + metres(reach) + ", and must be at least " +
+                metres(limits::edit_reach_min_m));
+  if (!in_world(centre_of(shape))) return fail("the place is outside the world");
   return {};
 }
 

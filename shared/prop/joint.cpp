@@ -6,16 +6,17 @@
 
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
+#include "shared/base/plain_number.h"
 #include "shared/prop/limits.h"
 
 namespace scree {
 
 namespace {
 
-Result<void> check_within(float value, float least, float most, const char* what) {
+Result<void> check_within(float value, float least, float most, const char* what, const char* unit) {
   if (value >= least && value <= most) return {};
-  return fail("the joint's " + std::string(what) + " is " + std::to_string(value) + ", and must lie from " +
-              std::to_string(least) + " to " + std::to_string(most));
+  return fail("the joint's " + std::string(what) + " is " + with_unit(value, unit) + ", and must lie " +
+              range_text(least, most, unit));
 }
 
 bool is_in_world(glm::vec3 place_m) {
@@ -27,20 +28,21 @@ bool is_in_world(glm::vec3 place_m) {
 Result<void> check_side(const JointSide& side) {
   const glm::vec3 p = side.place_m;
   if (side.holds_terrain() && !is_in_world(p))
-    return fail("a joint's place in the terrain lies outside the world (limits.world_half_width_m)");
+    return fail("a joint's place in the terrain lies outside the world");
   const float far_m = limits::joint_place_max_m;
   if (!side.holds_terrain() && !(glm::dot(p, p) <= far_m * far_m))
-    return fail("a joint's place lies farther from its body's origin than " + std::to_string(far_m) +
-                " m (limits.joint_place_max_m)");
+    return fail("a joint's place lies farther from its body's origin than " + metres(far_m));
   if (!(std::abs(glm::dot(side.turn, side.turn) - 1.0F) < 1e-3F))
     return fail("a joint's rotation is no unit quaternion");
   return {};
 }
 
 Result<void> check_limits(const JointLimits& bounds, JointKind kind) {
-  const float most = kind == JointKind::hinge ? limits::joint_angle_max_rad : limits::joint_way_max_m;
-  TRY(check_within(bounds.low, -most, most, "lower limit"));
-  TRY(check_within(bounds.high, -most, most, "upper limit"));
+  const bool turns = kind == JointKind::hinge;
+  const float most = turns ? limits::joint_angle_max_rad : limits::joint_way_max_m;
+  const char* const unit = turns ? "rad" : "m";
+  TRY(check_within(bounds.low, -most, most, "lower limit", unit));
+  TRY(check_within(bounds.high, -most, most, "upper limit", unit));
   if (bounds.low <= bounds.high) return {};
   return fail("the joint's lower limit is above its upper one");
 }
@@ -69,9 +71,11 @@ Result<void> validate(const JointMotor& motor, JointKind kind) {
     if (motor == JointMotor{}) return {};
     return fail("a joint of kind " + std::string(name_of(kind)) + " has no motor");
   }
-  const float most = kind == JointKind::hinge ? limits::joint_spin_max_rad_s : limits::joint_speed_max_m_s;
-  TRY(check_within(motor.speed, -most, most, "motor's speed"));
-  return check_within(motor.greatest, 0.0F, limits::joint_force_max, "motor's force or torque");
+  const bool turns = kind == JointKind::hinge;
+  const float most = turns ? limits::joint_spin_max_rad_s : limits::joint_speed_max_m_s;
+  TRY(check_within(motor.speed, -most, most, "motor's speed", turns ? "rad/s" : "m/s"));
+  return check_within(motor.greatest, 0.0F, limits::joint_force_max,
+                      turns ? "motor's torque" : "motor's force", turns ? "N m" : "N");
 }
 
 Result<void> validate(const Joint& joint) {
@@ -85,26 +89,13 @@ Result<void> validate(const Joint& joint) {
   if (joint.limits && !row.has_axis) return fail("a joint of kind " + name + " has no limits");
   if (joint.limits) TRY(check_limits(*joint.limits, joint.kind));
   if (row.has_length)
-    TRY(check_within(joint.length_m, limits::joint_length_min_m, limits::joint_length_max_m, "length (m)"));
+    TRY(check_within(joint.length_m, limits::joint_length_min_m, limits::joint_length_max_m, "length", "m"));
   if (!row.has_length && joint.length_m != 0.0F) return fail("a joint of kind " + name + " has no length");
-  TRY(check_within(joint.break_force_n, 0.0F, limits::joint_force_max, "force at which it breaks (N)"));
-  TRY(check_within(joint.break_torque_nm, 0.0F, limits::joint_force_max, "torque at which it breaks (N m)"));
+  TRY(check_within(joint.break_force_n, 0.0F, limits::joint_force_max, "force at which it breaks", "N"));
+  TRY(check_within(joint.break_torque_nm, 0.0F, limits::joint_force_max, "torque at which it breaks", "N m"));
   if (!row.has_torque && joint.break_torque_nm != 0.0F)
     return fail("a joint of kind " + name + " bears no torque, so none breaks it");
   return {};
-}
-
-Joint canonical(const Joint& joint) {
-  Joint one = joint;
-  for (JointSide* side : {&one.a, &one.b}) {
-    side->place_m += 0.0F;
-    side->turn =
-        glm::quat(side->turn.w + 0.0F, side->turn.x + 0.0F, side->turn.y + 0.0F, side->turn.z + 0.0F);
-  }
-  if (one.limits) *one.limits = {one.limits->low + 0.0F, one.limits->high + 0.0F};
-  one.motor = {one.motor.speed + 0.0F, one.motor.greatest + 0.0F};
-  for (float* number : {&one.length_m, &one.break_force_n, &one.break_torque_nm}) *number += 0.0F;
-  return one;
 }
 
 Joint joint_at(JointKind kind, const JointFrame& a, const JointFrame& b, glm::vec3 place_m, glm::vec3 axis) {

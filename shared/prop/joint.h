@@ -128,9 +128,6 @@ Result<void> validate(const Joint& joint);
 /// The same of a motor, for a joint of that kind.
 Result<void> validate(const JointMotor& motor, JointKind kind);
 
-/// The same joint with one bit pattern for each value, likewise (prop.h).
-Joint canonical(const Joint& joint);
-
 /// A body's frame in the world. Without a body: the terrain's, which is the world's.
 struct JointFrame {
   PieceId body = 0;

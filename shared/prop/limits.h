@@ -43,6 +43,11 @@ inline constexpr float joint_length_max_m = 256.0F;
 inline constexpr float joint_spin_max_rad_s = 120.0F;
 inline constexpr float joint_speed_max_m_s = 100.0F;
 
+/// How far the places of a joint's two sides may lie apart when it is added, metres: beyond what it leaves
+/// free, as the length of a rope. What is held closer than it is gets pulled together at once; a metre is
+/// what bodies of 20 m/s move against each other while a request is on its way. Beyond: refused.
+inline constexpr float joint_gap_max_m = 1.0F;
+
 /// Force or torque of a motor, and those at which a joint breaks, newtons and newton metres: the weight of a
 /// thousand of the heaviest props. Above: refused.
 inline constexpr float joint_force_max = 1e11F;

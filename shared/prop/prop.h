@@ -107,8 +107,4 @@ struct Prop {
 /// pieces. Whether the palette has the material is the world's to check.
 Result<void> validate(const Prop& prop);
 
-/// The same prop with one bit pattern for each value: no negative zeros, and no members that its kinds do not
-/// have. So what files leave out because it is 0 comes back as it was.
-Prop canonical(const Prop& prop);
-
 }  // namespace scree

@@ -191,9 +191,7 @@ QueryResult<Overlapping> overlap_box(const QueryScene& scene, glm::vec3 lo_m, gl
 
 QueryResult<std::optional<Hit>> nearest_surface(const QueryScene& scene, glm::vec3 place_m, float most_m,
                                                 const QueryMask& mask) {
-  TRY(check_place(place_m));
-  if (!(most_m >= 0.0F && most_m <= limits::query_nearest_max_m))
-    return fail("the surface is looked for farther than limits.query_nearest_max_m, or no number");
+  TRY(check_nearest(place_m, most_m));
   TRY(check_mask(mask));
   return NearestSurface(scene, glm::dvec3(place_m), static_cast<double>(most_m), mask).run();
 }

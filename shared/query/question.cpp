@@ -71,11 +71,7 @@ Result<void> validate(const Question& question) {
                    return check_mover(glm::vec3(0.0F), q.radius_m, 0.0F);
                  },
                  [](const InBoxQuestion& q) -> Done { return check_volume(q.lo_m, q.hi_m); },
-                 [](const NearestQuestion& q) -> Done {
-                   TRY(check_place(q.place_m));
-                   if (q.most_m >= 0.0F && q.most_m <= limits::query_nearest_max_m) return {};
-                   return fail("the surface is looked for farther than limits.query_nearest_max_m");
-                 },
+                 [](const NearestQuestion& q) -> Done { return check_nearest(q.place_m, q.most_m); },
                  [](const SolidQuestion& q) -> Done { return check_place(q.place_m); },
                  [](const ContentQuestion& q) -> Done { return check_volume(q.lo_m, q.hi_m); },
                  [](const BodiesQuestion& q) -> Done { return check_box(q.lo_m, q.hi_m); }},

@@ -197,7 +197,7 @@ TEST_F(LiveServerTest, every_bad_request_gets_an_answer_that_names_what_is_wrong
   Follower follower(server->port(), {0.0F, 2.0F, 0.0F}, 50.0F);
   CarveMessage huge = carve_at(0.0F, 0.0F, 1);
   huge.shape.radius_m = limits::edit_reach_max_m + 1.0F;
-  EXPECT_NE(answer_to(follower, huge).find("edit_reach_max_m"), std::string::npos)
+  EXPECT_NE(answer_to(follower, huge).find("may be at most 8 m"), std::string::npos)
       << follower.replies.back().refusal;
   CarveMessage negative = carve_at(0.0F, 0.0F, 2);
   negative.shape.radius_m = -1.0F;

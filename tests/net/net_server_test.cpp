@@ -191,6 +191,10 @@ TEST_F(NetServerTest, carve_of_a_replay_is_refused_by_a_reply) {
   const auto reply = client.receive_as<ReplyMessage>();
   ASSERT_TRUE(reply.has_value());
   EXPECT_NE(reply->refusal.find("recording"), std::string::npos);
+  ASSERT_TRUE(client.send(AddPropMessage{{}, 4}));  // which takes another role where no recording is played
+  const auto of_prop = client.receive_as<ReplyMessage>();
+  ASSERT_TRUE(of_prop.has_value());
+  EXPECT_EQ(of_prop->refusal_name, "replay");
 }
 
 TEST_F(NetServerTest, client_that_never_reads_is_cut_off_and_no_other_notices) {

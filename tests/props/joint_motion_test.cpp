@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "shared/prop/limits.h"
 #include "tests/support/flat_world.h"
 #include "tests/support/joined_props.h"
 
@@ -218,13 +219,13 @@ std::vector<PieceId> add_ring(JointWorld& world) {
   return ring;
 }
 
-TEST(JointMotion, a_ring_of_joints_that_is_too_narrow_by_a_metre_comes_to_rest) {
+TEST(JointMotion, a_ring_of_joints_that_is_nearly_a_metre_too_narrow_comes_to_rest) {
   JointWorld world(rock_world());
   const std::vector<PieceId> ring = add_ring(world);
   for (size_t i = 0; i < ring.size(); ++i) {
     Joint joint = line_between(JointKind::distance, world.frame(ring[i]), world.place_m(ring[i]),
                                world.frame(ring[(i + 1) % 8]), world.place_m(ring[(i + 1) % 8]));
-    if (i == 3) joint.length_m -= 1.0F;
+    if (i == 3) joint.length_m -= 0.95F * limits::joint_gap_max_m;
     world.join(joint);
   }
   world.steps(10 * a_second);
@@ -235,10 +236,11 @@ TEST(JointMotion, a_ring_of_joints_that_can_never_fit_does_not_explode) {
   JointWorld world(rock_world());
   const std::vector<PieceId> ring = add_ring(world);
   for (size_t i = 0; i < ring.size(); ++i) {
-    Joint joint;
-    joint.kind = i % 2 == 0 ? JointKind::hinge : JointKind::fixed;
-    joint.a = {ring[i], {0.0F, 2.0F, 0.0F}};
-    joint.b = {ring[(i + 1) % ring.size()], {-1.0F, 0.0F, 0.5F}};
+    const PieceId a = ring[i], b = ring[(i + 1) % ring.size()];
+    Joint joint = joint_at(i % 2 == 0 ? JointKind::hinge : JointKind::fixed, world.frame(a), world.frame(b),
+                           0.5F * (world.place_m(a) + world.place_m(b)));
+    joint.b.place_m += glm::vec3(-0.6F, 0.4F, 0.6F);
+    joint.b.turn = {0.6F, 0.0F, 0.8F, 0.0F};
     world.join(joint);
   }
   for (int tick = 0; tick < 10 * a_second; ++tick) {

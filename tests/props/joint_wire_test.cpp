@@ -146,7 +146,7 @@ TEST(JointWire, a_joint_that_breaks_before_it_is_told_is_told_as_broken) {
   watched.steps(6);
   Joint thread = line_between(JointKind::distance, world.frame(above), world.place_m(above), {},
                               world.place_m(above) - glm::vec3(0.0F, 12.5F, 0.0F));
-  thread.length_m = 11.0F;
+  thread.length_m = 11.7F;
   thread.break_force_n = 1.0F;
   const JointId weak = world.join(thread);
   watched.follow();

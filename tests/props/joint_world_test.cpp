@@ -61,6 +61,34 @@ TEST(JointWorld, requests_are_refused_by_name) {
   EXPECT_EQ(refusal_name(world.ask(RemoveJointRequest{hinge})), "joint_missing");
 }
 
+TEST(JointWorld, a_joint_that_would_drag_its_bodies_together_is_refused) {
+  JointWorld world(rock_world());
+  const PieceId a = world.add_post({0.0F, 5.0F, 0.0F}), b = world.add(crate(), {6.0F, 5.0F, 0.0F});
+  const auto moved = [&](JointKind kind, glm::vec3 off_m) {
+    Joint joint = joint_at(kind, world.frame(a), world.frame(b), {3.0F, 5.0F, 0.0F}, {0, 0, 1});
+    joint.b.place_m += off_m;
+    return joint;
+  };
+  const float most_m = limits::joint_gap_max_m;
+  for (const JointKind kind : {JointKind::fixed, JointKind::hinge, JointKind::ball}) {
+    EXPECT_EQ(refusal_of_joint(world, moved(kind, {1.1F * most_m, 0, 0})), "joint_apart") << name_of(kind);
+    EXPECT_EQ(refusal_of_joint(world, moved(kind, {0.8F * most_m, 0, 0})), "") << name_of(kind);
+  }
+  EXPECT_EQ(refusal_of_joint(world, moved(JointKind::slider, {0, 0, 5})), "") << "along its way";
+  EXPECT_EQ(refusal_of_joint(world, moved(JointKind::slider, {0, 1.2F, 0})), "joint_apart") << "beside it";
+  Joint slider = moved(JointKind::slider, {0, 0, 5});
+  slider.limits = JointLimits{-1.0F, 2.0F};
+  EXPECT_EQ(refusal_of_joint(world, slider), "joint_apart") << "beyond its end";
+  Joint line =
+      line_between(JointKind::rope, world.frame(a), world.place_m(a), world.frame(b), world.place_m(b));
+  line.length_m = 4.5F;
+  EXPECT_EQ(refusal_of_joint(world, line), "joint_apart") << "a rope that is too short";
+  line.length_m = 100.0F;
+  EXPECT_EQ(refusal_of_joint(world, line), "");
+  line.kind = JointKind::distance;
+  EXPECT_EQ(refusal_of_joint(world, line), "joint_apart");
+}
+
 TEST(JointWorld, no_more_joints_than_the_setting_allows) {
   WorldConfig config = rock_world();
   config.joints_max = 2;

@@ -19,6 +19,8 @@ void expect_goes_on(World& world) {
   auto restored = World::restore(*value);
   ASSERT_TRUE(restored.has_value()) << restored.error().message;
   EXPECT_EQ(encode((*restored)->snapshot()), bytes);
+  world.renew();
+  EXPECT_EQ((*restored)->step({})->state_hash, world.step({})->state_hash);
 }
 
 TEST(OddValues, negative_zeros_and_lengths_that_a_hull_has_not_are_saved_as_they_count) {
@@ -37,6 +39,44 @@ TEST(OddValues, negative_zeros_and_lengths_that_a_hull_has_not_are_saved_as_they
   rope.b = {0, {-0.0F, -2.0F, -0.0F}, {1.0F, -0.0F, 0.0F, -0.0F}};
   rope.length_m = 20.0F;
   EXPECT_EQ(world.ask(AddJointRequest{rope}).refusal, "");
+  expect_goes_on(world.world());
+}
+
+TEST(OddValues, what_is_no_number_is_refused_wherever_it_stands) {
+  PropWorld world(rock_world());
+  const float nan = std::nanf("");
+  for (int axis = 0; axis < 3; ++axis) {
+    AddPropRequest add{crate(), {0.0F, 5.0F, 0.0F}};
+    add.place_m[axis] = nan;
+    EXPECT_NE(world.ask(add).refusal, "") << axis;
+    BlastRequest blast{{0.0F, 5.0F, 0.0F}};
+    blast.centre_m[axis] = nan;
+    EXPECT_NE(world.ask(blast).refusal, "") << axis;
+    for (const PropPartKind kind : all_kinds<PropPartKind>) {
+      AddPropRequest odd{prop_of({.kind = kind}, 10.0F), {0.0F, 5.0F, 0.0F}};
+      if (kind == PropPartKind::hull)
+        odd.prop.parts[0].corners_m = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+      odd.prop.parts[0].half_m[axis] = nan;
+      EXPECT_NE(world.ask(odd).refusal, "") << name_of(kind) << ' ' << axis;
+    }
+  }
+  const PieceId body = world.add(crate(), {0.0F, 5.0F, 0.0F});
+  EXPECT_NE(world.ask(MovePropRequest{body, glm::vec3(0.0F, 0.0F, nan)}).refusal, "");
+  EXPECT_NE(world.ask(MovePropRequest{body, glm::vec3(nan, 0.0F, 0.0F)}).refusal, "");
+  expect_goes_on(world.world());
+}
+
+TEST(OddValues, rubble_poured_within_rock_takes_mass_away_and_the_ledger_says_it) {
+  PropWorld world(rock_world());
+  bool takes = false;
+  for (size_t row = 0; row < world.world().config().palette->rows.size(); ++row)
+    for (const float depth_m : {3.1F, 3.3F, 6.0F}) {
+      const float x_m = 9.0F * static_cast<float>(row);
+      const FillRequest fill{sphere({x_m, -depth_m, 0.2F}, 3.26F), static_cast<Material>(row)};
+      EXPECT_EQ(world.ask(fill).refusal, "") << row;
+      takes = takes || world.last().ledger.poured < 0;
+    }
+  EXPECT_TRUE(takes);
   expect_goes_on(world.world());
 }
 

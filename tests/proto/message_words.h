@@ -146,6 +146,9 @@ inline Lines describe(const RepairMessage& m) {
 inline Lines describe(const AckMessage& m) {
   return {fmt::format("ack: tick {}", m.tick)};
 }
+inline std::string words(const std::optional<PlacesWithin>& box) {
+  return box ? fmt::format("{} to {}", words(box->lo_m), words(box->hi_m)) : "everywhere";
+}
 inline Lines words(const AdminRequest& act) {
   return std::visit(
       Overloaded{[](const SettingsRequest& request) {
@@ -163,6 +166,14 @@ inline Lines words(const AdminRequest& act) {
                                             ban.session, ban.address, ban.minutes, ban.reason)};
                  },
                  [](const ListBansRequest&) { return Lines{"list bans"}; },
+                 [](const ListBodiesRequest& list) {
+                   return Lines{
+                       fmt::format("list bodies: {}, ids {}", words(list.within),
+                                   list.ids.empty() ? "all" : fmt::format("{}", fmt::join(list.ids, " ")))};
+                 },
+                 [](const ListJointsRequest& list) {
+                   return Lines{fmt::format("list joints: {}", words(list.within))};
+                 },
                  [](const ControlReplayRequest& control) {
                    return Lines{fmt::format("control replay: {}, speed {}, {} {}", name_of(control.play),
                                             control.speed, name_of(control.move), control.value)};
@@ -378,17 +389,4 @@ inline Lines describe(const GroundMessage& m) {
   EXPECT_EQ(m.hash, sum);
   return lines;
 }
-inline Lines describe(const AdminListMessage& m) {
-  Lines lines{fmt::format("admin list: request {}", m.request)};
-  for (const SessionRow& row : m.sessions) {
-    lines.push_back(fmt::format("session: {}, name '{}', program '{}', address '{}', role {}", row.session,
-                                row.name, row.program, row.address, name_of(row.role)));
-    lines.push_back(fmt::format("token 0x{:016x}, joined {} s ago, sent {} bytes, encrypted: {}",
-                                row.token_id, row.joined_s, row.sent_bytes, row.encrypted));
-  }
-  for (const BanRow& row : m.bans)
-    lines.push_back(fmt::format("ban: '{}', {} s left, reason '{}'", row.address, row.left_s, row.reason));
-  return lines;
-}
-
 }  // namespace scree

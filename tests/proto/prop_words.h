@@ -110,14 +110,42 @@ inline Lines describe(const SetMotorMessage& m) {
   return {fmt::format("set motor: request {}, joint {}, {} by {} at most", m.request, m.joint, m.motor.speed,
                       m.motor.greatest)};
 }
+inline Lines words(const KnownJoint& one) {
+  Lines lines{fmt::format("joint {}: {}", one.id, name_of(one.joint.kind))};
+  append(lines, words(one.joint));
+  return lines;
+}
 inline Lines describe(const JointsMessage& m) {
   Lines lines;
-  for (const KnownJoint& one : m.here) {
-    lines.push_back(fmt::format("joint {}: {}", one.id, name_of(one.joint.kind)));
-    append(lines, words(one.joint));
-  }
+  for (const KnownJoint& one : m.here) append(lines, words(one));
   for (const EndedJoint& one : m.gone)
     lines.push_back(fmt::format("joint {} is gone: {}", one.id, name_of(one.why)));
+  return lines;
+}
+
+inline Lines describe(const KeptPiecesMessage& m) {
+  return {fmt::format("kept pieces: {}", fmt::join(m.kept, " ")),
+          fmt::format("released: {}", fmt::join(m.released, " "))};
+}
+inline Lines describe(const AdminListMessage& m) {
+  Lines lines{fmt::format("admin list: request {}", m.request)};
+  for (const SessionRow& row : m.sessions) {
+    lines.push_back(fmt::format("session: {}, name '{}', program '{}', address '{}', role {}", row.session,
+                                row.name, row.program, row.address, name_of(row.role)));
+    lines.push_back(fmt::format("token 0x{:016x}, joined {} s ago, sent {} bytes, encrypted: {}",
+                                row.token_id, row.joined_s, row.sent_bytes, row.encrypted));
+  }
+  for (const BanRow& row : m.bans)
+    lines.push_back(fmt::format("ban: '{}', {} s left, reason '{}'", row.address, row.left_s, row.reason));
+  for (const BodyRow& row : m.bodies) {
+    lines.push_back(fmt::format("body {}: {}{}, ({}, {}, {}), rotation 0x{:08x}", row.id,
+                                row.kept ? "kept " : "",
+                                row.is_prop ? std::string(name_of(row.motion)) + " prop" : "piece",
+                                row.pose.x, row.pose.y, row.pose.z, row.pose.rotation));
+    lines.push_back(fmt::format("velocity {}, {} kg, tag {}", words(row.velocity_m_s), row.mass_kg, row.tag));
+  }
+  for (const KnownJoint& one : m.joints) append(lines, words(one));
+  if (m.left_out > 0) lines.push_back(fmt::format("{} more are left out", m.left_out));
   return lines;
 }
 

@@ -21,6 +21,7 @@
 #include "server/publish/limits.h"
 #include "shared/operation/added_piece_limits.h"
 #include "shared/operation/limits.h"
+#include "shared/prop/limits.h"
 #include "tests/proto/message_words.h"
 #include "tests/proto/prop_words.h"
 #include "tests/proto/query_words.h"
@@ -133,7 +134,7 @@ TEST(ProtocolDocument, every_kind_of_message_and_act_has_an_example) {
   EXPECT_EQ(acts.size(), std::variant_size_v<AdminRequest>);
 }
 
-/// Limits of tiles, content and questions that the document's table names.
+/// Limits of tiles, content, questions and bodies that the document's table names.
 std::map<std::string, double> stated_limits_of_streams() {
   return {{"tiles_wanted_max", limits::tiles_wanted_max},
           {"tiles_held_max", limits::tiles_held_max},
@@ -153,6 +154,9 @@ std::map<std::string, double> stated_limits_of_streams() {
           {"query_wait_s", limits::query_wait_s},
           {"query_steps_per_tick", limits::query_steps_per_tick},
           {"query_bytes_per_tick", limits::query_bytes_per_tick},
+          {"joint_gap_max_m", limits::joint_gap_max_m},
+          {"kept_pieces_max", limits::kept_pieces_max},
+          {"bodies_named_max", limits::bodies_named_max},
           {"tile_bytes_per_tick_all", limits::tile_bytes_per_tick_all}};
 }
 

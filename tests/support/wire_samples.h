@@ -208,6 +208,16 @@ inline AnswerMessage answer() {
   return {27, 1ULL << 40U, answers};
 }
 
+inline AdminListMessage body_list() {
+  return {4,
+          {},
+          {},
+          {{31, false, PropMotion::dynamic, true, {1, -2, 3, 4}, {0.5F, -9.0F, 0.0F}, 1234.5F},
+           {32, true, PropMotion::kinematic, false, {}, {}, 200.0F, 1ULL << 63U}},
+          {{33, joint()}},
+          7};
+}
+
 inline std::vector<ServerMessage> server_messages() {
   WelcomeMessage welcome;
   welcome.session = 0x1234567890ABCDEFULL;
@@ -274,6 +284,8 @@ inline std::vector<ServerMessage> server_messages() {
           3,
           {{7, "Ann", "scree-viewer", "127.0.0.1", Role::builder, 1ULL << 63U, 60, 1ULL << 40U, true}},
           {{"10.0.0.1", 90, "too loud"}}},
+      body_list(),
+      KeptPiecesMessage{{31, 34}, {2}},
       UnknownMessage{}};
 }
 
@@ -325,6 +337,9 @@ inline std::vector<ClientMessage> client_messages() {
           AdminMessage{10, "", KickRequest{77, "too loud"}},
           AdminMessage{11, "", BanRequest{0, "2001:db8::1", 90, "no reason"}},
           AdminMessage{12, "", ListBansRequest{}},
+          AdminMessage{15, "", ListBodiesRequest{{{{-1.0F, -2.0F, -3.0F}, {4.0F, 5.0F, 6.0F}}}, {31, 32}}},
+          AdminMessage{16, "", ListBodiesRequest{}},
+          AdminMessage{17, "", ListJointsRequest{{{{-1.0F, 0.0F, 0.0F}, {0.0F, 0.0F, 0.0F}}}}},
           AdminMessage{13, "", LiftBanRequest{"2001:db8::/64"}},
           AdminMessage{14, "", ControlReplayRequest{ReplayPlay::pause, -16.0F, ReplayMove::by_ticks, -7}},
           CursorMessage{{1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, -6.0F}},

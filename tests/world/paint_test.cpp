@@ -151,7 +151,7 @@ TEST(paint, what_cannot_be_painted_is_refused_by_name_and_changes_nothing) {
     return delta->replies.front().refusal;
   };
   EXPECT_NE(refusal(static_cast<Material>(materials_max), patch).find("material"), std::string::npos);
-  EXPECT_NE(refusal(material::ice, sphere({}, 9.0F)).find("edit_reach_max_m"), std::string::npos);
+  EXPECT_NE(refusal(material::ice, sphere({}, 9.0F)).find("may be at most 8 m"), std::string::npos);
   EXPECT_NE(refusal(material::ice, sphere({}, -1.0F)).find("negative"), std::string::npos);
   EXPECT_NE(refusal(material::ice, sphere({1e6F, 0, 0}, 1.0F)).find("outside the world"), std::string::npos);
 }

@@ -110,8 +110,8 @@ TEST(world, requests_that_cannot_be_carried_out_are_answered_by_name_and_change_
   const CarveRequest good = blow_at(world.config().terrain, 12.0F, 0.0F, 1.5F, 8, 1);
   for (const auto& [radius, word] :
        {std::pair{nan, "not a finite"}, std::pair{infinite, "not a finite"}, std::pair{-2.0F, "negative"},
-        std::pair{0.0F, "zero"}, std::pair{100.0F, "edit_reach_max_m"},
-        std::pair{1e-3F, "edit_reach_min_m"}}) {
+        std::pair{0.0F, "zero"}, std::pair{100.0F, "may be at most 8 m"},
+        std::pair{1e-3F, "must be at least 0.125 m"}}) {
     CarveRequest bad = good;
     bad.shape.radius_m = radius;
     refused(bad, word);
@@ -121,10 +121,10 @@ TEST(world, requests_that_cannot_be_carried_out_are_answered_by_name_and_change_
   refused(far, "outside the world");
   CarveRequest fast = good;
   fast.blast_speed_m_s = nan;
-  refused(fast, "blast_speed_max_m_s");
+  refused(fast, "from 0 to 30 m/s");
   CarveRequest many = good;
   many.seeds = 100000;
-  refused(many, "seeds_max");
+  refused(many, "seeds are over the limit");
 }
 
 TEST(world, carves_beyond_the_most_pieces_are_refused_until_some_have_settled) {

@@ -1,5 +1,6 @@
-// scree-admin: shows the status of a running server, shows and changes its settings, and manages its
-// sessions. Exit status: 0 success, 1 failure or refusal, 2 wrong usage.
+// scree-admin: shows the status of a running server, shows and changes its settings, manages its sessions,
+// and lists, asks about and changes the bodies of its world. Exit status: 0 success, 1 failure or refusal, 2
+// wrong usage.
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
@@ -9,7 +10,7 @@
 #include <optional>
 
 #include "client/admin/admin.h"
-#include "client/admin/programs/prop_commands.h"
+#include "client/admin/programs/world_commands.h"
 #include "client/connection/endpoint_options.h"
 #include "proto/limits.h"
 #include "shared/base/near_name.h"
@@ -36,7 +37,6 @@ struct Options {
   std::optional<int64_t> steps;
   std::optional<double> time_s;
   bool next_event = false, previous_event = false;
-  scree::PropWords prop;
 };
 
 int complain(const scree::Error& error, int code) {
@@ -298,12 +298,11 @@ std::vector<std::pair<const CLI::App*, Run>> add_commands(CLI::App& app, Options
           {unban, [](const Options& o) { return told(scree::lift_ban(o.server, {o.whom})); }}};
 }
 
-int ask_about_props(const scree::PropCommands& commands, const Options& options) {
-  const auto request = scree::request_of(commands, options.prop, options.server);
-  if (!request) return complain(request.error(), exit_usage);
-  const auto reply = scree::ask_world(options.server, *request);
-  if (!reply) return complain(reply.error(), exit_failed);
-  std::fputs(scree::answer_text(*reply, options.json).c_str(), stdout);
+int run_on_world(const scree::WorldCommand& command, const Options& options) {
+  const scree::Printed printed = command.run(options.server, options.json);
+  if (!printed)
+    return complain({printed.error().message}, printed.error().misused ? exit_usage : exit_failed);
+  std::fputs(printed->c_str(), stdout);
   return 0;
 }
 
@@ -311,8 +310,10 @@ int ask_about_props(const scree::PropCommands& commands, const Options& options)
 
 int main(int argc, char** argv) {
   Options options;
-  CLI::App app("Shows the state of a running server, changes its settings, and manages its sessions.",
-               "scree-admin");
+  CLI::App app(
+      "Shows the state of a running server, changes its settings and its world, and manages its "
+      "sessions.",
+      "scree-admin");
   app.set_version_flag("--version", SCREE_VERSION);
   app.require_subcommand(0, 1);  // a mistyped one would pass as none
   scree::name_unknown_words<CLI::ExtrasError>(app);
@@ -323,7 +324,11 @@ int main(int argc, char** argv) {
   app.add_flag("--json", options.json, "prints JSON");
   app.fallthrough();
   const auto commands = add_commands(app, options);
-  const scree::PropCommands of_props = scree::add_prop_commands(app, options.prop);
+  scree::WorldCommands of_world;
+  scree::add_list_commands(app, of_world);
+  scree::add_prop_commands(app, of_world);
+  scree::add_joint_commands(app, of_world);
+  scree::add_ask_commands(app, of_world);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");
@@ -338,5 +343,7 @@ int main(int argc, char** argv) {
   options.server.within = std::chrono::milliseconds(static_cast<int64_t>(options.timeout_s * 1000.0));
   for (const auto& [command, run] : commands)
     if (command->parsed()) return run(options);
-  return ask_about_props(of_props, options);
+  for (const scree::WorldCommand& command : of_world)
+    if (command.command->parsed()) return run_on_world(command, options);
+  return exit_usage;
 }

@@ -1,10 +1,9 @@
-#include "client/admin/programs/prop_commands.h"
-
+// add-prop, move-prop, remove-prop, push, break, blast, cut-out, carve-piece and release.
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
+#include <memory>
 
+#include "client/admin/programs/world_commands.h"
 #include "crypto/sha256.h"
-#include "shared/base/option_check.h"
 #include "shared/base/regular_file.h"
 #include "shared/prop/model_mesh.h"
 
@@ -12,9 +11,19 @@ namespace scree {
 
 namespace {
 
-glm::vec3 vector_of(const std::array<float, 3>& numbers) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
+/// What these were told. Metres, kilograms, seconds.
+struct PropWords {
+  std::string shape;
+  std::vector<float> size_m;
+  Place at_m{}, velocity_m_s{}, spin_rad_s{}, impulse_n_s{};
+  float mass_kg = 0.0F, energy_j = 4.2e6F;
+  std::string motion = "dynamic", material, model;
+  uint64_t tag = 0;
+  PieceId id = 0;
+  std::vector<float> half_m;  ///< of a box; else a ball of this radius
+  float radius_m = 1.0F;
+  uint32_t seeds = 8;
+};
 
 /// The size of a part as people say it: a box by its sides, others by diameter and length.
 Result<PropPart> part_of(const PropWords& words) {
@@ -66,17 +75,26 @@ Result<Digest> model_named(const std::string& model) {
   return sha256({reinterpret_cast<const uint8_t*>(read->data()), read->size()});
 }
 
-Result<Request> addition_of(const PropWords& words, const AdminServer& server) {
+/// Asks the server for its materials where one was named.
+Made addition_of(const PropWords& words, const AdminServer& server) {
   AddPropRequest add;
-  add.prop.parts = {TRY(part_of(words))};
+  const auto part = part_of(words);
+  if (!part) return misused(part.error());
+  add.prop.parts = {*part};
   add.prop.mass_kg = words.mass_kg;
   add.prop.tag = words.tag;
   add.prop.motion = kind_named<PropMotion>(words.motion).value_or(PropMotion::dynamic);
   if (!words.material.empty()) {
     const auto palette = TRY(read_materials(server));
-    add.prop.material = TRY(material_named(palette, words.material));
+    const auto material = material_named(palette, words.material);
+    if (!material) return misused(material.error());
+    add.prop.material = *material;
   }
-  if (!words.model.empty()) add.prop.model = TRY(model_named(words.model));
+  if (!words.model.empty()) {
+    const auto model = model_named(words.model);
+    if (!model) return misused(model.error());
+    add.prop.model = *model;
+  }
   add.place_m = vector_of(words.at_m);
   add.velocity_m_s = vector_of(words.velocity_m_s);
   add.spin_rad_s = vector_of(words.spin_rad_s);
@@ -97,99 +115,130 @@ CarveRequest piece_carve_of(const PropWords& words) {
   return carve;
 }
 
-CLI::Option* add_vector(CLI::App* command, const char* name, std::array<float, 3>& to, const char* what) {
-  return command->add_option(name, to, what);
+MovePropRequest move_of(const PropWords& words, const CLI::App& command) {
+  MovePropRequest move{words.id};
+  if (command.count("--at") > 0) move.place_m = vector_of(words.at_m);
+  if (command.count("--velocity") > 0) move.velocity_m_s = vector_of(words.velocity_m_s);
+  if (command.count("--spin") > 0) move.spin_rad_s = vector_of(words.spin_rad_s);
+  return move;
 }
 
-/// The subcommands about pieces.
-void add_piece_commands(CLI::App& app, PropWords& words, PropCommands& commands) {
-  commands.cut_out =
-      app.add_subcommand("cut-out", "makes terrain a body that stays one until it is released");
-  commands.carve_piece = app.add_subcommand("carve-piece", "carves a shape out of a piece where it is");
-  commands.release = app.add_subcommand("release", "lets a body that was cut out become terrain again");
-  for (CLI::App* command : {commands.carve_piece, commands.release})
-    command->add_option("ID", words.id, "the id of the piece")->required();
-  for (CLI::App* command : {commands.cut_out, commands.carve_piece}) {
-    add_vector(command, "--at", words.at_m, "X Y Z of the shape's middle, metres")->required();
+class PropTable {
+ public:
+  PropTable(CLI::App& app, WorldCommands& table) : app_(app), table_(table) {}
+
+  /// Adds a subcommand. `make(words, command, server)`: its request.
+  template <typename Make>
+  CLI::App* add(const char* name, const char* what, Make make) {
+    CLI::App* const command = app_.add_subcommand(name, what);
+    table_.push_back({command, [make, command, words = words_](const AdminServer& server, bool as_json) {
+                        return run_request(server, Made(make(*words, *command, server)), as_json);
+                      }});
+    return command;
+  }
+  /// One whose request its words say.
+  template <typename Make>
+  CLI::App* add_plain(const char* name, const char* what, Make make) {
+    return add(name, what, [make](const PropWords& words, const CLI::App&, const AdminServer&) {
+      return Request(make(words));
+    });
+  }
+  PropWords& words() { return *words_; }
+
+ private:
+  CLI::App& app_;
+  WorldCommands& table_;
+  std::shared_ptr<PropWords> words_ = std::make_shared<PropWords>();
+};
+
+void add_addition(PropTable& table) {
+  PropWords& words = table.words();
+  CLI::App* const add = table.add("add-prop", "adds a body of a game, and prints its id",
+                                  [](const PropWords& said, const CLI::App&, const AdminServer& server) {
+                                    return addition_of(said, server);
+                                  });
+  add->add_option("SHAPE", words.shape, "box, sphere, cylinder or capsule; the last two stand upright")
+      ->required();
+  add->add_option("SIZE", words.size_m,
+                  "metres: a box has three sides, a sphere its diameter, the others diameter and length")
+      ->required()
+      ->expected(1, 3);
+  add_place(add, "--at", words.at_m, "X Y Z of its middle, metres")->required();
+  add->add_option("--mass", words.mass_kg, "kilograms; 0: by the density of its material")
+      ->capture_default_str();
+  add->add_option("--material", words.material, "the material by which it is drawn and weighs");
+  add->add_option("--model", words.model,
+                  "the model that shows it, which the server must have (--models): its file (.glb), or the "
+                  "SHA-256 of that");
+  add->add_option("--motion", words.motion, "dynamic, kinematic or fixed")
+      ->check(CLI::IsMember(std::vector<std::string>{"dynamic", "kinematic", "fixed"}))
+      ->capture_default_str();
+  add->add_option("--tag", words.tag, "a number of your own");
+  CLI::App* const move = table.add("move-prop", "puts a prop elsewhere, or changes its speed",
+                                   [](const PropWords& said, const CLI::App& command, const AdminServer&) {
+                                     return Request(move_of(said, command));
+                                   });
+  add_id(move, "ID", words.id, "the id that add-prop printed")->required();
+  add_place(move, "--at", words.at_m, "X Y Z, metres");
+  for (CLI::App* command : {add, move}) {
+    add_place(command, "--velocity", words.velocity_m_s, "metres a second along X Y Z");
+    add_place(command, "--spin", words.spin_rad_s, "radians a second about X Y Z");
+  }
+}
+
+void add_blows(PropTable& table) {
+  PropWords& words = table.words();
+  CLI::App* const remove = table.add_plain("remove-prop", "takes a prop out of the world",
+                                           [](const PropWords& w) { return RemovePropRequest{w.id}; });
+  CLI::App* const push =
+      table.add_plain("push", "gives a prop or a piece an impulse", [](const PropWords& w) {
+        return PushRequest{w.id, vector_of(w.impulse_n_s), vector_of(w.at_m)};
+      });
+  CLI::App* const broken = table.add_plain("break", "breaks a piece where it is", [](const PropWords& w) {
+    return BreakRequest{w.id, vector_of(w.at_m), w.seeds, 1};
+  });
+  CLI::App* const blast = table.add_plain(
+      "blast", "sets energy free at a place: rock breaks, bodies are thrown", [](const PropWords& w) {
+        return BlastRequest{vector_of(w.at_m), w.energy_j, 1};
+      });
+  for (CLI::App* command : {remove, push, broken})
+    add_id(command, "ID", words.id, "an id, as list-bodies prints it")->required();
+  add_place(push, "--impulse", words.impulse_n_s, "newton seconds along X Y Z")->required();
+  for (CLI::App* command : {push, broken})
+    add_place(command, "--at", words.at_m, "X Y Z of a place of the body, metres")->required();
+  broken->add_option("--seeds", words.seeds, "into how many pieces it breaks")->capture_default_str();
+  add_place(blast, "--at", words.at_m, "X Y Z, metres")->required();
+  blast->add_option("--energy", words.energy_j, "joules; a kilogram of TNT has 4.2e6")->capture_default_str();
+}
+
+void add_piece_commands(PropTable& table) {
+  PropWords& words = table.words();
+  CLI::App* const cut_out =
+      table.add_plain("cut-out", "makes terrain a body that stays one until it is released",
+                      [](const PropWords& w) { return CutOutRequest{shape_of(w)}; });
+  CLI::App* const carve =
+      table.add_plain("carve-piece", "carves a shape out of a piece where it is", piece_carve_of);
+  CLI::App* const release = table.add_plain("release", "lets a body that was cut out become terrain again",
+                                            [](const PropWords& w) { return ReleaseRequest{w.id}; });
+  for (CLI::App* command : {carve, release})
+    add_id(command, "ID", words.id, "the id of the piece")->required();
+  for (CLI::App* command : {cut_out, carve}) {
+    add_place(command, "--at", words.at_m, "X Y Z of the shape's middle, metres")->required();
     command->add_option("--radius", words.radius_m, "the radius of a ball, metres")->capture_default_str();
     command->add_option("--half", words.half_m, "X Y Z: half the sides of a box instead, metres")
+        ->delimiter(',')
         ->expected(3);
   }
-  commands.carve_piece->add_option("--seeds", words.seeds, "into how many pieces the shape breaks")
-      ->capture_default_str();
+  carve->add_option("--seeds", words.seeds, "into how many pieces the shape breaks")->capture_default_str();
 }
 
 }  // namespace
 
-PropCommands add_prop_commands(CLI::App& app, PropWords& words) {
-  PropCommands commands;
-  commands.add = app.add_subcommand("add-prop", "adds a body of a game, and prints its id");
-  commands.add
-      ->add_option("SHAPE", words.shape, "box, sphere, cylinder or capsule; the last two stand upright")
-      ->required();
-  commands.add
-      ->add_option("SIZE", words.size_m,
-                   "metres: a box has three sides, a sphere its diameter, the others diameter and length")
-      ->required()
-      ->expected(1, 3);
-  add_vector(commands.add, "--at", words.at_m, "X Y Z of its middle, metres")->required();
-  commands.add->add_option("--mass", words.mass_kg, "kilograms; 0: by the density of its material")
-      ->capture_default_str();
-  commands.add->add_option("--material", words.material, "the material by which it is drawn and weighs");
-  commands.add->add_option(
-      "--model", words.model,
-      "the model that shows it, which the server must have (--models): its file (.glb), or "
-      "the SHA-256 of that");
-  commands.add->add_option("--motion", words.motion, "dynamic, kinematic or fixed")
-      ->check(CLI::IsMember(std::vector<std::string>{"dynamic", "kinematic", "fixed"}))
-      ->capture_default_str();
-  commands.add->add_option("--tag", words.tag, "a number of your own");
-  commands.move = app.add_subcommand("move-prop", "puts a prop elsewhere, or changes its speed");
-  commands.push = app.add_subcommand("push", "gives a prop or a piece an impulse");
-  commands.remove = app.add_subcommand("remove-prop", "takes a prop out of the world");
-  for (CLI::App* command : {commands.move, commands.push, commands.remove})
-    command->add_option("ID", words.id, "the id that add-prop printed")->required();
-  add_vector(commands.move, "--at", words.at_m, "X Y Z, metres");
-  for (CLI::App* command : {commands.add, commands.move}) {
-    add_vector(command, "--velocity", words.velocity_m_s, "metres a second along X Y Z");
-    add_vector(command, "--spin", words.spin_rad_s, "radians a second about X Y Z");
-  }
-  add_vector(commands.push, "--impulse", words.impulse_n_s, "newton seconds along X Y Z")->required();
-  add_vector(commands.push, "--at", words.at_m, "X Y Z of a place of the body, metres")->required();
-  commands.blast = app.add_subcommand("blast", "sets energy free at a place: rock breaks, bodies are thrown");
-  add_vector(commands.blast, "--at", words.at_m, "X Y Z, metres")->required();
-  commands.blast->add_option("--energy", words.energy_j, "joules; a kilogram of TNT has 4.2e6")
-      ->capture_default_str();
-  add_piece_commands(app, words, commands);
-  return commands;
-}
-
-Result<Request> request_of(const PropCommands& commands, const PropWords& words, const AdminServer& server) {
-  if (commands.add->parsed()) return addition_of(words, server);
-  if (commands.push->parsed())
-    return PushRequest{words.id, vector_of(words.impulse_n_s), vector_of(words.at_m)};
-  if (commands.remove->parsed()) return RemovePropRequest{words.id};
-  if (commands.blast->parsed()) return BlastRequest{vector_of(words.at_m), words.energy_j, 1};
-  if (commands.cut_out->parsed()) return CutOutRequest{shape_of(words)};
-  if (commands.carve_piece->parsed()) return piece_carve_of(words);
-  if (commands.release->parsed()) return ReleaseRequest{words.id};
-  MovePropRequest move{words.id};
-  if (commands.move->count("--at") > 0) move.place_m = vector_of(words.at_m);
-  if (commands.move->count("--velocity") > 0) move.velocity_m_s = vector_of(words.velocity_m_s);
-  if (commands.move->count("--spin") > 0) move.spin_rad_s = vector_of(words.spin_rad_s);
-  return move;
-}
-
-std::string answer_text(const ReplyMessage& reply, bool as_json) {
-  if (as_json) {
-    nlohmann::ordered_json json{{"tick", reply.tick}, {"pieces", reply.pieces}};
-    if (reply.prop) json["prop"] = *reply.prop;
-    return json.dump(2) + "\n";
-  }
-  if (reply.prop && reply.pieces > 0)
-    return fmt::format("piece {} is kept, the first of {}\n", *reply.prop, reply.pieces);
-  if (reply.prop) return fmt::format("prop {} is added\n", *reply.prop);
-  return reply.pieces > 0 ? fmt::format("done, {} pieces\n", reply.pieces) : "done\n";
+void add_prop_commands(CLI::App& app, WorldCommands& table) {
+  PropTable props(app, table);
+  add_addition(props);
+  add_blows(props);
+  add_piece_commands(props);
 }
 
 }  // namespace scree

@@ -46,6 +46,7 @@ HudFacts FactFinder::find(Visit& visit, double now_s) {
     facts.voxel_size_m = mirror->terrain().voxel_size_m;
     facts.pieces_near = mirror->pieces().size();
     facts.props_near = mirror->props().size();
+    facts.kept_near = mirror->kept().size();
     facts.status = mirror->status();
     facts.mismatches = mirror->mismatches();
   }

@@ -32,6 +32,7 @@ struct HudFacts {
   float voxel_size_m = 1.0F;
   size_t pieces_near = 0;  ///< that the server shows to this viewer
   size_t props_near = 0;   ///< likewise
+  size_t kept_near = 0;    ///< pieces of these that never become terrain
   std::optional<Preparing> preparing;
   std::optional<StatusMessage> status;  ///< the server's last
   double bytes_per_s = 0.0;

@@ -158,6 +158,7 @@ void Hud::figures(const HudFacts& facts, bool all) {
   if (facts.mismatches > 0) ImGui::Text("%" PRIu64 " frames differed", facts.mismatches);
   if (facts.status) show_pieces(*facts.status);
   if (facts.props_near > 0) ImGui::Text("props: %zu here", facts.props_near);
+  if (facts.kept_near > 0) ImGui::Text("kept pieces: %zu here", facts.kept_near);
   if (all) show_all(facts);
   panels_.end();
 }

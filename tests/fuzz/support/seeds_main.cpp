@@ -33,6 +33,8 @@ using Bytes = std::vector<uint8_t>;
 const TerrainSource terrain{TerrainKind::flat, 1, 1.0F};
 constexpr size_t seed_bytes_max = 4096;  // as of tools/scripts/fuzz.sh
 constexpr int session_ticks = 150;
+constexpr uint64_t body_seeds = 8;
+constexpr int body_seed_bytes = 400;
 
 /// The other way round than FuzzInput.
 class Seed {
@@ -254,6 +256,16 @@ void write_saved_values(Corpora& corpora) {
   add(6, (*ground)->packed((*ground)->layout().top()));
 }
 
+/// Any bytes are a world with bodies.
+void write_bodies(Corpora& corpora) {
+  for (uint64_t seed = 1; seed <= body_seeds; ++seed) {
+    Random random(seed);
+    Seed bytes;
+    for (int i = 0; i < body_seed_bytes; ++i) bytes.byte(static_cast<uint8_t>(random.below(256)));
+    corpora.add("bodies", bytes.bytes);
+  }
+}
+
 void write_texts(Corpora& corpora) {
   const SigningKey key = SigningKey::generate();
   const AccessToken token{77, Role::builder, 1'600'000'000, 1'700'000'000, "Ann", "canyon"};
@@ -367,6 +379,7 @@ int main(int argc, char** argv) {
   write_session(corpora);
   write_recording(corpora);
   write_saved_values(corpora);
+  write_bodies(corpora);
   write_texts(corpora);
   write_config(corpora);
   write_vox(corpora);

@@ -9,6 +9,7 @@
 #include "content/files/palette_file.h"
 #include "proto/codec.h"
 #include "shared/base/check.h"
+#include "tests/fuzz/support/any_question.h"
 #include "tests/fuzz/support/any_request.h"
 #include "tests/fuzz/support/fuzz_server.h"
 #include "tests/fuzz/support/target.h"
@@ -88,9 +89,15 @@ AdminMessage any_admin(FuzzInput& input) {
   if (input.below(4) != 0) admin.token = FuzzServer::admin_token;
   const std::string address = "10.0.0." + std::to_string(input.below(4));
   const uint64_t session = input.below(12);
-  switch (input.below(7)) {
+  switch (input.below(9)) {
     case 0:
       admin.act = ListSessionsRequest{};
+      break;
+    case 7:
+      admin.act = ListBodiesRequest{PlacesWithin{input.place(40.0F), input.place(40.0F)}, {input.byte()}};
+      break;
+    case 8:
+      admin.act = ListJointsRequest{};
       break;
     case 1:
       admin.act = KickRequest{session, input.text(limits::admin_reason_bytes_max)};
@@ -111,40 +118,6 @@ AdminMessage any_admin(FuzzInput& input) {
       admin.act = SettingsRequest{any_settings(input)};
   }
   return admin;
-}
-
-/// A direction mostly of length 1.
-glm::vec3 any_direction(FuzzInput& input) {
-  const uint32_t axis = input.below(4);
-  if (axis == 3) return input.place(1.0F);
-  glm::vec3 unit(0.0F);
-  unit[static_cast<int>(axis)] = input.flag() ? 1.0F : -1.0F;
-  return unit;
-}
-
-AskedFor any_asked(FuzzInput& input) {
-  const glm::vec3 a = any_place(input);
-  const float size_m = input.coordinate(8.0F);
-  switch (input.below(9)) {
-    case 0:
-      return SphereQuestion{a, any_direction(input), 4.0F * size_m, 0.5F};
-    case 1:
-      return CapsuleQuestion{a, any_place(input), any_direction(input), size_m, 0.5F};
-    case 2:
-      return InSphereQuestion{a, size_m};
-    case 3:
-      return InBoxQuestion{a, a + size_m};
-    case 4:
-      return NearestQuestion{a, size_m};
-    case 5:
-      return SolidQuestion{a};
-    case 6:
-      return ContentQuestion{a, a + size_m};
-    case 7:
-      return BodiesQuestion{a - size_m, a + size_m};
-    default:
-      return RayQuestion{a, any_direction(input), 8.0F * size_m};
-  }
 }
 
 QueryMessage any_query(FuzzInput& input, uint32_t number) {
