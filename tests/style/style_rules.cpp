@@ -107,7 +107,7 @@ std::vector<Layer> other_layers() {
       {"tools/film/process/", {"shared/base/"}},
       {"tools/film/",
        {"tools/film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/events/"}},
-      {"tests/", {"bench/", "studies/", "tools/film/", "cmake/"}},
+      {"tests/", {"bench/", "studies/", "tools/film/", "tools/place/", "cmake/"}},
   };
 }
 
