@@ -17,7 +17,7 @@ struct Connected {
 
 struct ConnectedVoxels {
   std::vector<Connected> all;  ///< in the order of their first voxels
-  /// Of each voxel, in the window's order: 1 + the index in `all`; 0: it is not solid.
+  /// Voxels in the window's order: 1 + the index in `all` of the one that holds it; 0: it is not solid.
   std::vector<uint32_t> labels;
 };
 

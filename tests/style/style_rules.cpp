@@ -16,9 +16,10 @@ struct Layer {
   std::vector<std::string_view> beneath;
 };
 
-/// Scenes, measurements and studies.
+/// Bodies and scenes from files, measurements and studies.
 std::vector<Layer> bench_layers() {
   return {
+      {"tools/place/", {"tools/import/", "client/admin/"}},
       {"tools/scenes/", {"server/app/", "tools/import/", "client/viewer/base/"}},
       {"bench/support/", {"tools/scenes/", "tools/film/process/", "server/", "client/", "tools/export/"}},
       {"bench/peers/", {"bench/support/"}},
@@ -110,11 +111,10 @@ std::vector<Layer> other_layers() {
       {"client/viewer/window/", {"client/viewer/viewing/"}},
       {"client/viewer/", {"client/viewer/window/"}},
       {"client/web/", {"client/viewer/viewing/"}},
-      {"tools/place/", {"tools/import/", "client/admin/"}},
       {"tools/film/process/", {"shared/base/"}},
       {"tools/film/",
        {"tools/film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/events/"}},
-      {"tests/", {"bench/", "studies/", "tools/film/", "cmake/"}},
+      {"tests/", {"bench/", "studies/", "tools/film/", "tools/place/", "cmake/"}},
   };
 }
 
