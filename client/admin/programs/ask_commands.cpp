@@ -81,7 +81,8 @@ void add_options(CLI::App* command, unsigned takes, AskWords& w) {
   if ((takes & line) != 0)
     add_place(command, "--to", w.to, "X Y Z: the capsule's other end as it begins")->required();
   if ((takes & radius) != 0)
-    command->add_option("--radius", w.radius_m, "radius of the ball or the capsule, metres")->capture_default_str();
+    command->add_option("--radius", w.radius_m, "radius of the ball or the capsule, metres")
+        ->capture_default_str();
   CLI::Option* at = nullptr;
   if ((takes & place) != 0) at = add_place(command, "--at", w.at, "X Y Z, metres");
   if ((takes & near) != 0)
