@@ -127,6 +127,13 @@ void Bodies::set_motion(PieceId id, const std::optional<Pose>& pose,
   limit_speeds(body);
 }
 
+InTerrain Bodies::look_whether_in_terrain(PieceId id) {
+  const auto found = state_->bodies.find(id);
+  CHECK(found != state_->bodies.end());
+  if (!state_->look_for_way_out(found->second)) return InTerrain::no;
+  return found->second.way_out ? InTerrain::way_out : InTerrain::no_way_out;
+}
+
 void Bodies::push(PieceId id, glm::vec3 impulse_n_s, glm::vec3 at_m) {
   State& s = *state_;
   const auto found = s.bodies.find(id);

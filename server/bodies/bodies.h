@@ -66,7 +66,13 @@ struct BodyImpact {
   /// What the contact took: the impulse's product with how fast they neared in the mean of the step. A blow
   /// that takes several steps has a part in each.
   float energy_j = 0.0F;
+  /// How fast the two places still near each other after the step: the blow goes on; not negative.
+  float still_m_s = 0.0F;
 };
+
+/// How a prop lies: `way_out`: in the terrain, from which it is pushed to a free place that is no farther
+/// than it is long; `no_way_out`: in the terrain, where it stays.
+enum class InTerrain : uint8_t { no, way_out, no_way_out };
 
 /// A body's strongest blow on terrain in the last tick.
 struct TerrainBlow {
@@ -114,6 +120,9 @@ class Bodies {
   /// The body must be present; a fixed one has no speeds. Numbers as of add().
   void set_motion(PieceId id, const std::optional<Pose>& pose, const std::optional<glm::vec3>& velocity_m_s,
                   const std::optional<glm::vec3>& spin_rad_s);
+  /// Whether a prop that contacts move lies in the terrain, which is read. The body must be present. Steps
+  /// look by themselves, too: what sinks there is pushed out at limits::undo_buried_m_s.
+  InTerrain look_whether_in_terrain(PieceId id);
   /// Gives a body an impulse at a place, and wakes it. What does not move, but for a frozen piece, stays as
   /// it is. The body must be present. It does not become faster than a body may be.
   void push(PieceId id, glm::vec3 impulse_n_s, glm::vec3 at_m);

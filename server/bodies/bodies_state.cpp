@@ -5,6 +5,7 @@
 #include <span>
 #include <utility>
 
+#include "server/bodies/free_way.h"
 #include "server/bodies/limits.h"
 #include "server/bodies/motion_checks.h"
 #include "server/bodies/sweep.h"
@@ -82,7 +83,8 @@ Bodies::State::State(Field& field, const BodiesConfig& c)
       workers(c.threads),
       dispatcher(&collision_configuration),
       dynamics(dispatcher, broadphase, collision_configuration, workers),
-      terrain(field, c.terrain_collider, dispatcher, {step_size.voxel_size_m, step_size.step_s}) {
+      terrain(field, c.terrain_collider, dispatcher, {step_size.voxel_size_m, step_size.step_s}),
+      seen(field) {
   CHECK(std::isfinite(step_size.step_s) && std::isfinite(c.gravity_m_s2));
   CHECK(c.palette != nullptr);
   broadphase.getOverlappingPairCache()->setOverlapFilterCallback(&meeting);
@@ -157,6 +159,7 @@ void Bodies::State::step() {
     for (Body* body : some) terrain.turn(*body);
   });
   run(turning);
+  look_for_ways_out();
   copying.add([this] { dynamics.find_pairs(); });
   if (std::ranges::any_of(loose, &Body::needs_copy))
     copying.add([this] {
@@ -172,8 +175,10 @@ void Bodies::State::step() {
   dynamics.solve();
   break_joints();
   keep_strongest(terrain_blows, list_terrain_blows(bodies, dispatcher, limits::struck_speed_min_m_s));
+  fast.clear();
   for (Body* body : loose)
-    if (body->awake && is_fast(*body, step_size)) sweep(*body, step_size);
+    if (body->awake && is_fast(*body, step_size)) fast.push_back(body);
+  sweep(fast, step_size, seen);
   stop_together();
   for_all(moving, [this](std::span<Body*> some) {
     for (Body* body : some) {
@@ -187,6 +192,29 @@ void Bodies::State::step() {
   if (frozen > 0) thaw_struck();
   for (auto& [id, body] : bodies)
     if (body.thawed) wake_around_thawed(body);
+}
+
+bool Bodies::State::look_for_way_out(Body& body) {
+  body.sinks = is_sunk(body, terrain.field());
+  body.looked = body.sinks;
+  body.way_out = body.sinks ? free_way(body, terrain.field()) : std::nullopt;
+  return body.sinks;
+}
+
+void Bodies::State::look_for_ways_out() {
+  size_t left = limits::free_ways_a_step;
+  for (Body* body : loose) {
+    if (!body->sinks) {
+      body->looked = false;
+      body->way_out.reset();
+      continue;
+    }
+    if (body->awake && !body->looked && left > 0) {
+      --left;
+      look_for_way_out(*body);
+    }
+    if (body->way_out) body->rigid->setDeactivationTime(0.0F);
+  }
 }
 
 void Bodies::State::wake_near(const Bounds& bounds) {
@@ -206,8 +234,11 @@ void Bodies::State::tell_changes() {
       body->roused = std::ranges::any_of(near, [&](const Bounds& b) { return meet(b, now); });
     }
   });
-  for (Body* body : all)
-    if (body->roused) wake(*body);
+  for (Body* body : all) {
+    if (!body->roused) continue;
+    body->looked = false;
+    wake(*body);
+  }
   pending.clear();
 }
 

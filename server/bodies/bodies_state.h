@@ -25,6 +25,7 @@
 #include "server/bodies/pair_dispatcher.h"
 #include "server/bodies/pending_changes.h"
 #include "server/bodies/piece_world.h"
+#include "server/bodies/seen_chunks.h"
 #include "server/bodies/terrain_body.h"
 #include "server/bodies/tick_blows.h"
 #include "shared/base/workers.h"
@@ -65,6 +66,11 @@ struct Bodies::State {
   /// Takes a body out. Its joints go on, and must end, or get it back by enter_joints().
   void take_out(PieceId id);
 
+  /// Searches the way out for props that sank into the terrain, and keeps those awake that have one.
+  void look_for_ways_out();
+  /// Whether the body lies in the terrain; searches its way out.
+  bool look_for_way_out(Body& body);
+
   // bodies_joints.cpp:
   /// Adds a joint, and wakes nothing.
   void enter_joint(JointId id, const Joint& joint);
@@ -102,9 +108,11 @@ struct Bodies::State {
   bool joints_listed = true;                       ///< as of list_joints()
   std::vector<EndedJoint> ended;                   ///< that were not told yet
   PendingChanges pending;
-  size_t frozen = 0;         ///< number of frozen bodies
-  float moved_m = 0.0F;      ///< farthest that a point of any body moved in the last step, at most
+  size_t frozen = 0;     ///< number of frozen bodies
+  float moved_m = 0.0F;  ///< farthest that a point of any body moved in the last step, at most
+  SeenChunks seen;
   std::vector<Body*> loose;  ///< scratch memory of step(): those that are not frozen
+  std::vector<Body*> fast;   ///< likewise: those that sweep() looks at
 };
 
 }  // namespace scree

@@ -49,9 +49,13 @@ struct Body {
   bool needs_copy = false;                   ///< within a step: its probe must copy the terrain first
   btVector3 speed_before{0.0F, 0.0F, 0.0F};  ///< at the step's start, of the centre of mass; as the spin
   btVector3 spin_before{0.0F, 0.0F, 0.0F};
-  btTransform last;                 ///< transform before the step: restored when the step's is not finite
-  std::optional<BodyState> frozen;  ///< the state of a frozen body
-  std::optional<Bounds> thawed;     ///< bounds at its thawing, until it has moved away from them
+  bool sinks = false;   ///< most points of a prop lay deep in the terrain when they were last compared
+  bool looked = false;  ///< for the way out of the terrain, since it sank there
+  std::optional<glm::vec3> way_out;  ///< direction to the nearest free place; nothing: there is none, or it
+                                     ///< is not known yet
+  btTransform last;                  ///< transform before the step: restored when the step's is not finite
+  std::optional<BodyState> frozen;   ///< the state of a frozen body
+  std::optional<Bounds> thawed;      ///< bounds at its thawing, until it has moved away from them
 
   /// How fast a place of it, so far from its centre of mass, moved at the step's start.
   btVector3 speed_before_at(const btVector3& arm) const { return speed_before + spin_before.cross(arm); }

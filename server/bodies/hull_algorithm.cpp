@@ -37,6 +37,10 @@ glm::vec3 way_in_step_m(const btCollisionObjectWrapper& object, float step_s) {
   return body == nullptr ? glm::vec3(0.0F) : from_bullet(body->getLinearVelocity() * step_s);
 }
 
+bool is_kinematic(const btCollisionObjectWrapper& object) {
+  return object.getCollisionObject()->isKinematicObject();
+}
+
 // Bullet's globals that this reads are constants and callbacks that nobody sets: threads may be here at once.
 void find_depth(const btConvexHullShape& a, const btTransform& at_a, const btConvexHullShape& b,
                 const btTransform& at_b, btDiscreteCollisionDetectorInterface::Result& result) {
@@ -64,6 +68,7 @@ struct HullAlgorithm::Meeting {
 
   /// Whether the middle of one could come to the other's far side in the step.
   bool is_fast() const { return closing_m > limits::unswept_share * std::min(a.thickness_m, b.thickness_m); }
+  bool is_told() const { return is_kinematic(object_a) || is_kinematic(object_b); }
   bool is_far() const {
     const glm::vec3 off = a_from_b + a.turned_m - b.turned_m;
     const float reach = a.reach_m + b.reach_m + (is_fast() ? closing_m : 0.0F) + limits::contact_slack_m;
@@ -89,7 +94,8 @@ struct HullAlgorithm::ContactSink final : btDiscreteCollisionDetectorInterface::
   btManifoldResult* result;  ///< null: there is no manifold yet
   std::vector<Contact>& first;
   float told_m;
-  bool touched = false;  ///< since it was last set to false
+  std::optional<Contact> ahead{};  ///< the nearest
+  bool touched = false;            ///< since it was last set to false
   btVector3 normal{0.0F, 0.0F, 0.0F};
 };
 
@@ -132,7 +138,8 @@ void HullAlgorithm::processCollision(const btCollisionObjectWrapper* a, const bt
   if (manifold_outdated()) update_manifold(*a, *b);
 }
 
-void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s) {
+void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s,
+                         bool in_turn) {
   const glm::vec3 a_from_b =
       from_bullet(a.getWorldTransform().getOrigin() - b.getWorldTransform().getOrigin());
   const auto &parts_a = hulls_of(a).parts(), &parts_b = hulls_of(b).parts();
@@ -140,10 +147,15 @@ void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObj
   CHECK_DEBUG(pairs > 0);
   if (of_others_.size() + 1 != pairs) of_others_.resize(pairs - 1);
   first_.clear();
-  overlaps_ = 0;
+  ahead_.reset();
   fast_touch_.reset();
   btManifoldResult result(&a, &b);
   result.setPersistentManifold(manifold_);
+  if (!in_turn && overlaps_ > 0) {
+    if (manifold_ != nullptr) result.refreshContactPoints();
+    return;
+  }
+  overlaps_ = 0;
   ContactSink taker(manifold_ == nullptr ? nullptr : &result, first_,
                     told_overlap_m(limits::undo_pieces_m_s, step_s));
   const glm::vec3 of_a_m = way_in_step_m(a, step_s), of_b_m = way_in_step_m(b, step_s);
@@ -163,6 +175,21 @@ void HullAlgorithm::find(const btCollisionObjectWrapper& a, const btCollisionObj
       taker.touched = false;
     }
   if (manifold_ != nullptr) result.refreshContactPoints();
+  ahead_ = taker.ahead;
+  if (manifold_ != nullptr && ahead_) add_ahead(a, b);
+}
+
+void HullAlgorithm::add_ahead(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+  const btVector3 on_a = ahead_->on_b + ahead_->normal_on_b * ahead_->distance_m;
+  btManifoldPoint point(a.getWorldTransform().invXform(on_a), b.getWorldTransform().invXform(ahead_->on_b),
+                        ahead_->normal_on_b, ahead_->distance_m);
+  point.m_positionWorldOnA = on_a;
+  point.m_positionWorldOnB = ahead_->on_b;
+  const btCollisionObject *of_a = a.getCollisionObject(), *of_b = b.getCollisionObject();
+  point.m_combinedFriction = btManifoldResult::calculateCombinedFriction(of_a, of_b);
+  point.m_combinedRestitution = btManifoldResult::calculateCombinedRestitution(of_a, of_b);
+  manifold_->clearManifold();
+  manifold_->addManifoldPoint(point);
 }
 
 void HullAlgorithm::update_manifold(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
@@ -173,6 +200,7 @@ void HullAlgorithm::update_manifold(const btCollisionObjectWrapper& a, const btC
     for (const Contact& contact : first_)
       result.addContactPoint(contact.normal_on_b, contact.on_b, contact.distance_m);
     result.refreshContactPoints();
+    if (ahead_) add_ahead(a, b);
   }
   if (manifold_->getNumContacts() > 0) return;
   m_dispatcher->releaseManifold(manifold_);
@@ -180,7 +208,7 @@ void HullAlgorithm::update_manifold(const btCollisionObjectWrapper& a, const btC
 }
 
 bool HullAlgorithm::meet(const Meeting& meeting, NearestCorners& nearest, ContactSink& to) {
-  if (meeting.is_fast() && stop_at_blow(meeting, nearest)) return false;
+  if (meeting.is_fast() && stop_at_blow(meeting, nearest, to)) return false;
   const CollisionHulls::Part &a = meeting.a, &b = meeting.b;
   const float margin_b = b.shape->getMargin();
   const float margins = a.shape->getMargin() + margin_b;
@@ -212,12 +240,12 @@ void HullAlgorithm::note_touch(const Meeting& meeting, const btVector3& normal) 
 
 // Conservative advancement: two that do not turn cannot meet before the planes across their distance do. They
 // turn little in a step (limits::spin_max_rad_s).
-bool HullAlgorithm::stop_at_blow(const Meeting& meeting, NearestCorners nearest) {
+bool HullAlgorithm::stop_at_blow(const Meeting& meeting, NearestCorners nearest, ContactSink& to) {
   constexpr int steps_max = 8;
   const float margins = meeting.a.shape->getMargin() + meeting.b.shape->getMargin();
   const glm::vec3 way_m = meeting.of_a_m - meeting.of_b_m;
   float share = 0.0F;
-  glm::vec3 normal(0.0F);
+  glm::vec3 normal(0.0F), on_b(0.0F);
   for (int i = 0; i < steps_max; ++i) {
     const HullDistance found =
         distance_between(meeting.a.corners, meeting.b.corners, meeting.a_from_b + way_m * share,
@@ -227,7 +255,7 @@ bool HullAlgorithm::stop_at_blow(const Meeting& meeting, NearestCorners nearest)
       if (share == 0.0F) return false;
       break;
     }
-    normal = found.normal;
+    normal = found.normal, on_b = found.on_b;
     const float gap_m = found.distance_m - margins, closing_m = -glm::dot(way_m, normal);
     if (share == 0.0F && gap_m <= limits::contact_slack_m) return false;  // they touch
     if (gap_m > closing_m * (1.0F - share)) return false;
@@ -236,6 +264,13 @@ bool HullAlgorithm::stop_at_blow(const Meeting& meeting, NearestCorners nearest)
   }
   const float of_a_m = -glm::dot(meeting.of_a_m, normal), of_b_m = glm::dot(meeting.of_b_m, normal);
   const float least_m = 0.25F * (of_a_m + of_b_m);
+  if (meeting.is_told() && (is_kinematic(meeting.object_a) ? of_a_m : of_b_m) > least_m) {
+    const float ahead_m = (of_a_m + of_b_m) * share;
+    if (to.ahead && to.ahead->distance_m <= ahead_m) return true;
+    const btVector3 at_b = meeting.object_b.getWorldTransform().getOrigin();
+    to.ahead = {to_bullet(normal), at_b + to_bullet(on_b + normal * meeting.b.shape->getMargin()), ahead_m};
+    return true;
+  }
   if (of_a_m > least_m) hulls_of(meeting.object_a).stop_at(share);
   if (of_b_m > least_m) hulls_of(meeting.object_b).stop_at(share);
   return true;

@@ -74,15 +74,17 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                         const btDispatcherInfo& info, btManifoldResult* result) override;
   /// Finds the contacts; those of a pair that has no manifold yet wait for update_manifold(). Changes this
-  /// pair alone: threads may look at different pairs at once.
-  void find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s);
+  /// pair alone: threads may look at different pairs at once. `in_turn`: whether it seeks the depths of a
+  /// pair that overlapped before; else that keeps its contacts.
+  void find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, float step_s,
+            bool in_turn = true);
   /// Pairs of parts that overlapped when find() looked: each takes as long as several that only touch.
   uint32_t overlaps() const { return overlaps_; }
   /// The one that find() found.
   const std::optional<FastTouch>& fast_touch() const { return fast_touch_; }
   /// Whether update_manifold() has anything to do.
   bool manifold_outdated() const {
-    return manifold_ == nullptr ? !first_.empty() : manifold_->getNumContacts() == 0;
+    return manifold_ == nullptr ? !first_.empty() || ahead_ : manifold_->getNumContacts() == 0;
   }
   /// Makes the manifold for the first contacts; releases the one that has none any more.
   void update_manifold(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
@@ -101,12 +103,18 @@ class HullAlgorithm final : public btCollisionAlgorithm {
   struct ContactSink;
   /// True when the two overlap by more than their margins, so that their depth had to be sought.
   static bool meet(const Meeting& meeting, NearestCorners& nearest, ContactSink& to);
-  /// Stops two that strike each other on their way, where they touch. False: they do not.
-  static bool stop_at_blow(const Meeting& meeting, NearestCorners nearest);
+  /// Stops two that strike each other on their way, where they touch. False: they do not. What moves as it
+  /// was told does not stop: that contact lies ahead.
+  static bool stop_at_blow(const Meeting& meeting, NearestCorners nearest, ContactSink& to);
+  /// Adds the contact that lies ahead to the manifold, which must be there.
+  void add_ahead(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b);
   void note_touch(const Meeting& meeting, const btVector3& normal);
 
   btPersistentManifold* manifold_ = nullptr;  ///< null while there are no contacts
   std::vector<Contact> first_;                ///< contacts found while there is no manifold
+  /// Where a kinematic body strikes in the course of the step: the solver lets the other one come no nearer
+  /// than that, so it is pushed before it is passed. It lasts for this step alone.
+  std::optional<Contact> ahead_;
   uint32_t overlaps_ = 0;
   std::optional<FastTouch> fast_touch_;
   NearestCorners nearest_;                 ///< of the first pair of parts

@@ -85,7 +85,8 @@ std::vector<BodyImpact> list_impacts(const std::map<PieceId, Body>& bodies, cons
           blow.impulse_n_s,
           blow.impulse_n_s * give_of(*body, blow.point - body->getCenterOfMassPosition(), blow.normal),
           nears,
-          0.5F * blow.impulse_n_s * (nears + nears_m_s(after))};
+          0.5F * blow.impulse_n_s * (nears + nears_m_s(after)),
+          nears_m_s(after)};
       CHECK_DEBUG(impact.impulse_n_s > 0.0F && is_unit(impact.normal) && is_sound(impact.point_m));
       if (other != nullptr) impact.other = id_of(other);
       impacts.push_back(impact);

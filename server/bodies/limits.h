@@ -26,6 +26,28 @@ inline constexpr float blow_min_m_s = 2.0F;
 /// be left to the next step.
 inline constexpr float touching_step = 0.05F;
 
+/// Points that a step looks at along the ways of all fast bodies, each stride of travel_max_voxels once: some
+/// 4 ms. Beyond: each of them goes a shorter part of its way in the step, one stride at least, and keeps its
+/// speed.
+inline constexpr size_t swept_points_max = 100'000;
+
+/// Chunks of ground that nobody has looked at into which the ways of fast bodies lead in a step: each may
+/// have to be generated, in 0.3 ms. Beyond: the bodies wait at the border for the next step. So many are
+/// remembered; beyond, all are forgotten.
+inline constexpr size_t new_chunks_a_step = 16;
+inline constexpr size_t seen_chunks_max = 65'536;
+
+/// Overlaps of hulls whose depth a step seeks, at 10 us each: those of a crowd. Where there are more, each
+/// pair of bodies takes its turn in every second step, every third and so on, and meanwhile keeps the
+/// contacts that it has.
+inline constexpr size_t overlaps_a_step = 1000;
+
+/// A prop that lies in rock: its points that are looked at, the steps in which the way out is searched, and
+/// the props for which it is searched in a step, half a millisecond each. The others wait.
+inline constexpr size_t free_way_points = 32;
+inline constexpr float free_way_steps = 24.0F;
+inline constexpr size_t free_ways_a_step = 4;
+
 /// Two pieces that near each other in a step by more than this share of the thinner one's half thickness are
 /// looked at all along their way.
 inline constexpr float unswept_share = 0.5F;

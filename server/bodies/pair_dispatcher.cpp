@@ -53,13 +53,20 @@ void PairDispatcher::list(btOverlappingPairCache& pairs) {
 }
 
 void PairDispatcher::search(WorkBatch& batch, float step_s) {
+  // Those that overlapped in the last step share this one's room by turns.
+  const auto turns = static_cast<uint32_t>(1 + overlaps_ / limits::overlaps_a_step);
+  ++step_;
+  const auto is_in_turn = [turns, step = step_](const btBroadphasePair& pair) {
+    const auto number = static_cast<uint32_t>(pair.m_pProxy0->m_uniqueId + pair.m_pProxy1->m_uniqueId);
+    return (number + step) % turns == 0;
+  };
   overlaps_ = 0;
   fast_.clear();
-  batch.share(std::span(awake_), limits::pairs_per_part, [this, step_s](std::span<btBroadphasePair*> some) {
+  batch.share(std::span(awake_), limits::pairs_per_part, [=, this](std::span<btBroadphasePair*> some) {
     size_t overlaps = 0;
     for (btBroadphasePair*& pair : some)
       with_bodies(*pair, [&](const auto& a, const auto& b, HullAlgorithm* algorithm) {
-        algorithm->find(a, b, step_s);
+        algorithm->find(a, b, step_s, is_in_turn(*pair));
         overlaps += algorithm->overlaps();
         if (algorithm->fast_touch()) {
           const std::scoped_lock lock(mutex_);

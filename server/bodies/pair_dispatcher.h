@@ -36,6 +36,7 @@ class PairDispatcher final : public btCollisionDispatcher {
 
  private:
   std::atomic<size_t> overlaps_{0};
+  uint32_t step_ = 0;
   std::mutex mutex_;
   std::vector<FastTouch> fast_;  ///< of this step, in any order; guarded by mutex_ while it is searched
   std::vector<btBroadphasePair*>

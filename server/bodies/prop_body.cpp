@@ -42,10 +42,9 @@ std::vector<glm::vec3> touching_points(const PropPart& part, float spacing_m) {
 
 }  // namespace
 
-BodyShape body_shape_of(const Prop& prop, float density_kg_m3, float spacing_m) {
-  CHECK(validate(prop).has_value());
+BodyShape body_shape_of(const Prop& prop, const PropMeasure& measure, float density_kg_m3, float spacing_m) {
+  CHECK_DEBUG(validate(prop).has_value());
   CHECK(density_kg_m3 > 0.0F && spacing_m > 0.0F);
-  const PropMeasure measure = measure_of(prop);
   CHECK(measure.volume_m3 > 0.0F);
   BodyShape shape;
   shape.mass_kg = std::clamp(prop.mass_kg > 0.0F ? prop.mass_kg : density_kg_m3 * measure.volume_m3,

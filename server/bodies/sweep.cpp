@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "server/bodies/limits.h"
 
@@ -60,25 +61,63 @@ bool is_fast(const Body& body, const StepSize& step) {
   return speed_m_s * step.step_s * body.hulls->step_share() > 0.8F * travel_m;
 }
 
-void sweep(Body& body, const StepSize& step) {
+namespace {
+
+/// Seconds that the body takes for a stride.
+float stride_s(const Body& body, const StepSize& step) {
+  return 0.8F * limits::travel_max_voxels * step.voxel_size_m / body.rigid->getLinearVelocity().length();
+}
+
+/// All that a probe may read with the body that far from where it is.
+VoxelBox box_at(const Body& body, glm::vec3 off_m, const StepSize& step) {
+  const Bounds bounds = bounds_of(body);
+  const glm::vec3 lo = (from_bullet(bounds.lo) + off_m) / step.voxel_size_m,
+                  hi = (from_bullet(bounds.hi) + off_m) / step.voxel_size_m;
+  return {{floor_to_int(lo.x) - 2, floor_to_int(lo.y) - 2, floor_to_int(lo.z) - 2},
+          {floor_to_int(hi.x) + 3, floor_to_int(hi.y) + 3, floor_to_int(hi.z) + 3}};
+}
+
+void sweep(Body& body, const StepSize& step, size_t strides_max, SeenChunks& seen) {
   const Motion motion(*body.rigid);
   const Pose start = from_bullet(body.rigid->getWorldTransform());
-  const float travel_m = limits::travel_max_voxels * step.voxel_size_m;
-  const float stride_s = 0.8F * travel_m / body.rigid->getLinearVelocity().length();
+  const float each_s = stride_s(body, step);
   const float all_s = step.step_s * body.hulls->step_share();
-  const float reach_m = limits::contact_slack_m + body.round.sag_m + travel_m;
+  const float reach_m =
+      limits::contact_slack_m + body.round.sag_m + limits::travel_max_voxels * step.voxel_size_m;
   std::vector<TerrainContact> found;
-  for (float at_s = 0.0F; at_s < all_s; at_s += stride_s) {
+  size_t strides = 0;
+  seen.note(box_at(body, glm::vec3(0.0F), step));
+  for (float at_s = 0.0F; at_s < all_s; at_s += each_s, ++strides) {
+    const glm::vec3 way_m = motion.velocity_m_s * at_s;
+    const glm::vec3 next_m = motion.velocity_m_s * std::min(at_s + each_s, all_s);
+    if (strides >= strides_max || !seen.enter(box_at(body, next_m, step)))
+      return body.hulls->stop_at(at_s / step.step_s);
     found.clear();
-    body.probe->find({start.position_m + motion.velocity_m_s * at_s, start.rotation}, reach_m, found);
+    body.probe->find({start.position_m + way_m, start.rotation}, reach_m, found);
     touch_as_round(body, found);
     // What it touches at the start, the solver has seen.
     if (at_s == 0.0F)
       std::erase_if(found, [](const TerrainContact& c) { return c.distance_m <= limits::contact_slack_m; });
-    const float free_s = std::min(stride_s, all_s - at_s);
+    const float free_s = std::min(each_s, all_s - at_s);
     const float blow_s = until_blow_s(motion, found, free_s);
     if (blow_s < free_s) return body.hulls->stop_at((at_s + blow_s) / step.step_s);
   }
+}
+
+}  // namespace
+
+void sweep(std::span<Body* const> fast, const StepSize& step, SeenChunks& seen) {
+  size_t points_a_stride = 0, points = 0;
+  for (const Body* body : fast) {
+    const float all_s = step.step_s * body->hulls->step_share();
+    points_a_stride += body->points_m.size();
+    points += body->points_m.size() * (1 + static_cast<size_t>(all_s / stride_s(*body, step)));
+  }
+  size_t strides_max = std::numeric_limits<size_t>::max();
+  if (points > limits::swept_points_max)
+    strides_max = std::max<size_t>(1, limits::swept_points_max / points_a_stride);
+  seen.begin_step();
+  for (Body* body : fast) sweep(*body, step, strides_max, seen);
 }
 
 }  // namespace scree

@@ -4,10 +4,12 @@
 // could pass what its contacts know nothing of. Private to this folder.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "server/bodies/body.h"
 #include "server/bodies/body_speeds.h"
+#include "server/bodies/seen_chunks.h"
 #include "server/colliders/terrain_collider.h"
 
 namespace scree {
@@ -18,8 +20,9 @@ void stop_at_blows(Body& body, const StepSize& step, std::vector<TerrainContact>
 
 /// Whether the body leaves in a step what its probe looked at.
 bool is_fast(const Body& body, const StepSize& step);
-/// Stops a fast body where it first strikes the ground, at the speed that it has after the solver. Reads the
-/// terrain: one thread.
-void sweep(Body& body, const StepSize& step);
+/// Stops fast bodies where they first strike the ground, at the speeds that they have after the solver. Where
+/// they are more than a step can look at (limits::swept_points_max, new_chunks_a_step), they go a part of
+/// their way. Reads the terrain: one thread. In the order in which they stand.
+void sweep(std::span<Body* const> fast, const StepSize& step, SeenChunks& seen);
 
 }  // namespace scree

@@ -28,6 +28,20 @@ bool is_sound_contact(const TerrainContact& contact, size_t points, float reach_
          is_unit(contact.normal) && std::isfinite(contact.distance_m) && !(contact.distance_m > reach_m);
 }
 
+/// Notes whether a prop lies in the terrain with most of its points. Its contacts then push it the way out,
+/// if it has one: each by itself would push it another way.
+void sink(Body& body, std::vector<TerrainContact>& found) {
+  if (body.nature().is_piece()) return;
+  const auto is_deep = [](const TerrainContact& contact) {
+    return contact.distance_m < -limits::overlap_shallow_m;
+  };
+  const auto deep = static_cast<size_t>(std::ranges::count_if(found, is_deep));
+  body.sinks = body.way_out ? deep > 0 : 2 * deep > body.points_m.size();
+  if (!body.sinks || !body.way_out) return;
+  for (TerrainContact& contact : found)
+    if (contact.distance_m < 0.0F) contact.normal = *body.way_out;
+}
+
 }  // namespace
 
 TerrainBody::TerrainBody(Field& field, TerrainColliderKind kind, PairDispatcher& dispatcher,
@@ -81,6 +95,7 @@ void TerrainBody::refill(std::span<Body*> some, bool copying) const {
       return is_sound_contact(contact, body->points_m.size(), ground_reach_m(*body, surface_));
     }));
     touch_as_round(*body, found);
+    sink(*body, found);
     stop_at_blows(*body, {surface_.voxel_size_m, surface_.step_s}, found);
     body->rubs_at_m = scree::refill(*body->ground, *body->rigid, found, surface_);
   }

@@ -11,7 +11,10 @@ void NearbyCodes::copy_around(glm::vec3 lo, glm::vec3 hi) {
   CHECK_DEBUG(lo.x <= hi.x && lo.y <= hi.y && lo.z <= hi.z);
   if (has(lo, hi)) return;
   codes_ = gather(field_, box_around(lo, hi).grown(limits::probe_slack_voxels));
-  all_air_ = std::ranges::all_of(codes_.codes, [](Code code) { return code == code_air; });
+  // No code is greater than that of air; without an early end the search runs in vectors.
+  Code least = code_air;
+  for (const Code code : codes_.codes) least = std::min(least, code);
+  all_air_ = least == code_air;
 }
 
 void NearbyCodes::terrain_changed(const VoxelBox& box) {

@@ -76,10 +76,14 @@ inline constexpr float slide_reserve_share = 0.25F;
 /// Where the tick's budget never has that, a place is looked at every so many seconds.
 inline constexpr float slide_rest_s = 0.2F;
 
-/// A prop that is added or put elsewhere, and each of its parts. One that is pushed or taken away, and a
-/// joint that is added, changed or taken away. And the voxels of a piece that a request breaks, as a rule.
+/// A prop that is added or put elsewhere, and each of its parts; of a hull each of its corners, and their
+/// cube, for its faces are found by trying planes through three of them. One that is pushed or taken away,
+/// and a joint that is added, changed or taken away. And the voxels of a piece that a request breaks, as a
+/// rule.
 inline constexpr float prop_cost_us = 60.0F;
 inline constexpr float prop_part_cost_us = 40.0F;
+inline constexpr float prop_corner_cost_us = 3.0F;
+inline constexpr float prop_plane_cost_us = 0.001F;
 inline constexpr float prop_touch_cost_us = 5.0F;
 inline constexpr float broken_voxels = 4096.0F;
 /// A piece that a request brings, and a voxel of its box: read, redistanced, and with hull and body.

@@ -35,7 +35,13 @@ struct Pricing {
   float operator()(const SettingsRequest&) const { return 0.0F; }
   float operator()(const LeaveRequest&) const { return 0.0F; }
   float operator()(const AddPropRequest& request) const {
-    return limits::prop_cost_us + limits::prop_part_cost_us * static_cast<float>(request.prop.parts.size());
+    float price_us = limits::prop_cost_us;
+    for (const PropPart& part : request.prop.parts) {
+      const auto corners = static_cast<float>(part.corners_m.size());
+      price_us += limits::prop_part_cost_us + limits::prop_corner_cost_us * corners +
+                  limits::prop_plane_cost_us * corners * corners * corners;
+    }
+    return price_us;
   }
   float operator()(const RemovePropRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const MovePropRequest&) const { return limits::prop_cost_us; }

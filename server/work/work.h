@@ -43,6 +43,8 @@ class WorkBudget {
   /// Whether earlier requests cost more than their ticks had: until that is paid back, requests wait.
   bool in_debt() const { return debt_us_ > 0.0F; }
   float left_us() const { return budget_us_ - spent_us_; }
+  /// Whether the tick's work takes a whole tick already, by the model: what may wait then waits.
+  bool is_late() const { return spent_us_ > tick_us_; }
   float spent_us() const { return spent_us_; }
   float budget_us() const { return budget_us_; }
   /// Estimated cost of the bodies' step as a share of the budget.

@@ -38,19 +38,27 @@ void keep_hardest(const World::State& state, std::vector<ContactEvent>& contacts
 
 }  // namespace
 
-std::vector<ContactEvent> contacts_of_bodies(const World::State& state) {
+std::vector<ContactEvent> contacts_of_bodies(World::State& state) {
   const float least_m_s = state.props.empty() ? limits::impact_speed_min_m_s : limits::contact_event_min_m_s;
-  std::map<std::pair<PieceId, PieceId>, ContactEvent> by_pair;
+  struct Part {
+    ContactEvent event;
+    bool goes_on = false;
+  };
+  std::map<std::pair<PieceId, PieceId>, Part> by_pair;
   for (const BodyImpact& impact : state.bodies.impacts(least_m_s)) {
     if (impact.nears_m_s < least_m_s) continue;  // it only presses
     const ContactEvent event = contact_of(impact);
-    if (event.energy_j < limits::contact_event_min_j) continue;
     if (impact.give_m_s < limits::impact_speed_min_m_s && !has_prop(state, event)) continue;
-    ContactEvent& known = by_pair[{event.body, event.other}];
-    if (event.energy_j > known.energy_j) known = event;
+    Part& known = by_pair[{event.body, event.other}];
+    const bool may_go_on = event.other != 0 && has_prop(state, event);
+    if (event.energy_j > known.event.energy_j) known = {event, may_go_on && impact.still_m_s >= least_m_s};
   }
-  std::vector<ContactEvent> contacts;
-  for (const auto& [pair, event] : by_pair) contacts.push_back(event);
+  for (const auto& [pair, part] : by_pair)
+    if (part.event.energy_j > 0.0F) state.contact_sums.add(part.event, part.goes_on);
+  const auto ticks_max =
+      static_cast<uint32_t>(limits::contact_sum_s * static_cast<float>(state.config.tick_rate_hz));
+  std::vector<ContactEvent> contacts = state.contact_sums.take_ended(std::max(ticks_max, 1U));
+  std::erase_if(contacts, [](const ContactEvent& one) { return one.energy_j < limits::contact_event_min_j; });
   keep_hardest(state, contacts);
   return contacts;
 }

@@ -118,7 +118,7 @@ void merge_buried(World::State& state, TickDelta& delta) {
   turns.begin_tick();
   while (!turns.empty()) {
     const auto [id, cost_us] = turns.next();
-    const bool merged = merging && (now.empty() || state.work.affords(cost_us));
+    const bool merged = merging && ((now.empty() && !state.work.is_late()) || state.work.affords(cost_us));
     turns.pop(merged ? cost_us : 0.0F);
     if (merged) {
       state.work.spend(cost_us);

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "server/world/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/roots.h"
@@ -30,12 +31,18 @@ constexpr float thrown_max_m_s = 60.0F;
 /// Share of the energy that becomes motion of the rock that breaks.
 constexpr float thrown_share = 0.05F;
 
-/// Metres of rock on the way between two places.
-float rock_between_m(const Field& field, glm::vec3 from_m, glm::vec3 to_m) {
+/// Places on the way between two places where rock_between_m() looks.
+int steps_between(glm::vec3 way_m, float voxel_size_m, int coarser) {
+  const float length_m = std::sqrt(glm::dot(way_m, way_m));
+  return std::max(1, static_cast<int>(2.0F * length_m / voxel_size_m) / coarser);
+}
+
+/// Metres of rock on the way between two places, by samples that lie so many times half a voxel apart.
+float rock_between_m(const Field& field, glm::vec3 from_m, glm::vec3 to_m, int coarser) {
   const float dx = field.source().voxel_size_m;
   const glm::vec3 way_m = to_m - from_m;
   const float length_m = std::sqrt(glm::dot(way_m, way_m));
-  const int steps = std::max(1, static_cast<int>(2.0F * length_m / dx));
+  const int steps = steps_between(way_m, dx, coarser);
   int inside = 0;
   for (int i = 0; i < steps; ++i) {
     const float share = (static_cast<float>(i) + 0.5F) / static_cast<float>(steps);
@@ -112,10 +119,19 @@ CarveRequest carve_of(const BlastRequest& blast, float radius_m, uint32_t seeds)
   return carve;
 }
 
-void throw_bodies(World::State& state, const BlastRequest& blast) {
-  const float kg = blast.energy_j / tnt_j_kg, root = cube_root(kg);
-  const float at_a_metre = wave_pa_s * root * root;
+namespace {
+
+/// A body that the wave throws, were there no rock between.
+struct Reached {
+  PieceId id = 0;
+  glm::vec3 off_m{0.0F};
+  float away_m = 0.0F;
+  float impulse_n_s = 0.0F;
+};
+
+std::vector<Reached> reached_by(const World::State& state, const BlastRequest& blast, float at_a_metre) {
   const float reach_m = std::clamp(at_a_metre / 20.0F, 4.0F, 100.0F);
+  std::vector<Reached> all;
   for (const PieceId id : state.bodies.near(blast.centre_m - reach_m, blast.centre_m + reach_m)) {
     const glm::vec3 off_m = state.bodies.state(id).pose.position_m - blast.centre_m;
     const float away_m = std::sqrt(glm::dot(off_m, off_m));
@@ -123,12 +139,27 @@ void throw_bodies(World::State& state, const BlastRequest& blast) {
     if (away_m > reach_m + body_m) continue;
     float impulse_n_s = at_a_metre / std::max(away_m, nearest_m) * face_share * body_m * body_m;
     impulse_n_s = std::min(impulse_n_s, thrown_max_m_s * mass_kg);
-    if (impulse_n_s < thrown_min_m_s * mass_kg) continue;
-    const float rock = rock_between_m(state.field, blast.centre_m, blast.centre_m + off_m) / shield_m;
-    impulse_n_s /= 1.0F + rock * rock;
-    if (impulse_n_s < thrown_min_m_s * mass_kg) continue;
-    const glm::vec3 way = away_m > 1e-3F ? off_m / away_m : glm::vec3(0.0F, 1.0F, 0.0F);
-    state.bodies.push(id, way * impulse_n_s, blast.centre_m + off_m);
+    if (impulse_n_s >= thrown_min_m_s * mass_kg) all.push_back({id, off_m, away_m, impulse_n_s});
+  }
+  return all;
+}
+
+}  // namespace
+
+void throw_bodies(World::State& state, const BlastRequest& blast) {
+  const float kg = blast.energy_j / tnt_j_kg, root = cube_root(kg);
+  const float dx = state.config.terrain.voxel_size_m;
+  const std::vector<Reached> all = reached_by(state, blast, wave_pa_s * root * root);
+  size_t samples = 0;
+  for (const Reached& one : all) samples += static_cast<size_t>(steps_between(one.off_m, dx, 1));
+  const auto coarser = static_cast<int>(1 + samples / limits::blast_rock_samples_max);
+  for (const Reached& one : all) {
+    const float rock =
+        rock_between_m(state.field, blast.centre_m, blast.centre_m + one.off_m, coarser) / shield_m;
+    const float impulse_n_s = one.impulse_n_s / (1.0F + rock * rock);
+    if (impulse_n_s < thrown_min_m_s * state.bodies.mass_kg(one.id)) continue;
+    const glm::vec3 way = one.away_m > 1e-3F ? one.off_m / one.away_m : glm::vec3(0.0F, 1.0F, 0.0F);
+    state.bodies.push(one.id, way * impulse_n_s, blast.centre_m + one.off_m);
   }
 }
 

@@ -23,11 +23,18 @@ inline constexpr uint32_t joints_max_max = 10000;
 /// Beyond: refused.
 inline constexpr float push_slack_m = 4.0F;
 
+/// The blast's wave is weakened by the rock on its way to a body, which is sampled every half voxel; at so
+/// many places for all bodies of a blast: some 2 ms. Beyond: at fewer places, farther apart.
+inline constexpr size_t blast_rock_samples_max = 40'000;
+
 /// The blows of props that a tick tells of change a body's speed by at least so much, m/s, and take at least
 /// so much energy, J: a crate that lies still makes none. Blows between rock are many more: a tick tells of
 /// so many, and only where they are impacts. Beyond: the weakest are left out.
 inline constexpr float contact_event_min_m_s = 0.5F;
 inline constexpr float contact_event_min_j = 1.0F;
+/// Such a blow that goes on for several ticks is told when it is over, with the sum of its energy, at the
+/// latest after so many seconds: then the next begins.
+inline constexpr float contact_sum_s = 0.25F;
 inline constexpr size_t contact_events_of_rock_max = 64;
 
 /// The greatest impulse of a push, newton seconds: of the heaviest prop at 100 m/s. Above: refused.

@@ -41,6 +41,23 @@ tl::unexpected<Refused> no_prop(PieceId id) {
   return refuse(Refusal::body_missing, "there is no prop " + std::to_string(id));
 }
 
+/// Convex parts that collide.
+float parts_of(const World::State& state, PieceId id) {
+  const auto prop = state.props.find(id);
+  return prop == state.props.end() ? 1.0F : static_cast<float>(prop->second.prop->parts.size());
+}
+
+/// The tick pays for what a body costs that is put among others: of each that it may overlap the next step
+/// seeks the depth. So hundreds in one place take several ticks.
+void spend_on_meetings(World::State& state, PieceId id) {
+  const glm::vec3 at_m = state.bodies.state(id).pose.position_m;
+  const float reach_m = state.bodies.reach_m(id), parts = parts_of(state, id);
+  float overlaps = 0.0F;
+  for (const PieceId other : state.bodies.near(at_m - reach_m, at_m + reach_m))
+    if (other != id) overlaps += parts * parts_of(state, other);
+  state.work.spend(limits::overlap_cost_us * overlaps);
+}
+
 }  // namespace
 
 /// Refuses also what is no number, axis by axis: the greater of a number and of none may be the number.
@@ -67,7 +84,7 @@ void tell_of_prop(const World::State& state, EventKind kind, PieceId id, TickDel
 }
 
 CheckedRequest check(const World::State& state, const AddPropRequest& request) {
-  if (const Result<void> valid = validate(request.prop); !valid)
+  if (const Result<void> valid = validate_bounds(request.prop); !valid)
     return refuse(Refusal::prop_invalid, valid.error().message);
   if (!state.palette->has(request.prop.material))
     return refuse(Refusal::prop_invalid, "material " + std::to_string(row_number(request.prop.material)) +
@@ -137,14 +154,17 @@ CheckedRequest check(const World::State& /*state*/, const BlastRequest& request)
                 "a blast has " + range_text(blast_energy_min_j, blast_energy_max_j, "J of energy"));
 }
 
-uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta) {
+Performed perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta) {
   Prop prop = request.prop;
+  // Faces of hulls take milliseconds to find: they are searched once, when the request's price is paid.
+  const Result<PropMeasure> measure = measure_checked(prop);
+  if (!measure) return refuse(Refusal::prop_invalid, measure.error().message);
   if (prop.mass_kg == 0.0F)
-    prop.mass_kg = std::clamp(measure_of(prop).volume_m3 * state.palette->row(prop.material).density_kg_m3,
+    prop.mass_kg = std::clamp(measure->volume_m3 * state.palette->row(prop.material).density_kg_m3,
                               limits::prop_mass_min_kg, limits::prop_mass_max_kg);
   const PieceId id = state.next_piece++;
   auto shared = std::make_shared<const Prop>(std::move(prop));
-  BodyShape shape = state.enter_prop(id, shared, party);
+  BodyShape shape = state.enter_prop(id, shared, *measure, party);
   const glm::quat turn = request.turn / std::sqrt(glm::dot(request.turn, request.turn));
   const bool is_fixed = shared->motion == PropMotion::fixed;
   const glm::vec3 still(0.0F);
@@ -153,7 +173,10 @@ uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t pa
                                       is_fixed ? still : request.velocity_m_s,
                                       is_fixed ? still : request.spin_rad_s,
                                       false});
+  spend_on_meetings(state, id);
   tell_of_prop(state, EventKind::prop_added, id, delta);
+  if (state.bodies.look_whether_in_terrain(id) == InTerrain::no_way_out)
+    delta.told.back().text = "in the terrain, where no free place is near: it stays";
   delta.props_spawned.push_back({id, std::move(shared)});
   return id;
 }
@@ -179,6 +202,7 @@ uint32_t perform(World::State& state, const MovePropRequest& request, uint64_t /
     if (request.turn) pose->rotation = *request.turn / std::sqrt(glm::dot(*request.turn, *request.turn));
   }
   state.bodies.set_motion(request.prop, pose, request.velocity_m_s, request.spin_rad_s);
+  if (pose) spend_on_meetings(state, request.prop);
   return 0;
 }
 

@@ -27,8 +27,11 @@ CheckedRequest check(const World::State& state, const BreakRequest& request);
 CheckedRequest check(const World::State& state, const BlastRequest& request);
 
 /// Carries out a request that has passed check() now. Returns the id of the prop that was added, or into how
-/// many pieces one broke: 0 where it is too small, or where there is no room; else 0.
-uint32_t perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta);
+/// many pieces one broke: 0 where it is too small, or where there is no room; else 0. Refuses a prop whose
+/// hulls have no volume: that costs too much to find out before.
+using Performed = tl::expected<uint32_t, Refused>;
+
+Performed perform(World::State& state, const AddPropRequest& request, uint64_t party, TickDelta& delta);
 uint32_t perform(World::State& state, const RemovePropRequest& request, uint64_t party, TickDelta& delta);
 uint32_t perform(World::State& state, const MovePropRequest& request, uint64_t party, TickDelta& delta);
 uint32_t perform(World::State& state, const PushRequest& request, uint64_t party, TickDelta& delta);

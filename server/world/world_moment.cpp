@@ -70,6 +70,7 @@ void World::renew() {
   s.refractures = {};
   for (const PendingRefracture& pending : refractures) enter_refracture(s, pending);
   s.turns = {};
+  s.contact_sums.clear();
   s.check();
 }
 

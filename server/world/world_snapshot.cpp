@@ -144,12 +144,14 @@ class Restoring {
       if (record.id == 0 || record.id >= m_.next_piece || s_.pieces.contains(record.id) ||
           s_.props.contains(record.id))
         return fail(which + " is none yet, or comes twice");
-      if (const Result<void> valid = validate(*record.prop); !valid)
+      if (const Result<void> valid = validate_bounds(*record.prop); !valid)
         return fail(which + ": " + valid.error().message);
+      const Result<PropMeasure> measure = measure_checked(*record.prop);
+      if (!measure) return fail(which + ": " + measure.error().message);
       if (!(record.prop->mass_kg > 0.0F) || !s_.palette->has(record.prop->material))
         return fail(which + " has no mass, or is of no material that the palette has");
       shapes_of_props_[record.id] =
-          std::make_shared<const BodyShape>(s_.enter_prop(record.id, record.prop, record.owner));
+          std::make_shared<const BodyShape>(s_.enter_prop(record.id, record.prop, *measure, record.owner));
     }
     return {};
   }

@@ -181,9 +181,11 @@ uint64_t World::State::hash() const {
                      sum_of_kept});
 }
 
-BodyShape World::State::enter_prop(PieceId id, std::shared_ptr<const Prop> prop, uint64_t owner) {
+BodyShape World::State::enter_prop(PieceId id, std::shared_ptr<const Prop> prop, const PropMeasure& measure,
+                                   uint64_t owner) {
   CHECK(prop != nullptr && prop->mass_kg > 0.0F);
-  BodyShape shape = body_shape_of(*prop, prop->mass_kg, prop_points_voxels * config.terrain.voxel_size_m);
+  BodyShape shape =
+      body_shape_of(*prop, measure, prop->mass_kg, prop_points_voxels * config.terrain.voxel_size_m);
   const uint64_t hash = hash_of(id, *prop, owner);
   const bool is_new = props.try_emplace(id, WorldProp{std::move(prop), owner, hash}).second;
   CHECK(is_new && !pieces.contains(id));

@@ -20,6 +20,7 @@
 #include "server/work/request_queue.h"
 #include "server/work/turn_queue.h"
 #include "server/work/work.h"
+#include "server/world/contact_sums.h"
 #include "server/world/island_stage.h"
 #include "server/world/rules.h"
 #include "server/world/spawn_place.h"
@@ -28,6 +29,7 @@
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
 #include "shared/material/palette.h"
+#include "shared/prop/prop_solid.h"
 #include "shared/query/scene_maker.h"
 
 namespace scree {
@@ -89,7 +91,8 @@ struct World::State {
   /// A prop has an owner, and no other traits.
   PieceTraits traits_of(PieceId id) const;
   /// Enters a valid prop, whose mass is known, without a body. Returns the shape that its body is to have.
-  BodyShape enter_prop(PieceId id, std::shared_ptr<const Prop> prop, uint64_t owner);
+  BodyShape enter_prop(PieceId id, std::shared_ptr<const Prop> prop, const PropMeasure& measure,
+                       uint64_t owner);
   /// Takes a prop out, with its body.
   void remove_prop(PieceId id);
   /// Checks the invariants between stages. O(1).
@@ -140,6 +143,7 @@ struct World::State {
   std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
   SpawnPlace spawn_place;        ///< where visitors begin
   SceneMaker scenes;             ///< for questions; no tick depends on it
+  ContactSums contact_sums;      ///< blows between bodies that go on; no state depends on them
   bool wants_physics = false;    ///< a client wants to see the bodies
   StageStopwatch stopwatch;      ///< of the tick's stages
   ThreadCheck thread;            ///< that of step()

@@ -12,8 +12,9 @@ struct HullFace {
   glm::vec3 normal{0.0F};         ///< unit, outward
 };
 
-/// By trying each plane through three points, which takes n⁴ steps: for some dozens of points. Points within
-/// the hull are of no face. Fewer than four faces: the points lie in a plane, or nearly.
+/// By trying each plane through three points, which takes n³ steps, as most have points on both sides among
+/// the first few that are looked at: for some dozens of points. Points within the hull are of no face. Fewer
+/// than four faces: the points lie in a plane, or nearly.
 std::vector<HullFace> hull_faces(const std::vector<glm::vec3>& points_m);
 
 }  // namespace scree

@@ -68,7 +68,7 @@ Result<void> check_part(const PropPart& part) {
 
 }  // namespace
 
-Result<void> validate(const Prop& prop) {
+Result<void> validate_bounds(const Prop& prop) {
   if (prop.parts.empty() || prop.parts.size() > limits::prop_parts_max)
     return fail("a prop has " + std::to_string(prop.parts.size()) + " parts, and must have from 1 to " +
                 std::to_string(limits::prop_parts_max));
@@ -89,14 +89,12 @@ Result<void> validate(const Prop& prop) {
   const float reach_m = reach_of(prop);
   if (!(reach_m <= limits::prop_reach_max_m))
     return fail("the prop reaches " + metres(reach_m) + " from its origin, and may reach " + reach_words);
-  for (const PropPart& part : prop.parts) {
-    const float least_m3 = limits::prop_half_min_m * limits::prop_half_min_m * limits::prop_half_min_m;
-    if (part.kind == PropPartKind::hull && !(measure_of({.parts = {part}}).volume_m3 > least_m3))
-      return fail("a hull of the prop has no volume: its corners lie in a plane, or nearly");
-  }
-  const glm::mat3 inertia_m5 = measure_of(prop).inertia_m5;
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(inertia_m5[axis][axis] > 0.0F)) return fail("the prop is too small or too thin to be turned");
+  return {};
+}
+
+Result<void> validate(const Prop& prop) {
+  TRY(validate_bounds(prop));
+  TRY(measure_checked(prop));
   return {};
 }
 

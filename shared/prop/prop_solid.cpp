@@ -6,8 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/matrix.hpp>
+#include <utility>
 
 #include "shared/prop/convex_hull.h"
+#include "shared/prop/limits.h"
 
 namespace scree {
 
@@ -222,24 +224,49 @@ PropMesh flat_mesh(const std::vector<glm::vec3>& corners) {
 
 }  // namespace
 
-PropMeasure measure_of(const Prop& prop) {
+namespace {
+
+PropMeasure sum_of(const Prop& prop, std::vector<Measured> parts) {
   PropMeasure all;
-  std::vector<Measured> parts;
   glm::vec3 first(0.0F);
-  for (const PropPart& part : prop.parts) {
-    Measured measured = measure(part);
+  for (size_t i = 0; i < parts.size(); ++i) {
+    Measured& measured = parts[i];
+    const PropPart& part = prop.parts[i];
     const glm::mat3 turn = glm::mat3_cast(part.turn);
     measured.middle_m = part.place_m + turn * measured.middle_m;
     measured.inertia_m5 = turn * measured.inertia_m5 * glm::transpose(turn);
     all.volume_m3 += measured.volume_m3;
     first += measured.volume_m3 * measured.middle_m;
-    parts.push_back(measured);
   }
   if (!(all.volume_m3 > 0.0F)) return all;
   all.middle_m = first / all.volume_m3;
   for (const Measured& part : parts)
     all.inertia_m5 += part.inertia_m5 + of_point(part.volume_m3, part.middle_m - all.middle_m);
   all.inertia_m5 = 0.5F * (all.inertia_m5 + glm::transpose(all.inertia_m5));  // symmetric to the last bit
+  return all;
+}
+
+std::vector<Measured> measures_of_parts(const Prop& prop) {
+  std::vector<Measured> parts;
+  for (const PropPart& part : prop.parts) parts.push_back(measure(part));
+  return parts;
+}
+
+}  // namespace
+
+PropMeasure measure_of(const Prop& prop) {
+  return sum_of(prop, measures_of_parts(prop));
+}
+
+Result<PropMeasure> measure_checked(const Prop& prop) {
+  std::vector<Measured> parts = measures_of_parts(prop);
+  constexpr float least_m3 = limits::prop_half_min_m * limits::prop_half_min_m * limits::prop_half_min_m;
+  for (size_t i = 0; i < parts.size(); ++i)
+    if (prop.parts[i].kind == PropPartKind::hull && !(parts[i].volume_m3 > least_m3))
+      return fail("a hull of the prop has no volume: its corners lie in a plane, or nearly");
+  const PropMeasure all = sum_of(prop, std::move(parts));
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(all.inertia_m5[axis][axis] > 0.0F)) return fail("the prop is too small or too thin to be turned");
   return all;
 }
 

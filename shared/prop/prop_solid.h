@@ -18,6 +18,11 @@ struct PropMeasure {
   glm::mat3 inertia_m5{0.0F};
 };
 PropMeasure measure_of(const Prop& prop);
+/// The part of validate() that costs next to nothing: all but measure_checked().
+Result<void> validate_bounds(const Prop& prop);
+/// The same as measure_of(), and the rest of validate() for a prop that has passed validate_bounds(): refuses
+/// hulls without volume, and what is too thin to be turned. Faces of hulls are searched once.
+Result<PropMeasure> measure_checked(const Prop& prop);
 
 /// A convex solid: the hull of its points, grown by a ball of that radius. A cylinder is a prism of 24 sides.
 struct RoundedHull {
