@@ -5,6 +5,8 @@
 
 #include "proto/content_codec.h"
 #include "proto/limits.h"
+#include "proto/operation_codec.h"
+#include "shared/operation/added_piece_limits.h"
 #include "shared/prop/limits.h"
 
 namespace scree {
@@ -71,6 +73,15 @@ Prop read_prop(const wire::Prop& from, FieldChecker& check) {
   const std::string data = check.bytes(from.data(), limits::prop_data_bytes_max, "data of a prop");
   prop.data.assign(data.begin(), data.end());
   return prop;
+}
+
+/// Null where there are too many bytes or voxels, or none that can be read: the world refuses it by name.
+std::shared_ptr<const Volume> read_added(std::span<const uint8_t> bytes) {
+  if (bytes.size() > limits::added_piece_bytes_max) return nullptr;
+  const Result<VoxelBox> box = decode_volume_box(bytes);
+  if (!box || !is_box_of_added_piece(*box)) return nullptr;
+  Result<Volume> volume = decode_volume(bytes);
+  return volume ? std::make_shared<const Volume>(std::move(*volume)) : nullptr;
 }
 
 }  // namespace
@@ -150,7 +161,7 @@ void write(wire::Release& to, const ReleaseMessage& from) {
 
 void write(wire::AddPiece& to, const AddPieceMessage& from) {
   to.set_request(from.request);
-  to.set_volume(to_string(from.volume));
+  if (from.volume) to.set_volume(to_string(encode_volume(*from.volume)));
   scree::write(*to.mutable_place(), from.place_m);
   if (from.turn != no_turn) write_turn(*to.mutable_turn(), from.turn);
   scree::write(*to.mutable_velocity_m_s(), from.velocity_m_s);
@@ -220,8 +231,7 @@ ReleaseMessage read(const wire::Release& from, FieldChecker& /*check*/) {
 AddPieceMessage read(const wire::AddPiece& from, FieldChecker& check) {
   AddPieceMessage add;
   add.request = from.request();
-  const std::span<const uint8_t> volume = as_span(from.volume());
-  add.volume.assign(volume.begin(), volume.end());
+  add.volume = read_added(as_span(from.volume()));
   add.place_m = check.vec3(from.place(), "place of a piece");
   if (from.has_turn()) add.turn = read_turn(from.turn(), "turn of a piece", check);
   add.velocity_m_s = check.vec3(from.velocity_m_s(), "velocity of a piece");

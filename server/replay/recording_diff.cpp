@@ -59,7 +59,8 @@ std::string text_of(const Command& command, const Palette& palette) {
           [](const CutOutRequest& cut_out) { return "cut out a " + text_of(cut_out.shape); },
           [](const ReleaseRequest& release) { return fmt::format("release piece {}", release.piece); },
           [](const AddPieceRequest& add) {
-            return fmt::format("add a piece of {} bytes of voxels", add.volume.size());
+            return add.volume ? fmt::format("add a piece of {} voxels", add.volume->window.codes.size())
+                              : std::string("add a piece that cannot be read");
           }},
       command.body);
   return fmt::format("session {}, request {}: {}", command.session, command.request, body);

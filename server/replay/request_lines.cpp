@@ -81,7 +81,10 @@ Asked asked_by(const Request& request, const Palette& palette) {
                    return Asked{"release", {}, fmt::format("piece {}", release.piece)};
                  },
                  [](const AddPieceRequest& add) {
-                   return Asked{"add_piece", {}, fmt::format("{} bytes of voxels", add.volume.size())};
+                   return Asked{
+                       "add_piece",
+                       {},
+                       add.volume ? fmt::format("{} voxels", add.volume->window.codes.size()) : "no voxels"};
                  }},
       request);
 }

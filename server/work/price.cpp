@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "proto/operation_codec.h"
 #include "server/work/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -62,9 +61,8 @@ struct Pricing {
   }
   float operator()(const ReleaseRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const AddPieceRequest& request) const {
-    const Result<VoxelBox> box = decode_volume_box(request.volume);
-    CHECK(box.has_value());
-    return added_price_us(Window::count(*box));
+    CHECK(request.volume != nullptr);
+    return added_price_us(Window::count(request.volume->window.box));
   }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "proto/operation_codec.h"
 #include "server/bodies/limits.h"
 #include "server/fracture/own_volumes.h"
 #include "server/work/price.h"
@@ -28,16 +27,18 @@ bool is_speed(glm::vec3 speed, float most) {
   return glm::dot(speed, speed) <= most * most;
 }
 
-CheckedRequest check_volume_size(const VoxelBox& box) {
-  const VoxelCoord size = box.size();
-  const int longest = std::max({size.x, size.y, size.z});
-  if (longest > limits::added_piece_side_max)
-    return invalid("a piece is at most " + std::to_string(limits::added_piece_side_max) +
-                   " voxels long (limits.added_piece_side_max), and this one has " + std::to_string(longest));
-  if (Window::count(box) <= limits::added_piece_voxels_max) return {};
-  return invalid("the box of a piece has at most " + std::to_string(limits::added_piece_voxels_max) +
-                 " voxels (limits.added_piece_voxels_max), and this one has " +
-                 std::to_string(Window::count(box)));
+CheckedRequest check_volume(const std::shared_ptr<const Volume>& volume) {
+  if (volume != nullptr && is_box_of_added_piece(volume->window.box)) {
+    CHECK_EQ(volume->window.codes.size(), Window::count(volume->window.box));
+    CHECK(volume->materials.is_uniform() || volume->materials.box == volume->window.box);
+    return {};
+  }
+  const std::string what =
+      volume == nullptr ? "the piece has no voxels that can be read" : "the piece is too large";
+  return invalid(what + ": its box has at most " + std::to_string(limits::added_piece_side_max) +
+                 " voxels along a side and " + std::to_string(limits::added_piece_voxels_max) +
+                 " in all, packed as a piece's volume in at most " +
+                 std::to_string(limits::added_piece_bytes_max) + " bytes");
 }
 
 CheckedRequest check_materials(const Volume& volume, const Palette& palette) {
@@ -94,22 +95,18 @@ glm::vec3 centre_of(const std::vector<Volume>& volumes) {
 }  // namespace
 
 CheckedRequest check(const World::State& state, const AddPieceRequest& request) {
-  if (request.volume.size() > limits::added_piece_bytes_max)
-    return invalid("the volume of a piece takes at most " + std::to_string(limits::added_piece_bytes_max) +
-                   " bytes (limits.added_piece_bytes_max)");
-  const Result<VoxelBox> box = decode_volume_box(request.volume);
-  if (!box) return invalid(box.error().message);
-  TRY(check_volume_size(*box));
+  TRY(check_volume(request.volume));
   TRY(check_place(request.place_m, Refusal::piece_invalid, "piece"));
   TRY(check_turn(request.turn, Refusal::piece_invalid, "piece"));
-  const VoxelCoord twice = box->lo + box->hi;
+  const VoxelBox& box = request.volume->window.box;
+  const VoxelCoord twice = box.lo + box.hi;
   const glm::vec3 middle_voxels = 0.5F * glm::vec3(twice.x, twice.y, twice.z);
   const float dx = state.config.terrain.voxel_size_m;
   TRY(check_place(request.place_m + request.turn * (middle_voxels * dx), Refusal::piece_invalid, "piece"));
   if (!is_speed(request.velocity_m_s, limits::speed_max_m_s))
-    return invalid("the piece is faster than 200 m/s (limits.speed_max_m_s), or its speed is no number");
+    return invalid("the piece is faster than 200 m/s, or its speed is no number");
   if (!is_speed(request.spin_rad_s, limits::spin_max_rad_s))
-    return invalid("the piece spins faster than 20 rad/s (limits.spin_max_rad_s), or its spin is no number");
+    return invalid("the piece spins faster than 20 rad/s, or its spin is no number");
   static_assert(limits::speed_max_m_s == 200.0F && limits::spin_max_rad_s == 20.0F);
   return {};
 }
@@ -117,13 +114,12 @@ CheckedRequest check(const World::State& state, const AddPieceRequest& request) 
 Outcome add_piece(World::State& state, const AddPieceRequest& request, uint64_t party,
                   const PieceGrant& grant, TickDelta& delta) {
   if (grant.pieces == 0) return tl::unexpected(no_room(state, 1, party, grant));
-  const Result<Volume> given = decode_volume(request.volume);
-  if (!given) return invalid(given.error().message);
-  TRY(check_materials(*given, *state.palette));
-  Result<std::vector<Volume>> volumes = own_volumes(*given, state.field.rubble());
+  const Volume& given = *request.volume;
+  TRY(check_materials(given, *state.palette));
+  Result<std::vector<Volume>> volumes = own_volumes(given, state.field.rubble());
   if (!volumes) return invalid(volumes.error().message);
   TRY(check_room(state, *volumes, party, grant));
-  const size_t voxels = Window::count(given->window.box);
+  const size_t voxels = Window::count(given.window.box);
   for (const Volume& more : std::span(*volumes).subspan(1))
     state.work.spend(added_price_us(std::min(voxels, more.window.codes.size())));
   const float dx = state.config.terrain.voxel_size_m;

@@ -2,8 +2,11 @@
 // at the limit.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+
+#include "shared/field/window.h"
 
 namespace scree::limits {
 
@@ -17,3 +20,13 @@ inline constexpr int added_piece_side_max = 112;
 inline constexpr uint64_t added_piece_voxels_max = uint64_t{1} << 16U;
 
 }  // namespace scree::limits
+
+namespace scree {
+
+inline bool is_box_of_added_piece(const VoxelBox& box) {
+  const VoxelCoord size = box.size();
+  return std::max({size.x, size.y, size.z}) <= limits::added_piece_side_max &&
+         Window::count(box) <= limits::added_piece_voxels_max;
+}
+
+}  // namespace scree

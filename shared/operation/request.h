@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -137,16 +138,24 @@ struct CutOutRequest {
 /// Adds a piece of voxels that the request brings; its mass is poured in. Parts that do not connect become a
 /// piece each. The reply has the first one's id.
 struct AddPieceRequest {
-  /// As a piece's volume on the wire (proto/operation_codec.h), read when the request's turn comes: its codes
-  /// and materials count; its mass, masses and centre do not.
-  std::vector<uint8_t> volume;
+  /// Codes of its whole box, and materials; its mass, masses and centre do not count. Null: it came as bytes
+  /// that cannot be read, and is refused.
+  std::shared_ptr<const Volume> volume;
   glm::vec3 place_m{0.0F};  ///< of the volume's voxel (0, 0, 0)
   glm::quat turn{1.0F, 0.0F, 0.0F, 0.0F};
   glm::vec3 velocity_m_s{0.0F};  ///< of its centre of mass
   glm::vec3 spin_rad_s{0.0F};
   bool kept = true;  ///< else it becomes terrain where it comes to rest, as any piece
 
-  bool operator==(const AddPieceRequest&) const = default;
+  bool operator==(const AddPieceRequest& other) const {
+    const auto is_same = [](const Volume& a, const Volume& b) {
+      return a.window.box == b.window.box && a.window.codes == b.window.codes && a.materials == b.materials;
+    };
+    const bool has_same =
+        volume == other.volume || (volume && other.volume && is_same(*volume, *other.volume));
+    return has_same && place_m == other.place_m && turn == other.turn && velocity_m_s == other.velocity_m_s &&
+           spin_rad_s == other.spin_rad_s && kept == other.kept;
+  }
 };
 
 /// A kept piece may become terrain from now on.

@@ -231,21 +231,18 @@ TEST(AddedPiece, what_is_wrong_is_refused_by_name) {
     return reply.refusal;
   };
   const auto of = [&](const Volume& volume) {
-    return said([&](AddPieceRequest& request) { request.volume = encode_volume(volume); });
+    return said([&](AddPieceRequest& request) { request.volume = std::make_shared<const Volume>(volume); });
   };
   constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-  said([](AddPieceRequest& request) { request.volume.clear(); });
-  said([](AddPieceRequest& request) { request.volume.resize(request.volume.size() - 1); });
-  said([](AddPieceRequest& request) { request.volume.push_back(0); });
-  said([](AddPieceRequest& request) { request.volume.resize(limits::added_piece_bytes_max + 1); });
+  said([](AddPieceRequest& request) { request.volume = nullptr; });
   said([](AddPieceRequest& request) { request.place_m.x = 5000.0F; });
   said([](AddPieceRequest& request) { request.place_m.y = nan; });
   said([](AddPieceRequest& request) { request.turn = {0.5F, 0.0F, 0.0F, 0.0F}; });
   said([](AddPieceRequest& request) { request.velocity_m_s.x = 300.0F; });
   said([](AddPieceRequest& request) { request.velocity_m_s.x = nan; });
   said([](AddPieceRequest& request) { request.spin_rad_s.x = 30.0F; });
-  EXPECT_TRUE(of(given_block({113, 2, 2})).find("added_piece_side_max") != std::string::npos);
-  EXPECT_TRUE(of(given_block({41, 41, 41})).find("added_piece_voxels_max") != std::string::npos);
+  EXPECT_TRUE(of(given_block({113, 2, 2})).find("112 voxels along a side") != std::string::npos);
+  EXPECT_TRUE(of(given_block({41, 41, 41})).find("65536 in all") != std::string::npos);
   EXPECT_TRUE(of(given_block({4, 4, 4}, Material{200})).find("palette") != std::string::npos);
   EXPECT_TRUE(of(given_voxels({4, 4, 4}, [](VoxelCoord) { return std::nullopt; })).find("no rock") !=
               std::string::npos);

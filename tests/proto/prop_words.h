@@ -61,7 +61,7 @@ inline Lines describe(const ReleaseMessage& m) {
   return {fmt::format("release: request {}, piece {}", m.request, m.piece)};
 }
 inline Lines describe(const AddPieceMessage& m) {
-  const auto volume = decode_volume(m.volume);
+  const auto& volume = m.volume;
   Lines lines{fmt::format("add piece: request {}, place {}, turn {}, {}", m.request, words(m.place_m),
                           words(m.turn), m.kept ? "kept" : "merges"),
               fmt::format("velocity {}, spin {}", words(m.velocity_m_s), words(m.spin_rad_s))};

@@ -39,7 +39,7 @@ inline Volume given_block(VoxelCoord size, Material material = material::rock) {
 }
 
 inline AddPieceRequest piece_of(const Volume& volume, glm::vec3 place_m) {
-  return {.volume = encode_volume(volume), .place_m = place_m};
+  return {.volume = std::make_shared<const Volume>(volume), .place_m = place_m};
 }
 
 }  // namespace scree

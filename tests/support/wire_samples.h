@@ -292,7 +292,7 @@ inline std::vector<ServerMessage> server_messages() {
 inline AddPieceMessage add_piece() {
   AddPieceMessage add;
   add.request = 34;
-  add.volume = encode_volume(volume());
+  add.volume = std::make_shared<const Volume>(volume());
   add.place_m = {1.0F, 2.0F, -3.0F};
   add.turn = {0.6F, 0.0F, 0.8F, 0.0F};
   add.velocity_m_s = {0.0F, -5.0F, 0.5F};

@@ -132,8 +132,7 @@ inline AddPieceRequest any_added_piece(FuzzInput& input) {
   if (how == 2)
     for (Code& code : volume.window.codes) code = std::max<Code>(static_cast<Code>(input.byte()), -127);
   AddPieceRequest add = piece_of(volume, any_place(input));
-  for (uint32_t broken = input.below(16) == 15 ? input.below(4) : 0; broken > 0; --broken)
-    add.volume[input.byte() % add.volume.size()] ^= static_cast<uint8_t>(1U + input.below(255));
+  if (input.below(16) == 15) add.volume = nullptr;
   if (input.flag()) add.turn = {0.6F, 0.0F, 0.8F, 0.0F};
   if (input.flag()) add.velocity_m_s = input.place(20.0F);
   if (input.flag()) add.spin_rad_s = input.place(5.0F);

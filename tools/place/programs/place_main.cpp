@@ -75,12 +75,14 @@ Result<AddPieceRequest> request_of(const Options& options, const WorldFacts& wor
   const auto placed = placed_piece(read, world.palette, otherwise);
   if (!placed) return fail(options.file + ": " + placed.error().message);
   tell(placed->said);
-  AddPieceRequest add{.volume = encode_volume(placed->volume), .turn = turn_of(options.turn_degrees)};
-  if (add.volume.size() > limits::added_piece_bytes_max)
+  const size_t bytes = encode_volume(placed->volume).size();
+  if (bytes > limits::added_piece_bytes_max)
     return fail(
         fmt::format("{}: its voxels take {} bytes, and a piece has at most {} "
                     "(limits.added_piece_bytes_max): --scale makes it smaller",
-                    options.file, add.volume.size(), limits::added_piece_bytes_max));
+                    options.file, bytes, limits::added_piece_bytes_max));
+  AddPieceRequest add{.volume = std::make_shared<const Volume>(placed->volume),
+                      .turn = turn_of(options.turn_degrees)};
   add.place_m = vector_of(options.at_m) - add.turn * (placed->foot_voxels * world.voxel_size_m);
   add.velocity_m_s = vector_of(options.velocity_m_s);
   add.spin_rad_s = vector_of(options.spin_rad_s);
