@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "proto/codec.h"
 #include "server/formats/world_codec.h"
 #include "server/store/recorder.h"
 #include "shared/base/limits.h"
@@ -262,6 +263,18 @@ TEST(AddedPiece, what_is_wrong_is_refused_by_name) {
   });
   EXPECT_EQ(refusal_name(small.ask(piece_of(two, {0.0F, 3.0F, 0.0F}))), "pieces_max");
   EXPECT_TRUE(small.last().pieces.empty());
+}
+
+// What cannot be read, or is too large, is not read: the world says so in its reply.
+TEST(AddedPiece, comes_from_the_wire_within_its_limits) {
+  const auto arrives = [](const Volume& volume) {
+    const std::vector<uint8_t> bytes = encode(AddPieceMessage{piece_of(volume, {0.0F, 3.0F, 0.0F}), 7});
+    const Result<ClientMessage> message = decode_client(std::span(bytes).subspan(4));
+    return message && std::get<AddPieceMessage>(*message).volume != nullptr;
+  };
+  EXPECT_TRUE(arrives(given_block({112, 2, 2})));
+  EXPECT_FALSE(arrives(given_block({113, 2, 2})));
+  EXPECT_FALSE(arrives(given_block({41, 41, 41})));
 }
 
 }  // namespace
