@@ -93,8 +93,8 @@ void JointRows::add_point(const Places& at) {
   for (int i = 0; i < 3; ++i) {
     btVector3 along(0.0F, 0.0F, 0.0F);
     along[i] = 1.0F;
-    add(along, at.arm_a.cross(along), at.arm_b.cross(along)).wanted =
-        undoing(at.off[i], limits::joint_undo_m_s);
+    add(along, at.arm_a.cross(along), at.arm_b.cross(along))
+        .want_undone(undoing(at.off[i], limits::joint_undo_m_s));
   }
 }
 
@@ -104,7 +104,7 @@ void JointRows::add_turns(const Places& at, bool with_axis) {
       with_axis ? turn_between(at.axes_a, at.axes_b) : turn_between(at.axis_a(0), at.axis_b(0), at.axis_a(1));
   for (int i = with_axis ? 0 : 1; i < 3; ++i) {
     const btVector3 about = at.axis_a(i);
-    add(nothing, about, about).wanted = undoing(about.dot(off), limits::joint_undo_rad_s);
+    add(nothing, about, about).want_undone(undoing(about.dot(off), limits::joint_undo_rad_s));
   }
 }
 
@@ -113,8 +113,8 @@ void JointRows::add_slide(const Places& at) {
   const btVector3 arm_a = at.arm_a + at.off;
   for (int i = 1; i < 3; ++i) {
     const btVector3 along = at.axis_a(i);
-    add(along, arm_a.cross(along), at.arm_b.cross(along)).wanted =
-        undoing(along.dot(at.off), limits::joint_undo_m_s);
+    add(along, arm_a.cross(along), at.arm_b.cross(along))
+        .want_undone(undoing(along.dot(at.off), limits::joint_undo_m_s));
   }
 }
 
@@ -133,10 +133,11 @@ void JointRows::add_line(const Places& at) {
   HoldingRow& row = add(along, at.arm_a.cross(along), at.arm_b.cross(along));
   const float longer_m = length - joint_.length_m;
   const float drifts_m_s = drift_m_s(at, along, length);
-  row.wanted = undoing(longer_m, limits::joint_undo_m_s) - drifts_m_s;
+  row.want_undone(undoing(longer_m, limits::joint_undo_m_s));
+  row.wanted -= drifts_m_s;
   if (joint_.kind == JointKind::rope) {
-    row.high = 0.0F;                                                     // a rope pulls, and does not push
-    if (longer_m < 0.0F) row.wanted = -longer_m / step_s_ - drifts_m_s;  // it gets taut in the step, or not
+    row.high = 0.0F;                                                  // a rope pulls, and does not push
+    if (longer_m < 0.0F) row.want(-longer_m / step_s_ - drifts_m_s);  // it gets taut in the step, or not
   }
   calm_line(at, along);
 }
@@ -176,9 +177,9 @@ void JointRows::add_axis(const Places& at, float value) {
   const float undo = slides ? limits::joint_undo_m_s : limits::joint_undo_rad_s;
   const float above = value - joint_.limits->low, below = joint_.limits->high - value;
   lower.high = no_bound;
-  lower.wanted = above > 0.0F ? -above / step_s_ : undoing(above, undo);
+  above > 0.0F ? lower.want(-above / step_s_) : lower.want_undone(undoing(above, undo));
   upper.low = -no_bound;
-  upper.wanted = below > 0.0F ? below / step_s_ : -undoing(below, undo);
+  below > 0.0F ? upper.want(below / step_s_) : upper.want_undone(-undoing(below, undo));
   motor.wanted = std::max(lower.wanted, std::min(motor.wanted, upper.wanted));
 }
 
@@ -266,6 +267,19 @@ double JointRows::is_off_m_s(size_t i) const {
 void JointRows::change(size_t i, float impulse) {
   impulses_[i] += impulse;
   give(rows_[i], impulse);
+}
+
+std::array<btVector3, 4> JointRows::gained() const {
+  const auto of = [](const SolvedBody& body, btVector3 btSolverBody::*which) {
+    return body.solver == nullptr ? nothing : body.solver->*which;
+  };
+  return {of(a_, &btSolverBody::m_deltaLinearVelocity), of(b_, &btSolverBody::m_deltaLinearVelocity),
+          of(a_, &btSolverBody::m_deltaAngularVelocity), of(b_, &btSolverBody::m_deltaAngularVelocity)};
+}
+
+void JointRows::undo_less(size_t i, float share) {
+  rows_[i].wanted -= share * rows_[i].undo;
+  rows_[i].undo -= share * rows_[i].undo;
 }
 
 bool JointRows::let_go(size_t i) {

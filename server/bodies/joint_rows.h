@@ -44,7 +44,14 @@ struct HoldingRow {
   btVector3 gain_a{0.0F, 0.0F, 0.0F}, gain_b{0.0F, 0.0F, 0.0F};  ///< spin by an impulse of 1
   float mass = 0.0F;  ///< impulse that changes the speed by 1; 0: nothing does
   float wanted = 0.0F, low = 0.0F, high = 0.0F;
+  float undo = 0.0F;  ///< the part of `wanted` that undoes what is off
   float soft = 0.0F;  ///< speed by which an impulse of 1 gives way
+
+  void want(float speed) {
+    wanted = speed;
+    undo = 0.0F;
+  }
+  void want_undone(float speed) { wanted = undo = speed; }
 };
 
 /// One of a joint's bodies, in a step.
@@ -70,7 +77,7 @@ class JointRows {
 
   /// Finds the rows of a step of the simulation, for bodies as they stand.
   void prepare(const SolvedBody& a, const SolvedBody& b, float step_s);
-  // Of a step, after prepare():
+  // After prepare(), in a step:
   size_t rows() const { return count_; }
   const HoldingRow& row(size_t i) const { return rows_[i]; }
   std::array<HeldSide, 2> sides() const;
@@ -84,6 +91,10 @@ class JointRows {
   /// By which the speed of a row that holds differs from what it wants, and from what its impulse softens.
   double is_off_m_s(size_t i) const;
   void change(size_t i, float impulse);
+  /// By which the solver has changed the speeds of a and b, and their spins.
+  std::array<btVector3, 4> gained() const;
+  /// Wants so much less of what undoes what is off: a share.
+  void undo_less(size_t i, float share);
   /// Brings a row whose impulse is beyond its bounds back to them, and holds it no more.
   bool let_go(size_t i);
   /// Moves the impulse of each open row by what brings its speed to the wanted one, as far as its bounds
@@ -130,7 +141,7 @@ class JointRows {
   static constexpr size_t rows_max = 8;     ///< a hinge with limits and a motor: 3 + 2 + 2 + 1
   std::array<float, rows_max> impulses_{};  ///< of each row, kept from step to step: the rows of a kind are
                                             ///< always the same ones
-  // Of a step:
+  // For the step that is solved:
   SolvedBody a_, b_;
   std::array<HoldingRow, rows_max> rows_;
   size_t count_ = 0;

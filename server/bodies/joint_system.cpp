@@ -40,6 +40,7 @@ void JointSystem::begin(std::span<JointRows*> joints) {
   if (let_go_of_costly()) list_held();
   factorise();
   for (JointRows* joint : joints) joint->start();
+  undo_gently();
 }
 
 // Joints are neighbours that share a body that can move.
@@ -163,6 +164,36 @@ void JointSystem::factorise() {
     factor_.at(i, i) = (1.0 + limits::joint_softness) / joint.row(own.row).mass;
   }
   factor_.factorise(0.5 * limits::joint_softness);
+}
+
+/// Joints in a ring that does not fit may ask for speeds without bound, to undo what is off. So the speeds
+/// that this would give the bodies are found first, and all want less where any is too great.
+void JointSystem::undo_gently() {
+  side_.clear();
+  float most = 0.0F;
+  for (const auto& [joint, row] : held_) {
+    const float undo = joints_[joint]->row(row).undo;
+    side_.push_back(undo);
+    most = std::max(most, undo < 0.0F ? -undo : undo);
+  }
+  if (!(most > limits::joint_undo_gently_from)) return;
+  factor_.solve(side_);
+  std::vector<std::array<btVector3, 4>> before;
+  for (const JointRows* joint : joints_) before.push_back(joint->gained());
+  const auto give = [&](double share) {
+    for (size_t i = 0; i < held_.size(); ++i)
+      joints_[held_[i].joint]->change(held_[i].row, static_cast<float>(share * side_[i]));
+  };
+  give(1.0);
+  float gained = 0.0F;
+  for (size_t i = 0; i < joints_.size(); ++i) {
+    const std::array<btVector3, 4> now = joints_[i]->gained();
+    for (size_t k = 0; k < now.size(); ++k) gained = std::max(gained, (now[k] - before[i][k]).length());
+  }
+  give(-1.0);
+  if (!(gained > limits::joint_undo_gained_max)) return;
+  const float less = 1.0F - limits::joint_undo_gained_max / gained;
+  for (const auto& [joint, row] : held_) joints_[joint]->undo_less(row, less);
 }
 
 void JointSystem::solve_held() {

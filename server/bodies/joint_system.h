@@ -9,7 +9,7 @@
 // 1969), reversed. What hangs together and would cost too much is solved row by row.
 //
 // What joints pull also turns with their bodies. A step does not see that, so light bodies under great loads
-// would swing ever wider: they get a greater inertia in the solver, as far as that needs (Andrews,
+// would swing ever wider. They get a greater inertia in the solver, as far as that needs (Andrews,
 // Teichmann and Kövecses, Geometric stiffness for real-time constrained multibody dynamics, 2017).
 //
 // Not thread-safe. Private to this folder.
@@ -49,6 +49,7 @@ class JointSystem {
   bool let_go_of_costly();
   void factorise();
   void solve_held();
+  void undo_gently();
   bool let_go();
 
   std::span<JointRows*> joints_;

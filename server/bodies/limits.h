@@ -144,6 +144,11 @@ inline constexpr float joint_undo_rad_s = 4.0F;
 inline constexpr float joint_warm_share = 0.95F;
 inline constexpr float joint_relaxation = 1.3F;
 
+/// Speeds that undoing gives to any body of a group at most, m/s and rad/s. It is looked at where a joint
+/// wants more than the first of these.
+inline constexpr float joint_undo_gently_from = 0.2F;
+inline constexpr float joint_undo_gained_max = 8.0F;
+
 /// A joint that does not get half of the speed by which it undoes what is off is opposed, by another joint or
 /// by a body between: it wants half as much, step by step. Not below this speed, m/s or rad/s.
 inline constexpr float joint_opposed_min = 0.05F;

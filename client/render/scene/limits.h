@@ -88,8 +88,8 @@ inline constexpr size_t particles_max = 6000;
 /// Pieces that darken what they lie on: as many as a blast makes, and margin. The nearest are taken.
 inline constexpr size_t contacts_max = 1024;
 
-/// Bytes of the models of props, on the GPU and beside it: thirty of the largest. Above: those that no prop in
-/// sight has are forgotten, and of others the parts are drawn.
+/// Bytes of the models of props, on the GPU and beside it: thirty of the largest. Above: those that no prop
+/// in sight has are forgotten, and of others the parts are drawn.
 inline constexpr size_t model_meshes_bytes_max = size_t{128} << 20;
 
 /// Models that were read, or could not be: more are forgotten likewise.
