@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "proto/limits.h"
 #include "server/bodies/limits.h"
 #include "server/fracture/own_volumes.h"
 #include "server/work/price.h"
