@@ -86,17 +86,18 @@ TEST(JointLoad, a_motor_of_any_torque_turns_a_beam_and_tears_nothing) {
   }
 }
 
+// It is drawn aside with each step's straight way: without care it swings at 3 m/s for ever.
 TEST(JointLoad, a_short_line_holds_a_great_load_still) {
   JointWorld world(rock_world());
-  const PieceId post = world.add_post({0.0F, 20.0F, 0.0F});
-  const PieceId load = world.add(crate(0.4F, 1e5F), {0.0F, 19.29F, 0.0F});
-  Joint rope = line_between(JointKind::rope, world.frame(post), {0.0F, 19.7F, 0.0F}, world.frame(load),
-                            world.place_m(load) + glm::vec3(0.0F, 0.4F, 0.0F));
+  const glm::vec3 post_m{0.0F, 100.0F, 0.0F}, load_m{0.6F, 100.0F, 0.0F};
+  const PieceId post = world.add_post(post_m);
+  const PieceId load = world.add(crate(0.4F, 1e5F), load_m);
+  Joint rope = line_between(JointKind::rope, {post, post_m}, post_m, {load, load_m}, load_m);
   rope.length_m = 0.01F;
-  world.join_still(rope, load);
-  world.steps(10 * second_ticks);
-  EXPECT_LT(world.speed_m_s(load), 0.05F);
-  EXPECT_NEAR(world.place_m(load).y, 19.2F, 0.1F);
+  world.join(rope);
+  world.steps(20 * second_ticks);
+  EXPECT_LT(world.speed_m_s(load), 0.5F);
+  EXPECT_LT(glm::distance(world.place_m(load), post_m), 0.1F);
 }
 
 // More joints than are solved at once hold a hub. They hold it one by one.
