@@ -52,8 +52,9 @@ inline constexpr float speck_cost_us = 200.0F;
 /// A brick of a search for islands; a part of the terrain in a search for support
 /// (shared/falling/support_search.h).
 inline constexpr float island_brick_cost_us = 1.0F;
-/// A chunk that such a search may have to generate: it goes to where no client has looked.
-inline constexpr float island_chunk_cost_us = 300.0F;
+/// A chunk that such a search, or a look at a slope, may have to generate: it goes to where no client has
+/// looked.
+inline constexpr float ground_chunk_cost_us = 300.0F;
 inline constexpr float support_part_cost_us = 0.7F;
 /// A part of the terrain in a search for what a blow breaks, and what such a search must find room for.
 inline constexpr float blow_part_cost_us = 1.0F;

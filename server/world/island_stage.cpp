@@ -67,7 +67,7 @@ void drop(World::State& state, const Island& island, uint64_t party, TickDelta& 
 
 constexpr SearchLimits search_limits{
     .parts_max = limits::island_parts_max,
-    .bricks_per_chunk = static_cast<size_t>(limits::island_chunk_cost_us / limits::island_brick_cost_us)};
+    .bricks_per_chunk = static_cast<size_t>(limits::ground_chunk_cost_us / limits::island_brick_cost_us)};
 
 bool has_seen(const IslandSearch& search, std::span<const BrickCoord> bricks) {
   return std::ranges::any_of(bricks, [&](BrickCoord brick) { return search.visited(brick); });

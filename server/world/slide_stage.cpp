@@ -70,15 +70,20 @@ std::set<Material> sliding_rows(const Field& field, const Palette& palette, Bric
   return rows;
 }
 
-/// Slides of the rows there that lie too steep, in order.
-std::vector<SlideOperation> due_slides(World::State& state, BrickCoord place) {
+/// What a look at a place costs: it reads the ground around, which may have to be generated.
+float look_price_us(const Field& field, BrickCoord place) {
+  const VoxelBox around{first_voxel(place - BrickCoord{1, 1, 1}),
+                        first_voxel(place + BrickCoord{place_bricks, place_bricks, place_bricks})};
+  return limits::slide_look_cost_us +
+         limits::ground_chunk_cost_us * static_cast<float>(untouched_chunks(around, field));
+}
+
+/// Those of the rows that lie too steep there, as slides, in order.
+std::vector<SlideOperation> due_slides(World::State& state, BrickCoord place,
+                                       const std::set<Material>& rows) {
   const Field& field = state.field;
   const float dx = state.config.terrain.voxel_size_m;
   std::vector<SlideOperation> due;
-  state.work.spend(limits::slide_glance_cost_us);
-  const std::set<Material> rows = sliding_rows(field, *state.palette, place);
-  if (rows.empty()) return due;
-  state.work.spend(limits::slide_look_cost_us);
   const uint8_t cell = slide_cell(dx);
   const VoxelBox box = box_around(field, place, cell);
   const Window codes = gather(field, slide_window(box));
@@ -105,13 +110,20 @@ bool look_at_first(World::State& state, uint64_t party, bool in_any_case, TickDe
   const BrickCoord place = *waiting->second.begin();
   waiting->second.erase(waiting->second.begin());
   if (waiting->second.empty()) state.slopes.erase(waiting);
-  for (const SlideOperation& operation : due_slides(state, place)) {
-    const float price_us = slide_price_us(operation.box);
-    if (!in_any_case && !has_room(state, price_us)) {
+  const auto pay = [&](float price_us) {
+    const bool pays = in_any_case || has_room(state, price_us);
+    if (pays)
+      state.work.spend(price_us);
+    else
       state.slopes[party].insert(place);
-      return false;
-    }
-    state.work.spend(price_us);
+    return pays;
+  };
+  state.work.spend(limits::slide_glance_cost_us);
+  const std::set<Material> rows = sliding_rows(state.field, *state.palette, place);
+  if (rows.empty()) return true;
+  if (!pay(look_price_us(state.field, place))) return false;
+  for (const SlideOperation& operation : due_slides(state, place, rows)) {
+    if (!pay(slide_price_us(operation.box))) return false;
     if (!state.apply_and_record(operation, party, delta).changed.empty()) break;
   }
   return true;

@@ -10,17 +10,6 @@ namespace scree {
 
 namespace {
 
-/// Chunks of the box that no edit has touched: their terrain may have to be generated. Whether it has been is
-/// not part of the simulation's state.
-size_t untouched_chunks(const VoxelBox& box, const Field& field) {
-  const ChunkCoord lo = chunk_of(brick_of(box.lo)), hi = chunk_of(brick_of(box.hi));
-  size_t count = 0;
-  for (int x = lo.x; x <= hi.x; ++x)
-    for (int y = lo.y; y <= hi.y; ++y)
-      for (int z = lo.z; z <= hi.z; ++z) count += field.has_edits({x, y, z}) ? 0 : 1;
-  return count;
-}
-
 struct OperationPricing {
   const Field& field;
   const PieceTable& pieces;
@@ -50,6 +39,15 @@ struct OperationPricing {
 };
 
 }  // namespace
+
+size_t untouched_chunks(const VoxelBox& box, const Field& field) {
+  const ChunkCoord lo = chunk_of(brick_of(box.lo)), hi = chunk_of(brick_of(box.hi));
+  size_t count = 0;
+  for (int x = lo.x; x <= hi.x; ++x)
+    for (int y = lo.y; y <= hi.y; ++y)
+      for (int z = lo.z; z <= hi.z; ++z) count += field.has_edits({x, y, z}) ? 0 : 1;
+  return count;
+}
 
 float edit_price_us(const Shape& shape, const Field& field) {
   const float dx = field.source().voxel_size_m;

@@ -2,6 +2,7 @@
 // shared/operation/limits.h names. Prices are functions of the operation and of what it is applied to alone.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "shared/field/field.h"
@@ -13,6 +14,10 @@ namespace scree {
 
 /// Voxels of a box.
 float voxels_of(const VoxelBox& box);
+
+/// Chunks of the box that no edit has touched: their terrain may have to be generated. Whether it has been is
+/// not part of the simulation's state.
+size_t untouched_chunks(const VoxelBox& box, const Field& field);
 
 /// Reading and changing the field in the box of a shape that is valid.
 float edit_price_us(const Shape& shape, const Field& field);
