@@ -16,7 +16,7 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const
   const std::string most = std::to_string(grant.pieces_most);
   if (seeds > pieces_max)
     return {Refusal::pieces_max,
-            "a carve of " + std::to_string(seeds) + " seeds never fits this server's limit of " + limit +
+            "a request for " + std::to_string(seeds) + " pieces never fits this server's limit of " + limit +
                 " pieces (pieces-max): ask for " + limit + " seeds at most, or have the limit raised to " +
                 all + " (--pieces-max)"};
   if (grant.contested)
@@ -26,7 +26,7 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const
             std::to_string(state.shares.of(party)) + " of the " + std::to_string(alive) + " pieces: " +
             (grant.pieces_most > 0 ? "ask for " + most + " seeds at most" : "wait until some have settled")};
   return {Refusal::pieces_max,
-          std::to_string(alive) + " pieces are alive and the carve may add " + std::to_string(seeds) +
+          std::to_string(alive) + " pieces are alive and this may add " + std::to_string(seeds) +
               "; this server's limit is " + limit + " (pieces-max): wait until " +
               std::to_string(wanted - pieces_max) + " have settled, " +
               (grant.pieces_most > 0 ? "ask for " + most + " seeds at most, " : std::string()) +

@@ -70,12 +70,12 @@ std::set<Material> sliding_rows(const Field& field, const Palette& palette, Bric
   return rows;
 }
 
-/// What a look at a place costs: it reads the ground around, which may have to be generated.
-float look_price_us(const Field& field, BrickCoord place) {
+/// What a look at a place costs besides: it reads the ground around, which may have to be generated.
+float ground_price_us(const World::State& state, BrickCoord place) {
+  if (state.config.rules < rules::paid_looks) return 0.0F;
   const VoxelBox around{first_voxel(place - BrickCoord{1, 1, 1}),
                         first_voxel(place + BrickCoord{place_bricks, place_bricks, place_bricks})};
-  return limits::slide_look_cost_us +
-         limits::ground_chunk_cost_us * static_cast<float>(untouched_chunks(around, field));
+  return limits::ground_chunk_cost_us * static_cast<float>(untouched_chunks(around, state.field));
 }
 
 /// Those of the rows that lie too steep there, as slides, in order.
@@ -121,7 +121,9 @@ bool look_at_first(World::State& state, uint64_t party, bool in_any_case, TickDe
   state.work.spend(limits::slide_glance_cost_us);
   const std::set<Material> rows = sliding_rows(state.field, *state.palette, place);
   if (rows.empty()) return true;
-  if (!pay(look_price_us(state.field, place))) return false;
+  state.work.spend(limits::slide_look_cost_us);
+  if (const float ground_us = ground_price_us(state, place); ground_us > 0.0F && !pay(ground_us))
+    return false;
   for (const SlideOperation& operation : due_slides(state, place, rows)) {
     if (!pay(slide_price_us(operation.box))) return false;
     if (!state.apply_and_record(operation, party, delta).changed.empty()) break;
