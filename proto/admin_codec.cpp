@@ -6,6 +6,7 @@
 
 #include "proto/body_list_codec.h"
 #include "proto/limits.h"
+#include "proto/store_codec.h"
 #include "shared/base/text.h"
 
 namespace scree {
@@ -41,6 +42,7 @@ struct WritingAct {
   }
   void operator()(const ListBodiesRequest& from) const { write(*to.mutable_list_bodies(), from); }
   void operator()(const ListJointsRequest& from) const { write(*to.mutable_list_joints(), from); }
+  void operator()(const ListStoresRequest&) const { to.mutable_list_stores(); }
 };
 
 static_assert(wire::ReplayPlay_ARRAYSIZE == kind_count<ReplayPlay>);
@@ -85,6 +87,8 @@ AdminRequest read_act(const wire::Admin& from, FieldChecker& check) {
       return read(from.list_bodies(), check);
     case wire::Admin::kListJoints:
       return read(from.list_joints(), check);
+    case wire::Admin::kListStores:
+      return ListStoresRequest{};
     case wire::Admin::ACT_NOT_SET:
       break;
   }
@@ -143,6 +147,9 @@ void write(wire::AdminList& to, const AdminListMessage& from) {
     added.set_reason(showable(from.bans[i].reason, limits::admin_reason_bytes_max));
   }
   write_bodies(to, from);
+  const size_t stores = std::min(from.stores.size(), limits::stores_a_message);
+  for (size_t i = 0; i < stores; ++i) write(*to.add_stores(), from.stores[i]);
+  to.set_left_out(to.left_out() + static_cast<uint32_t>(from.stores.size() - stores));
 }
 
 AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& check) {
@@ -160,6 +167,7 @@ AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& chec
                          row.left_s(),
                          check.text(row.reason(), limits::admin_reason_bytes_max, "reason of a ban")});
   read_bodies(from, list, check);
+  list.stores = read_stores(from.stores(), limits::stores_a_message, check);
   return list;
 }
 

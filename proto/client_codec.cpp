@@ -7,8 +7,11 @@
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/joint_codec.h"
+#include "proto/person_codec.h"
 #include "proto/prop_codec.h"
 #include "proto/query_codec.h"
+#include "proto/region_codec.h"
+#include "proto/store_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/wire_values.h"
 #include "shared/base/limits.h"
@@ -63,7 +66,14 @@ struct Writing {
   void operator()(const CutOutMessage& from) const { write(*to.mutable_cut_out(), from); }
   void operator()(const ReleaseMessage& from) const { write(*to.mutable_release(), from); }
   void operator()(const AddPieceMessage& from) const { write(*to.mutable_add_piece(), from); }
+  void operator()(const StandMessage& from) const { write(*to.mutable_stand(), from); }
+  void operator()(const WalkMessage& from) const { write(*to.mutable_walk(), from); }
+  void operator()(const DigMessage& from) const { write(*to.mutable_dig(), from); }
+  void operator()(const PlaceMessage& from) const { write(*to.mutable_place(), from); }
+  void operator()(const TransferMessage& from) const { write(*to.mutable_transfer(), from); }
   void operator()(const QueryMessage& from) const { write(*to.mutable_query(), from); }
+  void operator()(const SetRegionMessage& from) const { write(*to.mutable_set_region(), from); }
+  void operator()(const RemoveRegionMessage& from) const { write(*to.mutable_remove_region(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
@@ -129,7 +139,7 @@ RepairMessage read(const wire::Repair& from, FieldChecker& check) {
   return repair;
 }
 
-/// The requests about props, pieces and joints.
+/// The requests about props, pieces, joints, regions, persons on foot and stores, and questions.
 template <typename Checked>
 Result<ClientMessage> read_about_bodies(const wire::ClientMessage& from, FieldChecker& check,
                                         const Checked& checked) {
@@ -158,6 +168,22 @@ Result<ClientMessage> read_about_bodies(const wire::ClientMessage& from, FieldCh
       return checked(read(from.release(), check));
     case wire::ClientMessage::kAddPiece:
       return checked(read(from.add_piece(), check));
+    case wire::ClientMessage::kQuery:
+      return checked(read(from.query(), check));
+    case wire::ClientMessage::kSetRegion:
+      return checked(read(from.set_region(), check));
+    case wire::ClientMessage::kRemoveRegion:
+      return checked(read(from.remove_region(), check));
+    case wire::ClientMessage::kStand:
+      return checked(read(from.stand(), check));
+    case wire::ClientMessage::kWalk:
+      return checked(read(from.walk(), check));
+    case wire::ClientMessage::kDig:
+      return checked(read(from.dig(), check));
+    case wire::ClientMessage::kPlace:
+      return checked(read(from.place(), check));
+    case wire::ClientMessage::kTransfer:
+      return checked(read(from.transfer(), check));
     default:
       return UnknownMessage{};
   }
@@ -219,27 +245,11 @@ Result<ClientMessage> decode_client(std::span<const uint8_t> body) {
       return checked(read(from.say(), check));
     case wire::ClientMessage::kAck:
       return AckMessage{from.ack().tick()};
-    case wire::ClientMessage::kAddProp:
-    case wire::ClientMessage::kRemoveProp:
-    case wire::ClientMessage::kMoveProp:
-    case wire::ClientMessage::kPush:
-    case wire::ClientMessage::kBreak:
-    case wire::ClientMessage::kBlast:
-    case wire::ClientMessage::kAddJoint:
-    case wire::ClientMessage::kRemoveJoint:
-    case wire::ClientMessage::kSetMotor:
-    case wire::ClientMessage::kCutOut:
-    case wire::ClientMessage::kRelease:
-    case wire::ClientMessage::kAddPiece:
-      return read_about_bodies(from, check, checked);
-    case wire::ClientMessage::kQuery:
-      return checked(read(from.query(), check));
     case wire::ClientMessage::kAdmin:
       return checked(read_admin(from.admin(), check));
-    case wire::ClientMessage::KIND_NOT_SET:
-      break;
+    default:
+      return read_about_bodies(from, check, checked);
   }
-  return UnknownMessage{};
 }
 
 }  // namespace scree

@@ -70,15 +70,55 @@ ContentMessage read(const wire::Content& from, FieldChecker& check) {
   return content;
 }
 
-std::string pack_ledger(const MaterialLedger& ledger) {
+namespace {
+
+/// The rows up to the last that has one of these masses.
+std::span<const MaterialLedger::Row> rows_with(const MaterialLedger& ledger,
+                                               std::span<MassUnits MaterialLedger::Row::*const> masses) {
+  std::span<const MaterialLedger::Row> rows = ledger.rows();
+  const auto is_empty = [&](const MaterialLedger::Row& row) {
+    return std::all_of(masses.begin(), masses.end(), [&](const auto mass) { return row.*mass == 0; });
+  };
+  while (!rows.empty() && is_empty(rows.back())) rows = rows.first(rows.size() - 1);
+  return rows;
+}
+
+using LedgerRow = MaterialLedger::Row;
+constexpr std::array in_world{&LedgerRow::terrain, &LedgerRow::pieces, &LedgerRow::dust, &LedgerRow::poured,
+                              &LedgerRow::converted};
+constexpr std::array in_stores{&LedgerRow::stored};
+
+std::string pack_rows(const MaterialLedger& ledger, std::span<MassUnits LedgerRow::*const> masses) {
   std::vector<uint8_t> bytes;
   ByteWriter writer(bytes);
-  std::span<const MaterialLedger::Row> rows = ledger.rows();
-  while (!rows.empty() && rows.back() == MaterialLedger::Row{}) rows = rows.first(rows.size() - 1);
-  for (const MaterialLedger::Row& row : rows)
-    for (const MassUnits mass : {row.terrain, row.pieces, row.dust, row.poured, row.converted})
-      writer.zigzag(mass);
+  for (const LedgerRow& row : rows_with(ledger, masses))
+    for (const auto mass : masses) writer.zigzag(row.*mass);
   return to_string(bytes);
+}
+
+void unpack_rows(const std::string& packed, std::span<MassUnits LedgerRow::*const> masses,
+                 std::vector<LedgerRow>& rows, FieldChecker& check) {
+  ByteReader reader(as_span(packed), "ledger of the materials");
+  for (size_t at = 0; !reader.at_end() && !reader.failed(); ++at) {
+    if (at == materials_max) {
+      reader.refuse("more rows than a palette has");
+      break;
+    }
+    if (rows.size() <= at) rows.emplace_back();
+    for (const auto mass : masses)
+      rows[at].*mass = reader.zigzag("mass (limits.ledger_mass_max)", limits::ledger_mass_max);
+  }
+  if (reader.failed()) check.refuse(reader.error().message);
+}
+
+}  // namespace
+
+std::string pack_ledger(const MaterialLedger& ledger) {
+  return pack_rows(ledger, in_world);
+}
+
+std::string pack_stored(const MaterialLedger& ledger) {
+  return pack_rows(ledger, in_stores);
 }
 
 MassUnits ledger_mass(int64_t mass, FieldChecker& check) {
@@ -88,19 +128,10 @@ MassUnits ledger_mass(int64_t mass, FieldChecker& check) {
   return 0;
 }
 
-MaterialLedger unpack_ledger(const std::string& packed, FieldChecker& check) {
-  std::vector<MaterialLedger::Row> rows;
-  ByteReader reader(as_span(packed), "ledger of the materials");
-  while (!reader.at_end() && !reader.failed()) {
-    if (rows.size() == materials_max) {
-      reader.refuse("more rows than a palette has");
-      break;
-    }
-    MaterialLedger::Row& row = rows.emplace_back();
-    for (MassUnits* mass : {&row.terrain, &row.pieces, &row.dust, &row.poured, &row.converted})
-      *mass = reader.zigzag("mass (limits.ledger_mass_max)", limits::ledger_mass_max);
-  }
-  if (reader.failed()) check.refuse(reader.error().message);
+MaterialLedger unpack_ledger(const std::string& packed, const std::string& stored, FieldChecker& check) {
+  std::vector<LedgerRow> rows;
+  unpack_rows(packed, in_world, rows, check);
+  unpack_rows(stored, in_stores, rows, check);
   return MaterialLedger(std::move(rows));
 }
 

@@ -23,9 +23,12 @@ ContentMessage read(const wire::Content& from, FieldChecker& check);
 /// Refuses mass beyond limits::ledger_mass_max.
 MassUnits ledger_mass(int64_t mass, FieldChecker& check);
 
-/// Five zigzag varints for each row: terrain, pieces, dust, poured, converted. Rows at the end without
+/// Five zigzag varints for each row: terrain, pieces, dust, poured, converted (what is stored is apart, where
+/// there is any). Rows at the end without
 /// anything are left out: ledgers that say the same have the same bytes.
 std::string pack_ledger(const MaterialLedger& ledger);
-MaterialLedger unpack_ledger(const std::string& packed, FieldChecker& check);
+/// What is stored of each material, a zigzag varint for each row, likewise; empty where nothing is.
+std::string pack_stored(const MaterialLedger& ledger);
+MaterialLedger unpack_ledger(const std::string& packed, const std::string& stored, FieldChecker& check);
 
 }  // namespace scree

@@ -35,6 +35,12 @@ enum class EventKind : uint8_t {
   joint_ended,
   prop_added,
   prop_removed,
+  region_enter,
+  region_leave,
+  hurt,
+  buried,
+  dig,
+  place,
 };
 
 struct EventRow {
@@ -88,6 +94,25 @@ constexpr EventRow row_of(EventKind kind) {
       return {kind, "prop_added", false, "a prop was added; body: the prop; tag: its own"};
     case EventKind::prop_removed:
       return {kind, "prop_removed", false, "a prop was removed, or left the world; body and tag likewise"};
+    case EventKind::region_enter:
+      return {
+          kind, "region_enter", false,
+          "the middle of a piece or a prop came into a region that tells; text: its name; body and tag: of "
+          "what came"};
+    case EventKind::region_leave:
+      return {kind, "region_leave", false, "it left the region, or is no more; text, body and tag likewise"};
+    case EventKind::hurt:
+      return {
+          kind, "hurt", false,
+          "a piece or a prop struck a person on foot; body and tag: the person's body and session; other: "
+          "what struck; energy: of the blow; session: the party that made what struck"};
+    case EventKind::buried:
+      return {kind, "buried", false,
+              "rock closed around a person on foot, who could not be pushed out; body, tag: likewise"};
+    case EventKind::dig:
+      return {kind, "dig", false, "terrain or a piece was dug; volume: into the store; body: the piece"};
+    case EventKind::place:
+      return {kind, "place", false, "a shape was placed; volume: out of the store"};
   }
   return {};
 }

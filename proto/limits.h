@@ -101,6 +101,9 @@ inline constexpr size_t bodies_named_max = 64;
 /// Pieces in one message of those that are kept, or are no more. More come in several.
 inline constexpr size_t kept_pieces_max = 1024;
 
+/// Persons on foot in one message. More are on foot without a word of whose body is which.
+inline constexpr size_t person_bodies_max = 4096;
+
 /// Length of a line of chat, bytes: two lines of a screen. Above: refused; a server's own are cut.
 inline constexpr size_t line_bytes_max = 200;
 

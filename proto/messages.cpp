@@ -88,6 +88,15 @@ size_t bytes_of(const Prop& prop) {
   return bytes;
 }
 
+size_t bytes_of(const std::vector<Region>& regions) {
+  size_t bytes = 0;
+  for (const Region& region : regions) {
+    bytes += sizeof region + region.name.size();
+    for (const std::string& person : region.persons) bytes += sizeof person + person.size();
+  }
+  return bytes;
+}
+
 size_t bytes_of(const AnswerMessage& message) {
   size_t bytes = message.refusal.size() + message.refusal_name.size() + bytes_of(message.answers);
   for (const QuestionReply& reply : message.answers) {
@@ -120,8 +129,15 @@ size_t memory_bytes(const ServerMessage& message) {
           [](const PropMessage& m) { return bytes_of(m.prop); },
           [](const ContactsMessage& m) { return m.contacts.size() * sizeof(ContactEvent); },
           [](const JointsMessage& m) { return bytes_of(m.here) + bytes_of(m.gone); },
+          [](const StoresMessage& m) {
+            size_t bytes = bytes_of(m.stores);
+            for (const StoreContent& one : m.stores) bytes += bytes_of(one.masses);
+            return bytes;
+          },
           [](const KeptPiecesMessage& m) { return bytes_of(m.kept) + bytes_of(m.released); },
+          [](const PersonPlacesMessage& m) { return m.persons ? bytes_of(*m.persons) : size_t{0}; },
           [](const AnswerMessage& m) { return bytes_of(m); },
+          [](const RegionsMessage& m) { return bytes_of(m.regions); },
           [](const GroundMessage& m) { return bytes_of(m.bricks); },
           [](const TileMessage& m) { return m.bytes.size(); },
           [](const ContentMessage& m) { return m.part.size(); },

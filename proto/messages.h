@@ -18,10 +18,13 @@
 #include "proto/kept_pieces.h"
 #include "proto/marks.h"
 #include "proto/paging_status.h"
+#include "proto/person_message.h"
 #include "proto/playback_state.h"
 #include "proto/protocol_version.h"
 #include "proto/query.h"
+#include "proto/region_message.h"
 #include "proto/status_values.h"
+#include "proto/store_message.h"
 #include "proto/talk.h"
 #include "shared/base/digest.h"
 #include "shared/base/ids.h"
@@ -109,6 +112,13 @@ using SetMotorMessage = RequestMessage<SetMotorRequest>;
 using CutOutMessage = RequestMessage<CutOutRequest>;
 using ReleaseMessage = RequestMessage<ReleaseRequest>;
 using AddPieceMessage = RequestMessage<AddPieceRequest>;
+using SetRegionMessage = RequestMessage<SetRegionRequest>;
+using RemoveRegionMessage = RequestMessage<RemoveRegionRequest>;
+using StandMessage = RequestMessage<StandRequest>;
+using WalkMessage = RequestMessage<WalkRequest>;
+using DigMessage = RequestMessage<DigRequest>;
+using PlaceMessage = RequestMessage<PlaceRequest>;
+using TransferMessage = RequestMessage<TransferRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairMessage {
@@ -122,8 +132,8 @@ struct AckMessage {
   Tick tick = 0;
 };
 
-/// Requests of an administrator; a director may list bodies and joints, too. SettingsRequest changes all its
-/// settings, or none.
+/// Requests of an administrator; a director may list bodies, joints and stores, too. SettingsRequest changes
+/// all its settings, or none.
 struct ListSessionsRequest {};
 struct KickRequest {
   uint64_t session = 0;
@@ -140,9 +150,10 @@ struct ListBansRequest {};
 struct LiftBanRequest {
   std::string address;
 };
-using AdminRequest =
-    std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest, ListBansRequest,
-                 LiftBanRequest, ControlReplayRequest, ListBodiesRequest, ListJointsRequest>;
+struct ListStoresRequest {};
+using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
+                                  ListBansRequest, LiftBanRequest, ControlReplayRequest, ListBodiesRequest,
+                                  ListJointsRequest, ListStoresRequest>;
 
 /// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {
@@ -178,7 +189,9 @@ using ClientMessage =
                  OfferMessage, GoodbyeMessage, AskTilesMessage, SayMessage, AskHealthMessage,
                  AskContentMessage, AddPropMessage, RemovePropMessage, MovePropMessage, PushMessage,
                  BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage,
-                 CutOutMessage, ReleaseMessage, AddPieceMessage, QueryMessage, UnknownMessage>;
+                 CutOutMessage, ReleaseMessage, AddPieceMessage, QueryMessage, SetRegionMessage,
+                 RemoveRegionMessage, StandMessage, WalkMessage, DigMessage, PlaceMessage, TransferMessage,
+                 UnknownMessage>;
 
 // ---- server to client
 
@@ -303,6 +316,7 @@ struct ReplyMessage {
   std::optional<uint32_t> painted{};  ///< bricks of 8 voxels a side whose rock a paint changed
   std::optional<PieceId> prop{};      ///< that was added
   std::optional<JointId> joint{};     ///< likewise
+  std::optional<MassUnits> mass{};    ///< that was dug, placed or transferred
 };
 
 /// Once a second, for people.
@@ -335,6 +349,7 @@ struct StatusMessage {
   uint32_t chunks_waiting = 0;
   PagingStatus paging;
   MaterialLedger materials{};  ///< the ledger by material
+  int64_t ledger_stored = 0;
 };
 
 /// A rigid body without its pose.
@@ -356,9 +371,10 @@ struct AdminListMessage {
   uint32_t request = 0;
   std::vector<SessionRow> sessions{};
   std::vector<BanRow> bans{};
-  std::vector<BodyRow> bodies{};     ///< ordered by id, at most limits::admin_rows_max
-  std::vector<KnownJoint> joints{};  ///< likewise
-  uint32_t left_out = 0;             ///< bodies or joints that would be more
+  std::vector<BodyRow> bodies{};       ///< ordered by id, at most limits::admin_rows_max
+  std::vector<KnownJoint> joints{};    ///< likewise
+  uint32_t left_out = 0;               ///< bodies, joints or stores that would be more
+  std::vector<StoreContent> stores{};  ///< in order, at most limits::stores_a_message
 };
 
 /// The bodies, contacts and searches of a tick, for display. Lengths are rounded to 1/256 m on the wire.
@@ -375,7 +391,7 @@ using ServerMessage =
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
                  PropMessage, ContactsMessage, JointsMessage, KeptPiecesMessage, AnswerMessage,
-                 UnknownMessage>;
+                 RegionsMessage, PersonPlacesMessage, StoresMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "proto/byte_stream.h"
+#include "proto/packed_shape.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
@@ -24,16 +25,18 @@ constexpr unsigned kind_bits = 3;
 constexpr uint64_t kind_mask = (1U << kind_bits) - 1;
 constexpr size_t kinds = std::variant_size_v<Operation>;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | kind_mask;
-/// The kind of a fill of a material, of paint by voxels, of slides, and of shatters by a shape; a byte after
-/// the head says which.
+/// The kind of a fill of a material, of paint by voxels, of slides, of shatters by a shape, of digs and of
+/// places; a byte after the head says which.
 constexpr uint64_t kind_with_material = 7;
 enum WithMaterial : uint8_t {
   fill_of_material = 0,
   paint_of_voxels = 1,
   slide_of_material = 2,
-  shatter_by_shape = 3
+  shatter_by_shape = 3,
+  dig_of_shape = 4,
+  place_of_material = 5
 };
-static_assert(kinds == kind_with_material + 1);
+static_assert(kinds == kind_with_material + 3);
 
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
 /// takes no byte of its own.
@@ -69,22 +72,6 @@ constexpr auto wire_methods = [] {
 static_assert(fold_sign(-stamp_shift_max) >> shift_bits == 0 &&
               fold_sign(stamp_shift_max) >> shift_bits == 0);
 
-void write_shape(ByteWriter& writer, const Shape& shape) {
-  writer.u8(static_cast<uint8_t>(shape.kind));
-  writer.vec3(shape.a);
-  if (row_of(shape.kind).has_b) writer.vec3(shape.b);
-  writer.f32(shape.radius_m);
-}
-
-Shape read_shape(ByteReader& reader) {
-  Shape shape;
-  shape.kind = reader.kind<ShapeKind>("kind of shape");
-  shape.a = reader.vec3("shape");
-  if (traits_of(shape.kind).has_b) shape.b = reader.vec3("shape");
-  shape.radius_m = reader.f32("radius of the shape");
-  return shape;
-}
-
 /// The pattern in the low half of a byte, the cutter in the high half.
 static_assert(kind_count<SeedPattern> <= 16 && kind_count<Cutter> <= 16);
 uint8_t packed(SeedPattern pattern, Cutter cutter) {
@@ -102,6 +89,8 @@ PieceId head_id(const Operation& operation) {
                         [](const IslandOperation& op) { return op.piece; },
                         [](const PaintOperation&) { return PieceId{0}; },
                         [](const SlideOperation&) { return PieceId{0}; },
+                        [](const DigOperation& op) { return op.piece; },
+                        [](const PlaceOperation&) { return PieceId{0}; },
                     },
                     operation);
 }
@@ -167,6 +156,15 @@ struct Writing {
     for (const int32_t side : {size.x, size.y, size.z}) writer.varint(static_cast<uint64_t>(side));
     for (const uint8_t one : {static_cast<uint8_t>(slide.material), slide.tangent, slide.cell})
       writer.u8(one);
+  }
+  void operator()(const DigOperation& dig) const {
+    writer.u8(dig_of_shape);
+    write_shape(writer, dig.shape);
+  }
+  void operator()(const PlaceOperation& place) const {
+    writer.u8(place_of_material);
+    write_shape(writer, place.shape);
+    writer.u8(static_cast<uint8_t>(place.material));
   }
   void operator()(const IslandOperation& island) const {
     const VoxelCoord size = island.box.size(), start = island.start - island.box.lo;
@@ -285,7 +283,7 @@ void read(ByteReader& reader, PieceId, SlideOperation& slide) {
 }
 
 Operation read_with_material(ByteReader& reader, PieceId id) {
-  const uint8_t which = reader.u8("kind of an operation with a material", shatter_by_shape);
+  const uint8_t which = reader.u8("kind of an operation with a material", place_of_material);
   if (which == shatter_by_shape) {
     ShatterOperation shatter;
     PieceCut cut{read_shape(reader), {}};
@@ -297,7 +295,8 @@ Operation read_with_material(ByteReader& reader, PieceId id) {
     shatter.cut = cut;
     return shatter;
   }
-  if (id != 0) reader.refuse("a fill, paint or slide with a piece id");
+  if (which == dig_of_shape) return DigOperation{read_shape(reader), id};
+  if (id != 0) reader.refuse("a fill, paint, slide or place with a piece id");
   if (which == slide_of_material) {
     SlideOperation slide;
     read(reader, id, slide);
@@ -306,6 +305,7 @@ Operation read_with_material(ByteReader& reader, PieceId id) {
   const Shape shape = read_shape(reader);
   const Material material = read_material(reader);
   if (which == fill_of_material) return FillOperation{shape, material};
+  if (which == place_of_material) return PlaceOperation{shape, material};
   return PaintOperation{shape, material};
 }
 
@@ -329,7 +329,7 @@ bool has_form_with_material(const Operation& operation) {
   const auto* fill = std::get_if<FillOperation>(&operation);
   const auto* paint = std::get_if<PaintOperation>(&operation);
   const auto* shatter = std::get_if<ShatterOperation>(&operation);
-  return (shatter != nullptr && shatter->cut) || std::holds_alternative<SlideOperation>(operation) ||
+  return (shatter != nullptr && shatter->cut) || operation.index() >= kind_with_material ||
          (fill != nullptr && fill->material) || (paint != nullptr && !paint->whole_bricks);
 }
 

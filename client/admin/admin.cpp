@@ -59,6 +59,14 @@ class Talk {
     }
   }
 
+  Result<std::vector<Region>> regions() {
+    for (std::vector<Region> regions;;) {
+      auto message = TRY(next_message("status"));
+      if (auto* const all = std::get_if<RegionsMessage>(&message)) regions = std::move(all->regions);
+      if (std::holds_alternative<StatusMessage>(message)) return regions;
+    }
+  }
+
  private:
   Result<ServerMessage> next_message(const char* what) {
     for (;;) {
@@ -278,6 +286,17 @@ Result<AdminListMessage> list_joints(const AdminServer& server, const ListJoints
   return std::move(asked.first);
 }
 
+/// They come before the first status, and do not come where there are none.
+Result<std::vector<Region>> list_regions(const AdminServer& server) {
+  Talk talk = TRY(join(server));
+  return talk.regions();
+}
+
+Result<AdminListMessage> list_stores(const AdminServer& server) {
+  auto asked = TRY(ask<AdminListMessage>(server, ListStoresRequest{}));
+  return std::move(asked.first);
+}
+
 Result<SpaceAnswer> ask_space(const AdminServer& server, const Question& question, int64_t as_of) {
   const SpaceBox bounds = bounds_of(question);
   const glm::dvec3 middle_m = 0.5 * (bounds.lo + bounds.hi);
@@ -294,7 +313,7 @@ Result<SpaceAnswer> ask_space(const AdminServer& server, const Question& questio
   const QuestionReply& reply = said.answers.front();
   if (!reply.answer)
     return fail(reply.refusal.empty() ? "this server does not know the question" : reply.refusal);
-  return SpaceAnswer{said.tick, *reply.answer, reply.more};
+  return SpaceAnswer{said.tick, *reply.answer, reply.more, talk.welcome().terrain.voxel_size_m};
 }
 
 }  // namespace scree

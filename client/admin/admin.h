@@ -109,16 +109,32 @@ Result<AdminListMessage> list_joints(const AdminServer& server, const ListJoints
 std::string joints_json(const AdminListMessage& list);
 std::string joints_lines(const AdminListMessage& list);
 
+/// The regions of the world. Needs no token where anonymous sessions are taken.
+Result<std::vector<Region>> list_regions(const AdminServer& server);
+std::string regions_json(const std::vector<Region>& regions);
+/// A line each.
+std::string regions_lines(const std::vector<Region>& regions);
+
+/// The stores of the world. Takes a director's token, too.
+Result<AdminListMessage> list_stores(const AdminServer& server);
+/// Masses are units of the ledger; materials without a name are known by their numbers.
+std::string stores_json(const AdminListMessage& list, const WorldFacts& world);
+std::string stores_lines(const AdminListMessage& list, const WorldFacts& world);
+
 /// An answer, and the tick that it is of.
 struct SpaceAnswer {
   Tick tick = 0;
   QuestionAnswer answer;
-  bool more = false;  ///< ids are left out
+  bool more = false;           ///< ids are left out
+  float voxel_size_m = 0.25F;  ///< of the world
 };
 /// Asks a valid question about space, from an eye in the middle of what it is about: it takes a place as any
 /// client does. `as_of`: a tick; 0: the newest; negative: so many ticks before the newest.
 Result<SpaceAnswer> ask_space(const AdminServer& server, const Question& question, int64_t as_of = 0);
-std::string answer_json(const SpaceAnswer& said);
-std::string answer_lines(const SpaceAnswer& said);
+/// Whether it names materials, so that the palette is needed to say it.
+bool names_materials(const SpaceAnswer& said);
+/// By the palette's names, and masses in kg.
+std::string answer_json(const SpaceAnswer& said, const Palette& palette);
+std::string answer_lines(const SpaceAnswer& said, const Palette& palette);
 
 }  // namespace scree

@@ -36,6 +36,7 @@ Json json_of(const MaterialLedger& ledger, const std::vector<std::string>& names
                                                              {"dust", row.dust},
                                                              {"poured", row.poured},
                                                              {"converted", row.converted}};
+    if (row.stored != 0) json[i < names.size() ? names[i] : std::to_string(i)]["stored"] = row.stored;
   }
   return json;
 }
@@ -58,7 +59,8 @@ Json json_of(const StatusMessage& status, const std::vector<std::string>& materi
         {"pieces", status.ledger_pieces},
         {"dust", status.ledger_dust},
         {"poured", status.ledger_poured},
-        {"moved", status.ledger_moved}}},
+        {"moved", status.ledger_moved},
+        {"stored", status.ledger_stored}}},
       {"materials", json_of(status.materials, materials)},
       {"tick_ms", {{"median", status.tick_median_ms}, {"worst", status.tick_worst_ms}}},
       {"stage_ms", std::move(stages)},

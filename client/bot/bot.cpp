@@ -91,6 +91,7 @@ void Bot::count_connection() {
   report_.carves_lost += static_cast<uint32_t>(requests_.size());
   requests_.clear();
   unseen_.clear();
+  foot_.reset();
 }
 
 Result<void> Bot::reconnect(const ConnectionEnd& end) {
@@ -121,6 +122,7 @@ Result<void> Bot::step(std::chrono::milliseconds wait) {
   if (!may_paint) report_.failure = may_paint.error().message;
   TRY(may_paint);
   if (*may_paint) ask(Clock::now());
+  if (config_.walks > 0) walk(Clock::now());
   return {};
 }
 
@@ -176,7 +178,13 @@ void Bot::receive_frame(const FrameMessage& frame, Clock::time_point arrived) {
 
 void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
   const auto request = requests_.find(reply.request);
-  if (request == requests_.end()) return;
+  if (request == requests_.end()) {
+    if (reply.refusal.empty()) return;
+    ++report_.walks.refused;
+    log("walk refused",
+        fmt::format("on foot, {} was refused ({}): {}", reply.request, reply.refusal_name, reply.refusal));
+    return;
+  }
   const RequestLatency latency{ms_between(request->second.sent, arrived), reply.latency};
   report_.reply_latencies_ms.push_back(latency.total_ms);
   report_.network_latencies_ms.push_back(latency.network_ms());
@@ -243,12 +251,13 @@ void Bot::go_near(glm::vec3 place_m) {
 }
 
 bool Bot::scripted_work_done() const {
-  return first_frame_ != 0 && report_.carves_asked == config_.carves && requests_.empty() &&
+  return first_frame_ != 0 && walked() && report_.carves_asked == config_.carves && requests_.empty() &&
          (!config_.linger || report_.settled);
 }
 
 bool Bot::finished() const {
-  const bool handshake_only = config_.carves == 0 && !config_.linger && !config_.check_hash;
+  const bool handshake_only =
+      config_.carves == 0 && config_.walks == 0 && !config_.linger && !config_.check_hash;
   return scripted_work_done() && (handshake_only || compared_);
 }
 

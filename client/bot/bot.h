@@ -14,15 +14,18 @@
 #include <unordered_map>
 
 #include "client/bot/carver.h"
+#include "client/bot/random_walk.h"
 #include "client/bot/report.h"
 #include "client/connection/connection.h"
 #include "client/session/client.h"
+#include "client/session/walk_prediction.h"
 #include "shared/base/log_limit.h"
 
 namespace scree {
 
 struct BotConfig : ServerEndpoint {
   uint32_t carves = 20;  ///< 0: the bot ends after the handshake and one frame
+  uint32_t walks = 0;    ///< on foot, beside the carves; 0: the bot flies
   uint64_t random_seed = 1;
   double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come
   CarverConfig carver;
@@ -80,6 +83,8 @@ class Bot {
   Result<bool> knows_paint() const;
   void ask(Clock::time_point now);
   void go_near(glm::vec3 place_m);
+  void walk(Clock::time_point now);
+  bool walked() const { return config_.walks == 0 || (walk_ && walk_->is_over()); }
   bool scripted_work_done() const;
   void log(std::string_view kind, const std::string& line);
 
@@ -98,10 +103,14 @@ class Bot {
   Clock::time_point last_frame_at_;
   Tick first_frame_ = 0;
   std::optional<uint64_t> rest_hash_;  ///< of the field when no piece was left, at the last status
-  uint64_t repairs_asked_ = 0;         ///< chunks, by this connection
-  uint32_t final_statuses_ = 0;        ///< since all scripted work was done
-  bool compared_ = false;              ///< the final comparison of hashes is done
-  BotReport report_;                   ///< of past connections, and totals
+  std::optional<RandomWalk> walk_;
+  std::optional<WalkPrediction> foot_;  ///< of this connection
+  Clock::time_point walked_to_;         ///< of the last tick on foot
+  Clock::time_point asked_to_stand_;
+  uint64_t repairs_asked_ = 0;   ///< chunks, by this connection
+  uint32_t final_statuses_ = 0;  ///< since all scripted work was done
+  bool compared_ = false;        ///< the final comparison of hashes is done
+  BotReport report_;             ///< of past connections, and totals
 };
 
 }  // namespace scree

@@ -48,6 +48,11 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
           whole_within(0, 1e6))
       ->envname("SCREE_CARVES")
       ->capture_default_str();
+  bounded(app.add_option("--walk", bot.walks,
+                         "random walks on foot, a second to three each, in a world whose persons walk"),
+          whole_within(0, 1e6))
+      ->envname("SCREE_WALK")
+      ->capture_default_str();
   bounded(app.add_option("--seed", bot.random_seed, "seed of the random choices"),
           whole_within(0, whole_most))
       ->envname("SCREE_SEED")

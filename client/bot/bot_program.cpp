@@ -32,6 +32,12 @@ int run(const BotOptions& options) {
   spdlog::info("{} carves asked, {} accepted, {} refused, {} lost; {} pieces made, {} merged, {} alive",
                report.carves_asked, report.carves_accepted, report.carves_refused, report.carves_lost,
                report.seen.pieces_made, report.seen.pieces_merged, report.pieces_alive);
+  if (options.bot.walks > 0)
+    spdlog::info(
+        "{} walks, {} inputs, {} refused; {} corrections, of {:.3f} m at most; {:.3f} m deep in rock at "
+        "most",
+        report.walks.done, report.walks.inputs, report.walks.refused, report.walks.corrections,
+        report.walks.correction_worst_m, report.walks.depth_worst_m);
   if (!report.failure.empty() || !written) return exit_failed;
   const std::string refused = all_refused(report);
   if (refused.empty()) return 0;

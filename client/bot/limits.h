@@ -29,6 +29,13 @@ inline constexpr float bot_sight_m = 96.0F;
 /// servers allow by default (ServiceLimits::reach_m). A server that allows less has its own distance.
 inline constexpr float bot_reach_m = 48.0F;
 
+/// Seconds by which a bot's walk may be behind the clock, because its process stood still. Above: it goes on
+/// from now.
+inline constexpr double bot_walk_behind_s = 0.25;
+
+/// Distance that a bot on foot goes before it says where it is, metres.
+inline constexpr float bot_follow_m = 4.0F;
+
 /// Letters by which the name of a material may differ from the one that is proposed. Above: none is.
 inline constexpr size_t bot_mistyped_max = 2;
 

@@ -42,15 +42,28 @@ Json carves(const BotReport& report) {
           {"refusals", std::move(refusals)}};
 }
 
+Json walks(const WalkReport& walks) {
+  const double minutes = walks.seconds / 60.0;
+  return {{"done", walks.done},
+          {"inputs", walks.inputs},
+          {"seconds", walks.seconds},
+          {"refused", walks.refused},
+          {"corrections", walks.corrections},
+          {"corrections_per_minute", minutes > 0.0 ? static_cast<double>(walks.corrections) / minutes : 0.0},
+          {"correction_worst_m", walks.correction_worst_m},
+          {"depth_worst_m", walks.depth_worst_m}};
+}
+
 Json ledger(const StatusMessage& status) {
-  const int64_t error =
-      status.ledger_terrain + status.ledger_pieces + status.ledger_dust - status.ledger_poured;
+  const int64_t error = status.ledger_terrain + status.ledger_pieces + status.ledger_dust +
+                        status.ledger_stored - status.ledger_poured;
   const double moved = static_cast<double>(std::max<int64_t>(status.ledger_moved, 1));
   return {{"terrain", status.ledger_terrain},
           {"pieces", status.ledger_pieces},
           {"dust", status.ledger_dust},
           {"poured", status.ledger_poured},
           {"moved", status.ledger_moved},
+          {"stored", status.ledger_stored},
           {"error", error},
           {"error_share", static_cast<double>(error) / moved}};
 }
@@ -95,6 +108,7 @@ std::string to_json(const BotReport& report) {
   json["connections"] = report.connections;
   json["settled"] = report.settled;
   json["carves"] = carves(report);
+  if (report.walks.inputs > 0 || report.walks.refused > 0) json["walks"] = walks(report.walks);
   json["pieces"] = {{"made", seen.pieces_made},
                     {"merged", seen.pieces_merged},
                     {"discarded", seen.operations.of<DiscardOperation>()},

@@ -50,6 +50,17 @@ struct HashComparison {
   uint64_t server = 0;
 };
 
+/// A bot's walks on foot.
+struct WalkReport {
+  uint32_t done = 0;
+  uint64_t inputs = 0;
+  double seconds = 0.0;  ///< of the inputs
+  uint64_t refused = 0;  ///< inputs, and requests to stand
+  uint64_t corrections = 0;
+  float correction_worst_m = 0.0F;
+  float depth_worst_m = -1.0F;  ///< in rock, of the person as the server tells it
+};
+
 struct BotReport {
   std::string server;
   WelcomeMessage welcome;
@@ -66,6 +77,7 @@ struct BotReport {
   uint32_t carves_lost = 0;                  ///< the connection was lost before the reply
   std::map<std::string, uint32_t> refusals;  ///< by the name of the reason
 
+  WalkReport walks;
   MirrorCounters seen;  ///< over all connections
   uint64_t pieces_alive = 0;
   uint64_t chunks_held = 0;

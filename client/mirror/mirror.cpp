@@ -24,6 +24,7 @@ uint32_t fold(uint64_t hash) {
 Mirror::Mirror(const WelcomeMessage& welcome, FindCachedChunk find_cached)
     : find_cached_(std::move(find_cached)),
       field_(welcome.terrain),
+      session_(welcome.session),
       known_motions_(motion_rules(welcome.tick_rate_hz, welcome.ticks_per_transform),
                      welcome.terrain.voxel_size_m),
       tick_(welcome.tick),
@@ -46,6 +47,9 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [&](const PropMessage& prop) { return apply_prop(prop, changes); },
           [&](const JointsMessage& joints) { return apply_joints(joints, changes); },
           [&](const KeptPiecesMessage& kept) { return apply_kept(kept); },
+          [&](const RegionsMessage& all) { return apply_regions(all, changes); },
+          [&](const PersonPlacesMessage& places) { return apply_persons(places); },
+          [&](const StoresMessage& stores) { return apply_stores(stores); },
           [&](const ResetMessage&) -> Done {
             apply_reset(changes);
             return {};
@@ -341,6 +345,10 @@ void Mirror::apply_reset(MirrorChanges& changes) {
   motions_.clear();
   props_.clear();
   kept_.clear();
+  regions_.clear();
+  changes.regions = true;
+  persons_.clear();
+  own_person_.reset();
   known_motions_.clear();
   table_.clear();
   piece_voxels_ = 0;

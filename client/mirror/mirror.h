@@ -37,6 +37,7 @@ struct MirrorChanges {
   std::vector<JointId> joints_changed{};  ///< that are new, or have another motor
   std::vector<EndedJoint> joints_removed{};
   bool palette = false;  ///< Mirror::palette() is another one
+  bool regions = false;  ///< Mirror::regions() are others
   /// An image of the palette has come whole (Client::content).
   std::optional<Digest> image{};
 };
@@ -106,6 +107,14 @@ class Mirror {
   const std::map<PieceId, PropMotionHere>& props() const { return props_; }
   /// Their bodies are known here.
   const std::map<JointId, Joint>& joints() const { return joints_; }
+  /// All regions of the world, ordered by id.
+  const std::vector<Region>& regions() const { return regions_; }
+  /// Who is on foot, by the props that are their bodies: a session each. Not all bodies are known here.
+  const std::map<PieceId, uint64_t>& persons() const { return persons_; }
+  /// This client's own person, as the server told it last; nothing: it is not on foot.
+  const std::optional<OwnPerson>& own_person() const { return own_person_; }
+  /// What the own store has, as far as the server says it.
+  const MaterialMasses& carried() const { return carried_; }
   /// Pose at a (fractional) tick, clamped to the known poses.
   Pose pose_at(const BetweenPoses& motion, double tick) const;
 
@@ -159,6 +168,9 @@ class Mirror {
   Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
   Result<void> apply_prop(const PropMessage& message, MirrorChanges& changes);
   Result<void> apply_kept(const KeptPiecesMessage& message);
+  Result<void> apply_regions(const RegionsMessage& message, MirrorChanges& changes);
+  Result<void> apply_persons(const PersonPlacesMessage& message);
+  Result<void> apply_stores(const StoresMessage& message);
   Result<void> apply_joints(const JointsMessage& message, MirrorChanges& changes);
   void forget_joint(const EndedJoint& gone, MirrorChanges& changes);
   void forget_joints_of(PieceId body, MirrorChanges& changes);
@@ -181,8 +193,13 @@ class Mirror {
   PieceTable table_;                        ///< the pieces, for apply() of operations
   std::map<PieceId, PieceMotion> motions_;  ///< their poses
   std::set<PieceId> kept_;
+  std::vector<Region> regions_;
   std::map<PieceId, PropMotionHere> props_;
   std::map<JointId, Joint> joints_;
+  std::map<PieceId, uint64_t> persons_;  ///< sessions by body
+  std::optional<OwnPerson> own_person_;
+  uint64_t session_;  ///< this client's
+  MaterialMasses carried_;
   std::map<PieceId, std::set<JointId>> joints_of_;  ///< by body; none is empty
   KnownMotions known_motions_;                      ///< by which they are predicted, pieces and props
   size_t piece_voxels_ = 0;                         ///< of their volumes, together

@@ -48,4 +48,29 @@ HeldScene Mirror::scene() {
   return field_.source().heights == nullptr ? scenes_.make(field_) : scenes_.make_apart(field_);
 }
 
+Result<void> Mirror::apply_persons(const PersonPlacesMessage& message) {
+  if (message.persons) {
+    persons_.clear();
+    bool is_on_foot = false;
+    for (const PersonBody& person : *message.persons) {
+      persons_[person.body] = person.session;
+      is_on_foot = is_on_foot || person.session == session_;
+    }
+    if (!is_on_foot) own_person_.reset();
+  }
+  if (message.own) own_person_ = message.own;
+  return {};
+}
+
+Result<void> Mirror::apply_regions(const RegionsMessage& message, MirrorChanges& changes) {
+  regions_ = message.regions;
+  changes.regions = true;
+  return {};
+}
+
+Result<void> Mirror::apply_stores(const StoresMessage& message) {
+  for (const StoreContent& one : message.stores) carried_ = one.masses;
+  return {};
+}
+
 }  // namespace scree

@@ -49,6 +49,10 @@ std::optional<Operation> operation_of(const Request& asked) {
                                [](const PaintRequest& paint) -> Made {
                                  return PaintOperation{paint.shape, paint.material};
                                },
+                               [](const DigRequest& dig) -> Made {
+                                 if (dig.piece != 0) return std::nullopt;
+                                 return DigOperation{dig.shape};
+                               },
                                [](const auto&) -> Made { return std::nullopt; }},
                     asked);
 }

@@ -27,6 +27,10 @@ inline constexpr double playback_drift = 0.01;
 /// Difference between a frame and the playback clock at which the clock restarts, seconds.
 inline constexpr double playback_jump_s = 1.0;
 
+/// Seconds of a person's inputs that the server has not taken yet. Above: the person stands still, for a link
+/// that holds up so much has a gap.
+inline constexpr double walk_untaken_max_s = 2.0;
+
 /// Delayed messages. Above: all are applied at once.
 inline constexpr size_t playback_messages_max = 4096;
 

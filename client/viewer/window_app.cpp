@@ -140,7 +140,7 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
     if (action == Action::next_eye && !whereabouts_.follow_next_eye(viewing_.session, now_s))
       say("nobody else is here, so there is no other view", now_s);
     if (action == Action::walk) {
-      whereabouts_.walk_or_fly(viewing_.camera, viewing_.session);
+      whereabouts_.walk_or_fly(viewing_.camera, viewing_.session, now_s);
       say(flies() ? "you fly; Q: walk" : "you walk, and Space jumps; Q: fly", now_s);
     }
     TRY(act_on_files(action, now_s));

@@ -78,7 +78,7 @@ void PageClient::act(Action action, double now_s) {
   visit_.session.timeline().act(action);
   switch (action) {
     case Action::walk:
-      return whereabouts_.walk_or_fly(visit_.camera, visit_.session);
+      return whereabouts_.walk_or_fly(visit_.camera, visit_.session, now_s);
     case Action::next_eye:
       static_cast<void>(whereabouts_.follow_next_eye(visit_.session, now_s));
       return;

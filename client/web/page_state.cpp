@@ -92,7 +92,8 @@ Json status_json(const StatusMessage& status, float voxel_size_m) {
             {"pieces", volume_m3(status.ledger_pieces)},
             {"dust", volume_m3(status.ledger_dust)},
             {"poured", volume_m3(status.ledger_poured)},
-            {"moved", volume_m3(status.ledger_moved)}}},
+            {"moved", volume_m3(status.ledger_moved)},
+            {"stored", volume_m3(status.ledger_stored)}}},
           {"refusals", refusals}};
 }
 
@@ -250,6 +251,7 @@ std::string state_text(PageClient& client) {
             {"lost_ticks", facts.lost_ticks},
             {"pieces_near", facts.pieces_near},
             {"props_near", facts.props_near},
+            {"carried", facts.carried},
             {"predictions", facts.predictions},
             {"joined", session.joined(now_s)},
             {"loaded", visit.joined(now_s)},

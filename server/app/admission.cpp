@@ -96,8 +96,8 @@ Admitted Admission::admit(std::vector<Command> arrived, const EditGround& ground
   std::deque<Held> still_held;
   std::map<uint64_t, size_t> held_by;  // by party: each may have as many as there are places left
   for (Held& one : held_) {
-    // Who leaves is answered by the simulation, whatever waits.
-    if (leaving.contains(one.command.session)) {
+    // Who leaves is answered by the simulation, whatever waits; a person walks on while an edit waits.
+    if (leaving.contains(one.command.session) || std::holds_alternative<WalkRequest>(one.command.body)) {
       admitted.commands.push_back(std::move(one.command));
       continue;
     }

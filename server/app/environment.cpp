@@ -14,7 +14,7 @@ namespace {
 constexpr std::string_view variable_prefix = "SCREE_", ci_prefix = "SCREE_CI_";
 
 /// A test compares them with the sources of these programs.
-constexpr std::array<std::string_view, 58> others{
+constexpr std::array<std::string_view, 59> others{
     // viewer, bot, admin, export, token
     "SCREE_ADMIN_TOKEN", "SCREE_ADMIN_TOKEN_FILE", "SCREE_AREA", "SCREE_CACHE", "SCREE_CACHE_MIB",
     "SCREE_CAMERA", "SCREE_CARVES", "SCREE_CHECK_HASH", "SCREE_FPS", "SCREE_FRAMES", "SCREE_GL_DEBUG",
@@ -25,7 +25,7 @@ constexpr std::array<std::string_view, 58> others{
     "SCREE_RENDER_SCALE", "SCREE_SCREENSHOT", "SCREE_SEEDS", "SCREE_SHAPE", "SCREE_SIZE", "SCREE_SOUND",
     "SCREE_SOUND_FILE", "SCREE_THRESHOLD", "SCREE_TIMEDEMO", "SCREE_TIMEOUT", "SCREE_TLS", "SCREE_TLS_CA",
     "SCREE_TLS_FINGERPRINT", "SCREE_TOKEN", "SCREE_TOKEN_FILE", "SCREE_TOKEN_SIGNING_KEY",
-    "SCREE_VIEW_RADIUS",
+    "SCREE_VIEW_RADIUS", "SCREE_WALK",
     // scripts, and tests
     "SCREE_DIST", "SCREE_FUZZ_ROUNDS", "SCREE_FUZZ_SEED", "SCREE_IMAGE_MIRROR", "SCREE_KILLS",
     "SCREE_MUTATIONS", "SCREE_PICTURES", "SCREE_PROGRAMS"};

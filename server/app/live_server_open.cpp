@@ -58,6 +58,10 @@ Result<void> LiveServer::State::open() {
   World* const world = feed->world();
   TickDelta keyframe = world == nullptr ? TickDelta() : world->keyframe();
   if (world == nullptr) keyframe.spawn = spawn;
+  // Their sessions were another process's, and never go on.
+  for (const PersonPlace& person : keyframe.persons)
+    if (!commands.push({person.session, 0, LeaveRequest{}}))
+      spdlog::warn("a person of session {} stays on foot, though the session is over", person.session);
   tell_missing_models(keyframe.props_spawned, config.models.get());
   report.settings = keyframe.settings;  // ticks say only what changes
   auto listening = TRY(NetServer::listen(config.net, commands, std::move(keyframe)));

@@ -35,7 +35,8 @@ Json json_of(const Durations& durations) {
 
 Json json_of(const Ledger& ledger) {
   return {{"terrain", ledger.terrain}, {"pieces", ledger.pieces}, {"dust", ledger.dust},
-          {"poured", ledger.poured},   {"moved", ledger.moved},   {"error", ledger.error()}};
+          {"poured", ledger.poured},   {"moved", ledger.moved},   {"error", ledger.error()},
+          {"stored", ledger.stored}};
 }
 
 Json json_of(const SettingValues& settings) {

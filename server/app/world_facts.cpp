@@ -40,6 +40,8 @@ std::string ledger_json(const MaterialLedger& ledger, const Palette& palette) {
                                                                                 {"dust", row.dust},
                                                                                 {"poured", row.poured},
                                                                                 {"converted", row.converted}};
+    if (row.stored != 0)
+      json[i < palette.rows.size() ? palette.rows[i].name : std::to_string(i)]["stored"] = row.stored;
   }
   return json.dump();
 }

@@ -120,6 +120,9 @@ class Bodies {
   /// The body must be present; a fixed one has no speeds. Numbers as of add().
   void set_motion(PieceId id, const std::optional<Pose>& pose, const std::optional<glm::vec3>& velocity_m_s,
                   const std::optional<glm::vec3>& spin_rad_s);
+  /// Puts a body elsewhere, with another speed, and wakes it: contacts are of where it was. The body must be
+  /// present, and no fixed one. Numbers as of add().
+  void put_back(PieceId id, const Pose& pose, glm::vec3 velocity_m_s);
   /// Whether a prop that contacts move lies in the terrain, which is read. The body must be present. Steps
   /// look by themselves, too: what sinks there is pushed out at limits::undo_buried_m_s.
   InTerrain look_whether_in_terrain(PieceId id);

@@ -17,6 +17,11 @@ struct Command {
   /// Who shares the server with others as one: by the number of a session, its own or another's, which has
   /// the same address or token. 0: the session for itself.
   uint64_t party = 0;
+  /// Who asks, as the network side knows it: a world lets him edit in a region by that. The server itself may
+  /// edit everywhere.
+  Asker asker{};
+  /// The eye from which an edit has to be in sight; nothing: it may be out of sight. Set by the network side.
+  std::optional<glm::vec3> eye_m{};
 
   bool operator==(const Command&) const = default;
 };
@@ -37,6 +42,7 @@ struct Reply {
   std::optional<uint32_t> painted{};             ///< bricks whose rock a paint changed
   std::optional<PieceId> prop{};                 ///< that was added
   std::optional<JointId> joint{};                ///< likewise
+  std::optional<MassUnits> mass{};               ///< that was dug, placed or transferred
 };
 
 /// The name of the reply's refusal that clients get, which stays the same from version to version: that of

@@ -108,29 +108,57 @@ bool Access::is_revoked(uint64_t id) const {
   return std::ranges::binary_search(revoked_, id);
 }
 
+namespace {
+
+bool is_own(const StoreName& store) {
+  return store.kind == StoreKind::own;
+}
+
+/// Everybody digs and places by the own store, and may give what is in it to all.
+Role role_of(const DigRequest& dig) {
+  return is_own(dig.store) ? Role::carver : Role::director;
+}
+Role role_of(const PlaceRequest& place) {
+  if (!is_own(place.store)) return Role::director;
+  return place.solid ? Role::builder : Role::carver;
+}
+Role role_of(const TransferRequest& transfer) {
+  return is_own(transfer.from) && transfer.to == worlds_store() ? Role::carver : Role::director;
+}
+
+}  // namespace
+
 Role role_for(const Request& request) {
-  return std::visit(
-      Overloaded{
-          [](const CarveRequest&) { return Role::carver; }, [](const FillRequest&) { return Role::builder; },
-          [](const PaintRequest&) { return Role::builder; },
-          [](const SettingsRequest&) { return Role::admin; },
-          [](const LeaveRequest&) { return Role::viewer; },
-          [](const AddPropRequest&) { return Role::director; },
-          [](const RemovePropRequest&) { return Role::director; },
-          [](const MovePropRequest&) { return Role::director; },
-          [](const PushRequest& push) {
-            const float most = limits::carver_push_max_n_s;
-            const bool is_small = glm::dot(push.impulse_n_s, push.impulse_n_s) <= most * most;
-            return is_small ? Role::carver : Role::director;
-          },
-          [](const BreakRequest&) { return Role::carver; }, [](const BlastRequest&) { return Role::carver; },
-          [](const AddJointRequest&) { return Role::director; },
-          [](const RemoveJointRequest&) { return Role::director; },
-          [](const SetMotorRequest&) { return Role::director; },
-          [](const CutOutRequest&) { return Role::director; },
-          [](const ReleaseRequest&) { return Role::director; },
-          [](const AddPieceRequest&) { return Role::director; }},
-      request);
+  return std::visit(Overloaded{[](const CarveRequest&) { return Role::carver; },
+                               [](const FillRequest&) { return Role::builder; },
+                               [](const PaintRequest&) { return Role::builder; },
+                               [](const SettingsRequest&) { return Role::admin; },
+                               [](const LeaveRequest&) { return Role::viewer; },
+                               [](const AddPropRequest&) { return Role::director; },
+                               [](const RemovePropRequest&) { return Role::director; },
+                               [](const MovePropRequest&) { return Role::director; },
+                               [](const PushRequest& push) {
+                                 const float most = limits::carver_push_max_n_s;
+                                 const bool is_small =
+                                     glm::dot(push.impulse_n_s, push.impulse_n_s) <= most * most;
+                                 return is_small ? Role::carver : Role::director;
+                               },
+                               [](const BreakRequest&) { return Role::carver; },
+                               [](const BlastRequest&) { return Role::carver; },
+                               [](const AddJointRequest&) { return Role::director; },
+                               [](const RemoveJointRequest&) { return Role::director; },
+                               [](const SetMotorRequest&) { return Role::director; },
+                               [](const CutOutRequest&) { return Role::director; },
+                               [](const ReleaseRequest&) { return Role::director; },
+                               [](const StandRequest&) { return Role::carver; },
+                               [](const WalkRequest&) { return Role::carver; },
+                               [](const AddPieceRequest&) { return Role::director; },
+                               [](const SetRegionRequest&) { return Role::director; },
+                               [](const RemoveRegionRequest&) { return Role::director; },
+                               [](const DigRequest& dig) { return role_of(dig); },
+                               [](const PlaceRequest& place) { return role_of(place); },
+                               [](const TransferRequest& transfer) { return role_of(transfer); }},
+                    request);
 }
 
 std::vector<std::string> open_doors(const AccessConfig& config, const std::string& bind) {

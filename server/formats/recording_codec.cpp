@@ -5,12 +5,15 @@
 #include <recording.pb.h>
 
 #include "proto/codec.h"
+#include "proto/limits.h"
 #include "proto/operation_codec.h"
+#include "proto/store_codec.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"
 #include "server/formats/joint_lists.h"
 #include "server/formats/packed_lists.h"
 #include "server/formats/recording_values.h"
+#include "server/formats/region_list.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
@@ -96,6 +99,20 @@ Command read_command(uint64_t session, const std::string& bytes, FieldChecker& c
       message);
 }
 
+void read_eyes(const recorded::Commands& from, std::vector<Command>& commands, FieldChecker& check) {
+  if (from.eyes_size() != 3 * from.seen_size())
+    check.refuse("eyes and requests that are seen differ in number");
+  for (int i = 0; i < from.seen_size() && !check.failed(); ++i) {
+    const uint32_t at = from.seen(i);
+    if (at >= commands.size() || (i > 0 && from.seen(i - 1) >= at)) {
+      check.refuse("an eye is of no request");
+      return;
+    }
+    const auto number = [&](int axis) { return check.finite(from.eyes(3 * i + axis), "an eye"); };
+    commands[at].eye_m = {number(0), number(1), number(2)};
+  }
+}
+
 /// As the client sent it, without the token.
 ClientMessage message_of(const Command& command) {
   return std::visit(Overloaded{[&]<typename Asks>(const Asks& asks) {
@@ -136,6 +153,8 @@ std::vector<uint8_t> encode(const RecordedFrame& frame) {
   write_props(*to.mutable_props(), frame.props);
   to.set_props_gone(pack_ids(frame.props_gone));
   write_joints(*to.mutable_joints(), frame.joints);
+  if (frame.regions != nullptr) to.set_regions(pack_regions(*frame.regions));
+  write(*to.mutable_stores(), frame.stores);
   return bytes_of(to);
 }
 
@@ -154,6 +173,9 @@ Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
   frame.props = read_props(from.props(), check);
   frame.props_gone = check.value_or_refuse(unpack_piece_ids(from.props_gone(), "props that are gone"));
   frame.joints = read_joints(from.joints(), check);
+  if (from.has_regions())
+    frame.regions = std::make_shared<const std::vector<Region>>(unpack_regions(from.regions(), check));
+  frame.stores = read_stores(from.stores(), 2 * limits::stores_max, check);
   return checked(std::move(frame), check);
 }
 
@@ -174,6 +196,8 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
   write(*to.mutable_materials(), keyframe.materials);
   write_props(*to.mutable_props(), keyframe.props);
   write_joints(*to.mutable_joints(), JointsMessage{keyframe.joints, {}});
+  if (!keyframe.regions.empty()) to.set_regions(pack_regions(keyframe.regions));
+  write(*to.mutable_stores(), keyframe.stores);
   return bytes_of(to);
 }
 
@@ -196,6 +220,8 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   keyframe.materials = read(from.materials(), check);
   keyframe.props = read_props(from.props(), check);
   keyframe.joints = read_joints(from.joints(), check).here;
+  if (from.has_regions()) keyframe.regions = unpack_regions(from.regions(), check);
+  keyframe.stores = read_stores(from.stores(), limits::stores_max, check);
   return checked(std::move(keyframe), check);
 }
 
@@ -224,9 +250,18 @@ Result<PropMessage> decode_recorded_prop(std::span<const uint8_t> bytes) {
 std::vector<uint8_t> encode(std::span<const Command> commands) {
   recorded::Commands to;
   const bool parties = std::ranges::any_of(commands, [](const auto& command) { return command.party != 0; });
+  const auto has_role = [](const Command& command) { return command.asker.role != Role{}; };
+  const auto has_name = [](const Command& command) { return !command.asker.name.empty(); };
+  const bool roles = std::ranges::any_of(commands, has_role), names = std::ranges::any_of(commands, has_name);
   for (const Command& command : commands) {
     to.add_sessions(command.session);
     if (parties) to.add_parties(command.party);
+    if (roles) to.add_roles(static_cast<uint32_t>(command.asker.role));
+    if (names) to.add_names(showable(command.asker.name, limits::person_name_bytes_max));
+    if (command.eye_m) {
+      to.add_seen(static_cast<uint32_t>(to.requests_size()));
+      for (const float number : {command.eye_m->x, command.eye_m->y, command.eye_m->z}) to.add_eyes(number);
+    }
     to.add_requests(without_length(encode(message_of(command))));
   }
   return bytes_of(to);
@@ -238,11 +273,19 @@ Result<std::vector<Command>> decode_recorded_commands(std::span<const uint8_t> b
   if (from.sessions_size() != from.requests_size()) check.refuse("sessions and requests differ in number");
   if (from.parties_size() != 0 && from.parties_size() != from.requests_size())
     check.refuse("parties and requests differ in number");
+  for (const int askers : {from.roles_size(), from.names_size()})
+    if (askers != 0 && askers != from.requests_size()) check.refuse("requests and askers differ in number");
   std::vector<Command> commands;
   for (int i = 0; i < from.requests_size() && !check.failed(); ++i) {
     commands.push_back(read_command(from.sessions(i), from.requests(i), check));
     if (from.parties_size() != 0) commands.back().party = from.parties(i);
+    if (from.roles_size() != 0)
+      commands.back().asker.role = check.kind<Role>(from.roles(i), "role of who asked");
+    if (from.names_size() != 0)
+      commands.back().asker.name =
+          check.text(from.names(i), limits::person_name_bytes_max, "name of who asked");
   }
+  read_eyes(from, commands, check);
   return checked(std::move(commands), check);
 }
 

@@ -57,6 +57,8 @@ struct RecordedFrame {
   std::vector<PropMessage> props;    ///< that were added, with their poses; ordered by id
   std::vector<PieceId> props_gone;   ///< of those that were there before; ordered
   JointsMessage joints;              ///< added, or with another motor; and those that were there before
+  std::shared_ptr<const std::vector<Region>> regions{};  ///< as TickDelta::regions
+  std::vector<StoreContent> stores{};                    ///< that changed, in order
 };
 
 struct RecordedKeyframe {
@@ -67,10 +69,12 @@ struct RecordedKeyframe {
   uint64_t field_hash = 0;
   uint64_t state_hash = 0;
   SettingValues settings;
-  std::vector<PieceState> poses;   ///< of the pieces whose volumes are rows of their own; ordered by id
-  MaterialLedger materials;        ///< empty in recordings that keep none
-  std::vector<PropMessage> props;  ///< all there are; ordered by id
-  std::vector<KnownJoint> joints;  ///< likewise
+  std::vector<PieceState> poses;       ///< of the pieces whose volumes are rows of their own; ordered by id
+  MaterialLedger materials;            ///< empty in recordings that keep none
+  std::vector<PropMessage> props;      ///< all there are; ordered by id
+  std::vector<KnownJoint> joints;      ///< likewise
+  std::vector<Region> regions{};       ///< likewise
+  std::vector<StoreContent> stores{};  ///< all there are, in order
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);

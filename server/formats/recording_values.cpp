@@ -25,20 +25,22 @@ void write(recorded::Ledger& to, const Ledger& from) {
   to.set_dust(from.dust);
   to.set_poured(from.poured);
   to.set_moved(from.moved);
+  to.set_stored(from.stored);
 }
 
 Ledger read(const recorded::Ledger& from, FieldChecker& check) {
   return {ledger_mass(from.terrain(), check), ledger_mass(from.pieces(), check),
-          ledger_mass(from.dust(), check), ledger_mass(from.poured(), check),
-          ledger_mass(from.moved(), check)};
+          ledger_mass(from.dust(), check),    ledger_mass(from.poured(), check),
+          ledger_mass(from.moved(), check),   ledger_mass(from.stored(), check)};
 }
 
 void write(recorded::MaterialLedger& to, const MaterialLedger& from) {
   to.set_rows(pack_ledger(from));
+  to.set_stored(pack_stored(from));
 }
 
 MaterialLedger read(const recorded::MaterialLedger& from, FieldChecker& check) {
-  return unpack_ledger(from.rows(), check);
+  return unpack_ledger(from.rows(), from.stored(), check);
 }
 
 void write(recorded::Header& to, const RecordedHeader& from) {

@@ -1,4 +1,4 @@
-// Props and joints of a world's value. Internal to this folder.
+// Props, joints, regions and persons of a world's value. Internal to this folder.
 #pragma once
 
 #include <world.pb.h>

@@ -21,6 +21,7 @@
 
 #include "proto/messages.h"
 #include "server/formats/recording_codec.h"
+#include "shared/base/walking.h"
 #include "shared/field/piece.h"
 #include "shared/prop/joint.h"
 #include "shared/prop/prop.h"
@@ -94,6 +95,38 @@ struct JointRecord {
   JointId id = 0;
   uint64_t owner = 0;  ///< party that added it (command.h)
   std::shared_ptr<const Joint> joint;
+};
+
+/// Chunks of terrain that hangs on a region, ordered.
+struct HungTerrain {
+  RegionId region = 0;
+  std::vector<ChunkCoord> chunks;
+
+  bool operator==(const HungTerrain&) const = default;
+};
+
+/// An input of a person that is not carried out yet.
+struct WaitingInput {
+  uint32_t number = 0;
+  WalkInput input;
+  glm::vec3 look{0.0F, 0.0F, -1.0F};
+
+  bool operator==(const WaitingInput&) const = default;
+};
+
+/// A person on foot. The body is a prop, which moves as told and belongs to the world: no request moves it.
+struct PersonRecord {
+  uint64_t session = 0;
+  PieceId body = 0;
+  WalkerState walker;
+  glm::vec3 look{0.0F, 0.0F, -1.0F};   ///< unit
+  uint32_t taken = 0;                  ///< number of the last input that was carried out; 0: none
+  uint32_t credit = 0;                 ///< inputs that may be carried out now, in parts of one (limits.h)
+  uint32_t idle_ticks = 0;             ///< since an input was carried out
+  bool is_held = false;                ///< by rock, since the last tick or longer
+  std::vector<WaitingInput> inputs{};  ///< in order
+
+  bool operator==(const PersonRecord&) const = default;
 };
 
 struct BoundsM {
@@ -228,6 +261,15 @@ inline BrickCoord brick_of_place(VoxelCoord cell) {
   return brick_of(VoxelCoord{cell.x * side, cell.y * side, cell.z * side});
 }
 
+/// A store, and what was dug into it that the rate of digging still counted at that tick.
+struct StoreRecord {
+  StoreContent content;
+  MassUnits dug = 0;
+  Tick dug_at = 0;
+
+  bool operator==(const StoreRecord&) const = default;
+};
+
 /// All but the terrain: cheap to make, so that every tick can be saved.
 struct WorldMoment {
   RecordedHeader config;  ///< `program` is empty
@@ -254,8 +296,13 @@ struct WorldMoment {
   std::vector<VoxelBox> gained;              ///< around terrain that gained rock
   std::vector<PieceId> buried;               ///< ordered, as `sunk`; may be gone
   std::vector<PieceId> sunk;
-  MaterialLedger materials;         ///< empty in worlds that keep none
-  std::vector<StruckPlace> struck;  ///< ordered by cell
+  MaterialLedger materials;           ///< empty in worlds that keep none
+  std::vector<StruckPlace> struck;    ///< ordered by cell
+  std::vector<Region> regions;        ///< ordered by id
+  std::vector<HungTerrain> hung;      ///< ordered by region; none is empty
+  std::vector<ChunkCoord> released;   ///< ordered: await the search for what hung in them
+  std::vector<PersonRecord> persons;  ///< ordered by session
+  std::vector<StoreRecord> stores;    ///< ordered by owner
 };
 
 struct WorldSnapshot {

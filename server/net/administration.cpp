@@ -21,16 +21,25 @@ constexpr uint64_t seconds_per_minute = 60;
 constexpr uint64_t ms_per_second = 1000;
 
 bool is_for_directors(const AdminRequest& act) {
-  return std::holds_alternative<ListBodiesRequest>(act) || std::holds_alternative<ListJointsRequest>(act);
+  return std::holds_alternative<ListBodiesRequest>(act) || std::holds_alternative<ListJointsRequest>(act) ||
+         std::holds_alternative<ListStoresRequest>(act);
 }
 
 }  // namespace
 
 tl::expected<void, Refused> Administration::administer(ClientSession& session, const AdminMessage& message) {
   const SessionEntry& entry = sessions_.at(session.id());
-  if (is_for_directors(message.act) && check_role(entry.grant.role, Role::director)) {
-    act(session, message);
-    return {};
+  if (is_for_directors(message.act)) {
+    const auto may = check_role(entry.grant.role, Role::director);
+    if (may) {
+      act(session, message);
+      return {};
+    }
+    if (message.token.empty()) {
+      ++counts_.requests;
+      requests_.refuse(session, message.request, may.error());
+      return {};
+    }
   }
   const bool is_control = std::holds_alternative<ControlReplayRequest>(message.act);
   if (auto admin = authorizer_.may_administer(entry.grant.role, entry.caller(), is_control); !admin) {
@@ -122,6 +131,7 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
                  [&](const ListBansRequest&) { list({.bans = ban_rows()}); },
                  [&](const ListBodiesRequest& bodies) { list(publisher_.list(bodies)); },
                  [&](const ListJointsRequest& joints) { list(publisher_.list(joints)); },
+                 [&](const ListStoresRequest& stores) { list(publisher_.list(stores)); },
                  [&](const KickRequest& kick) { reply(this->kick(kick, author_of(session))); },
                  [&](const BanRequest& ban) { reply(this->ban(ban, author_of(session))); },
                  [&](const LiftBanRequest& lift) { reply(this->lift(lift, author_of(session))); },

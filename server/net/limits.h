@@ -54,6 +54,15 @@ inline constexpr double requests_burst_s = 2.0;
 inline constexpr double queries_per_second_max = 1000.0;
 inline constexpr double queries_burst_max = 2000.0;
 
+/// Metres by which a client may tell its eye off its person's, which has moved meanwhile. Beyond: the
+/// person's counts.
+inline constexpr float eye_off_person_m = 8.0F;
+
+/// Inputs of a person on foot, in ticks' worths of them a second, and at once in seconds: a link may hold
+/// some back. Above: refused.
+inline constexpr double walk_inputs_a_tick_max = 1.5;
+inline constexpr double walk_inputs_burst_s = 2.0;
+
 /// Messages of any kind from one client, per second and at once. No client needs as many: refused and closed.
 inline constexpr double messages_per_second_max = 500.0;
 inline constexpr double messages_burst_max = 1000.0;

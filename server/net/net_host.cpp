@@ -10,6 +10,7 @@
 #include "proto/codec.h"
 #include "server/doors/unix_time.h"
 #include "server/net/may_wait.h"
+#include "server/net/person_eyes.h"
 #include "server/net/person_names.h"
 #include "server/net/queries.h"
 #include "server/net/talk_delivery.h"
@@ -142,6 +143,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   entry.party = returns_.join_party(session, grant, before ? before->party : 0, now_s);
   publisher_.join(session.id(), hello.eye_m, radius_m, hello.lacks_kernels ? 0 : hello.operations,
                   hello.world == world_, entry.party);
+  publisher_.set_store(session.id(), store_of_person(grant.token_id, session.id()));
   bytes_out_.open(entry.receiver(), now_s);
   name_person(sessions_, session.id(), talk_);
   entry.program = hello.client;
@@ -196,8 +198,8 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           [&](const UnknownMessage& unknown) { return skip(session, unknown); },
           [&](const CursorMessage& cursor) -> Done {
             SessionEntry& entry = sessions_.at(session.id());
-            entry.eye_m = cursor.eye_m;
-            publisher_.set_cursor({session.id(), entry.name, cursor.eye_m, cursor.aim_m}, entry.party);
+            entry.eye_m = believed_eye_m(publisher_.state(), session.id(), cursor.eye_m);
+            publisher_.set_cursor({session.id(), entry.name, entry.eye_m, cursor.aim_m}, entry.party);
             return {};
           },
           [&](const SayMessage& said) -> Done {
@@ -231,8 +233,15 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
 
 /// A session that takes no place changes no terrain.
 tl::expected<void, Refused> NetHost::ask(ClientSession& session, uint32_t request, const Request& body) {
-  if (!sessions_.at(session.id()).administers || !shape_of(body)) {
-    requests_.ask(session, request, body);
+  SessionEntry& entry = sessions_.at(session.id());
+  if (!entry.administers || !shape_of(body)) {
+    const auto from = look_from_person(publisher_.state(), service_, session.id(), body, entry);
+    if (from || config_.replay) {
+      requests_.ask(session, request, body);
+    } else {
+      ++figures_.counts().requests;
+      requests_.refuse(session, request, from.error());
+    }
     return {};
   }
   ++figures_.counts().requests;
@@ -261,8 +270,9 @@ tl::expected<void, Refused> NetHost::follow(ClientSession& session, const Intere
   const bool sees_nothing = sessions_.at(session.id()).administers;
   const auto radius_m = granted_radius(interest.eye_m, sees_nothing ? 0.0F : interest.interest_radius_m);
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
-  sessions_.at(session.id()).eye_m = interest.eye_m;
-  publisher_.set_interest(session.id(), interest.eye_m, *radius_m);
+  const glm::vec3 eye_m = believed_eye_m(publisher_.state(), session.id(), interest.eye_m);
+  sessions_.at(session.id()).eye_m = eye_m;
+  publisher_.set_interest(session.id(), eye_m, *radius_m);
   return {};
 }
 

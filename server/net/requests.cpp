@@ -28,13 +28,18 @@ tl::expected<void, Refused> check_reach(const SessionEntry& session, const Reque
     away_m = distance(*shape, session.eye_m);
   else if (place_m != nullptr && is_within_world(*place_m))
     away_m = glm::distance(*place_m, session.eye_m);
-  if (away_m <= reach_m) return {};
+  if (away_m <= reach_m || reach_m == 0.0) return {};
   const glm::vec3& eye = session.eye_m;
   return refuse(
       Refusal::reach,
       fmt::format("this edit lies {:.0f} m from your eye at ({:.0f}, {:.0f}, {:.0f}); this server's "
                   "limit is {:g} m (reach): go nearer",
                   away_m, eye.x, eye.y, eye.z, reach_m));
+}
+
+/// A name that only the person says counts for nothing: anybody may say it.
+Asker asker_of(const SessionEntry& session) {
+  return {session.grant.role, session.grant.vouches_name ? session.grant.name : std::string()};
 }
 
 /// Refuses a request beyond the session's role, or beyond its reach.
@@ -44,11 +49,19 @@ tl::expected<void, Refused> check_session(const SessionEntry& session, const Req
   return check_reach(session, request, reach_m);
 }
 
+/// The eye from which the world has to see the edit.
+std::optional<glm::vec3> eye_for(const SessionEntry& session, const Request& request, bool sight) {
+  const bool edits = shape_of(request).has_value() || place_of(request) != nullptr;
+  if (!sight || !edits || session.grant.role == Role::admin) return std::nullopt;
+  return session.eye_m;
+}
+
 }  // namespace
 
 void Requests::grant(const ServiceLimits& service) {
   sessions_.set_requests_per_second(service.requests_per_second);
   reach_m_ = service.reach_m;
+  sight_ = service.sight;
 }
 
 void Requests::ask(ClientSession& session, uint32_t request, const Request& body) {
@@ -56,7 +69,13 @@ void Requests::ask(ClientSession& session, uint32_t request, const Request& body
   // In a replay no role may change anything, so a session is not sent for another token.
   const auto may_ask = replay_ ? tl::expected<void, Refused>() : check_session(entry, body, reach_m_);
   if (may_ask) {
-    pass(session, {session.id(), request, body, entry.party});
+    const StoreName own = store_of_person(entry.grant.token_id, session.id());
+    Command command{session.id(), request,         with_own_store(body, own),
+                    entry.party,  asker_of(entry), eye_for(entry, body, sight_)};
+    if (std::holds_alternative<WalkRequest>(body) && !replay_) return pass_input(session, command);
+    if (auto* const stand = std::get_if<StandRequest>(&command.body))
+      if (!may_act_as(entry.grant.role, Role::director)) stand->place_m.reset();
+    pass(session, command);
     return;
   }
   ++counts_.requests;
@@ -82,6 +101,20 @@ bool Requests::pass(ClientSession& session, const Command& command) {
   departures_.asked(session.id());
   times_.received(session.id(), command.request, now_s);
   return true;
+}
+
+void Requests::pass_input(ClientSession& session, const Command& command) {
+  std::optional<RateLimit>& inputs = sessions_.at(session.id()).inputs;
+  const double per_second = limits::walk_inputs_a_tick_max * tick_rate_hz_;
+  if (!inputs) inputs.emplace(per_second, limits::walk_inputs_burst_s * per_second);
+  if (!inputs->try_spend(steady_now_s())) {
+    ++counts_.requests;
+    return refuse(
+        session, command.request,
+        {Refusal::requests_per_second,
+         fmt::format("more than {:g} inputs a second: a person has one for each tick", per_second)});
+  }
+  if (commands_.push(command)) departures_.asked(session.id());
 }
 
 void Requests::refuse(ClientSession& session, uint32_t request, const Refused& refused) {

@@ -21,11 +21,14 @@ class Requests {
         sessions_(sessions),
         counts_(counts),
         replay_(config.replay),
-        reach_m_(config.service.reach_m) {}
+        reach_m_(config.service.reach_m),
+        sight_(config.service.sight),
+        tick_rate_hz_(config.tick_rate_hz) {}
 
   /// How often, and how far from its eye, a session may ask for edits.
   void grant(const ServiceLimits& service);
-  /// Passes a request on if the session's role may ask it, and its eye is near enough; else it is refused.
+  /// Passes a request on if the session's role may ask it, and its eye is near enough; else it is refused. A
+  /// person's input has a rate of its own.
   void ask(ClientSession& session, uint32_t request, const Request& body);
   /// Whether the request is on its way to the world; else it is refused.
   bool pass(ClientSession& session, const Command& command);
@@ -42,6 +45,8 @@ class Requests {
   RequestTimes& times() { return times_; }
 
  private:
+  void pass_input(ClientSession& session, const Command& command);
+
   CommandQueue& commands_;
   Departures departures_;
   RequestTimes times_;
@@ -49,6 +54,8 @@ class Requests {
   NetStats& counts_;
   const bool replay_;
   double reach_m_;
+  bool sight_;
+  const double tick_rate_hz_;
 };
 
 }  // namespace scree

@@ -38,7 +38,10 @@ struct SessionEntry {
 
   RateLimit queries{limits::queries_per_second_max, limits::queries_burst_max};  ///< of questions about space
 
+  std::optional<RateLimit> inputs{};  ///< of a person on foot; nothing before the first
+
   /// As it said last, with its interest or its cursor; who never did is at the origin.
+  /// Where it is on foot, its person's, from its next request on.
   glm::vec3 eye_m{0.0F};
 
   /// Whether it counts among the sessions that the server has room for.

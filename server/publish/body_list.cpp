@@ -22,7 +22,8 @@ BodyRow body_row(const ListedWorld& world, const TrackedMotion& body) {
   row.id = body.id;
   const float steps_a_second =
       static_cast<float>(world.rates.tick_rate_hz) / static_cast<float>(world.rates.ticks_per_transform);
-  row.velocity_m_s = glm::vec3(body.target.moved) / static_cast<float>(motion_steps_per_m) * steps_a_second;
+  if (body.target.steps > 1)
+    row.velocity_m_s = glm::vec3(body.target.moved) / static_cast<float>(motion_steps_per_m) * steps_a_second;
   if (const auto piece = world.state.pieces().find(body.id); piece != world.state.pieces().end()) {
     row.pose = piece->second.pose;
     if (world.palette != nullptr)

@@ -13,10 +13,13 @@
 #include "server/publish/joint_stream.h"
 #include "server/publish/kept_stream.h"
 #include "server/publish/outgoing.h"
+#include "server/publish/person_stream.h"
 #include "server/publish/physics_feed.h"
 #include "server/publish/piece_stream.h"
+#include "server/publish/region_stream.h"
 #include "server/publish/replay_news.h"
 #include "server/publish/served_tick.h"
+#include "server/publish/store_stream.h"
 
 namespace scree {
 
@@ -32,6 +35,7 @@ class ClientFeed {
   ChunkOffer& offer() { return chunks_.offer(); }
   ReplayNews& replay() { return replay_; }
   PhysicsFeed& physics_feed() { return physics_feed_; }
+  StoreStream& store() { return store_; }
   /// Gets no frames until it has read all that waits.
   bool stopped() const { return stopped_; }
 
@@ -58,8 +62,11 @@ class ClientFeed {
   PieceStream pieces_;
   JointStream joints_;
   KeptStream kept_;
+  RegionStream regions_;
+  PersonStream persons_;
   ReplayNews replay_;
   PhysicsFeed physics_feed_;
+  StoreStream store_;
   bool stopped_ = false;
   bool reset_due_ = false;
   bool may_scan_ = true;

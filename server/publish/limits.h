@@ -7,6 +7,10 @@
 
 namespace scree::limits {
 
+/// Seconds between two messages of all regions to one client, some 64 KiB at most: a game may change them in
+/// every tick. Sooner: the client gets the latest when they have passed.
+inline constexpr double regions_wait_s = 0.25;
+
 /// Chunks and pieces that a client follows are dropped at this multiple of its radius of interest, so that a
 /// viewer that moves to and fro across the edge does not get them again and again.
 inline constexpr float interest_keep_factor = 1.25F;

@@ -135,6 +135,7 @@ void Motions::follow(TrackedMotion& one, const QuantisedPose& pose, bool step, T
   one.place_m = glm::vec3(pose.x, pose.y, pose.z) / pose_steps_per_m;
   if (!step) return;
   MotionTarget& target = one.target;
+  const uint32_t steps = target.steps + 1;
   if (target.pose == pose && target.still_steps > 0) {
     ++target.still_steps;
     target.moved = {};
@@ -143,6 +144,7 @@ void Motions::follow(TrackedMotion& one, const QuantisedPose& pose, bool step, T
     target = {pose, resting_at(pose), {}, last.pose == pose ? last.still_steps + 1 : 0};
     target.moved = difference(target.at.position, last.at.position);
   }
+  target.steps = steps;
   advance(one, tick);
 }
 

@@ -17,6 +17,7 @@ struct MotionTarget {
   Motion at;                 ///< at rest there
   glm::ivec3 moved{0};       ///< in the last step
   uint32_t still_steps = 0;  ///< in which the pose did not change
+  uint32_t steps = 0;        ///< in which it was followed: in the first, it comes from nowhere
 };
 
 /// The correction that the motion needs in this step, if it needs any. After it, a piece that rests or whose

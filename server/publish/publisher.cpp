@@ -78,6 +78,10 @@ void Publisher::set_control_refusal(uint64_t session, const std::string& refusal
   if (ClientFeed* client = find(session)) client->replay().set_control_refusal(refusal);
 }
 
+void Publisher::set_store(uint64_t session, const StoreName& own) {
+  if (ClientFeed* client = find(session)) client->store().set_own(own);
+}
+
 void Publisher::subscribe_physics(uint64_t session, bool physics) {
   ClientFeed* const client = find(session);
   if (client != nullptr && client->physics_feed().set_physics(physics))
@@ -178,6 +182,12 @@ AdminListMessage Publisher::list(const ListBodiesRequest& request) const {
 
 AdminListMessage Publisher::list(const ListJointsRequest& request) const {
   return list_joints(listed(), request);
+}
+
+AdminListMessage Publisher::list(const ListStoresRequest&) const {
+  AdminListMessage list;
+  for (const auto& [store, masses] : state_.stores()) list.stores.push_back({store, masses});
+  return list;
 }
 
 /// Settings say which numbers of the palette stand. Clients are told after the tick's frames.
@@ -299,7 +309,7 @@ std::vector<Outgoing> Publisher::answer(const TickDelta& delta,
     if (client == nullptr) continue;
     client->outlet().send(
         share(ReplyMessage{reply.request, reply.refusal, reply.pieces, refusal_name(reply), latency(reply),
-                           delta.tick, reply.painted, reply.prop, reply.joint}),
+                           delta.tick, reply.painted, reply.prop, reply.joint, reply.mass}),
         replies);
   }
   add(std::move(replies));

@@ -86,6 +86,7 @@ class Publisher {
   /// What is there, as of the tick that was published last.
   AdminListMessage list(const ListBodiesRequest& request) const;
   AdminListMessage list(const ListJointsRequest& request) const;
+  AdminListMessage list(const ListStoresRequest& request) const;
   /// WelcomeMessage::palette.
   const std::optional<Digest>& palette() const { return content_.palette(); }
 
@@ -104,6 +105,8 @@ class Publisher {
   void set_control_refusal(uint64_t session, const std::string& refusal);
   /// What all clients are told alike, of the last second.
   StatusMessage status() const { return board_.status(state_, clients_.size()); }
+  /// Whose store is the client's own, for StoresMessage.
+  void set_store(uint64_t session, const StoreName& own);
   /// Whether the client gets PhysicsMessages of the ticks that have them.
   void subscribe_physics(uint64_t session, bool physics);
   /// Whether the client gets ContactsMessages, as of PhysicsFeed::set_contacts.

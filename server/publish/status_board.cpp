@@ -13,6 +13,7 @@ StatusMessage StatusBoard::status(const PublishedState& state, size_t clients) c
   status.ledger_dust = state.ledger().dust;
   status.ledger_poured = state.ledger().poured;
   status.ledger_moved = state.ledger().moved;
+  status.ledger_stored = state.ledger().stored;
   status.materials = state.materials();
   status.tick_median_ms = clock_.median_ms();
   status.tick_worst_ms = clock_.worst_ms();

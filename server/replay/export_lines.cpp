@@ -71,6 +71,7 @@ constexpr std::array ledger_columns = {
     LedgerColumn{"poured_m3", [](const Ledger& l) { return l.poured; }},
     LedgerColumn{"moved_m3", [](const Ledger& l) { return l.moved; }},
     LedgerColumn{"error_m3", [](const Ledger& l) { return l.error(); }},
+    LedgerColumn{"stored_m3", [](const Ledger& l) { return l.stored; }},
 };
 
 std::string tick_line(const RecordedFrame& frame, const WorldConfig& world, const Durations& ms,

@@ -58,10 +58,29 @@ std::string text_of(const Command& command, const Palette& palette) {
           [](const SetMotorRequest& set) { return fmt::format("set the motor of joint {}", set.joint); },
           [](const CutOutRequest& cut_out) { return "cut out a " + text_of(cut_out.shape); },
           [](const ReleaseRequest& release) { return fmt::format("release piece {}", release.piece); },
+          [](const StandRequest& stand) { return std::string(stand.away ? "leave on foot" : "stand"); },
+          [](const WalkRequest& walk) {
+            return fmt::format("walk towards {}{}", text_of(walk.input.go), walk.input.jump ? ", jump" : "");
+          },
+          [](const DigRequest& dig) {
+            const std::string piece = dig.piece != 0 ? fmt::format("piece {} at ", dig.piece) : std::string();
+            return fmt::format("dig {}a {} into {}", piece, text_of(dig.shape), text_of(dig.store));
+          },
+          [&](const PlaceRequest& place) {
+            return fmt::format("place a {} of {}{} out of {}", text_of(place.shape),
+                               palette.row_or_first(place.material).name, place.solid ? ", solid," : "",
+                               text_of(place.store));
+          },
+          [](const TransferRequest& transfer) {
+            return fmt::format("transfer {} units from {} to {}", transfer.mass, text_of(transfer.from),
+                               text_of(transfer.to));
+          },
           [](const AddPieceRequest& add) {
             return add.volume ? fmt::format("add a piece of {} voxels", add.volume->window.codes.size())
                               : std::string("add a piece that cannot be read");
-          }},
+          },
+          [](const SetRegionRequest& set) { return fmt::format("set region '{}'", set.region.name); },
+          [](const RemoveRegionRequest& remove) { return fmt::format("remove region '{}'", remove.name); }},
       command.body);
   return fmt::format("session {}, request {}: {}", command.session, command.request, body);
 }
@@ -143,6 +162,7 @@ std::string ledger_difference(const Ledger& a, const Ledger& b, float voxel_size
   compare("dust", a.dust, b.dust);
   compare("poured", a.poured, b.poured);
   compare("moved", a.moved, b.moved);
+  compare("stored", a.stored, b.stored);
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -37,6 +38,11 @@ void append(TickDelta& to, const TickDelta& next) {
   to.joints_added.insert(to.joints_added.end(), next.joints_added.begin(), next.joints_added.end());
   to.joints_removed.insert(to.joints_removed.end(), next.joints_removed.begin(), next.joints_removed.end());
   sort_joints(to);
+  if (next.regions != nullptr) to.regions = next.regions;
+  std::vector<StoreContent> stores;
+  std::ranges::set_union(next.stores, to.stores, std::back_inserter(stores), std::less<>(),
+                         &StoreContent::store, &StoreContent::store);
+  to.stores = std::move(stores);
   if (!next.settings.empty()) to.settings = next.settings;
   to.ledger = next.ledger;
   to.materials = next.materials;
@@ -120,7 +126,9 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   const PieceTable pieces = state_->pieces;
   const auto props = state_->props;
   const PublishedJoints joints = state_->joints;
+  const PublishedStores stores = state_->stores;
   const SettingValues settings = state_->settings;
+  const auto regions = state_->regions;
   TRY(state_->go_to(to, before));
   auto delta = state_->unchanged();
   add_differences(state_->field, before, *delta);
@@ -133,6 +141,13 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
       delta->joints_added.push_back({id, joint});
   for (const auto& [id, joint] : joints)
     if (!state_->joints.contains(id)) delta->joints_removed.push_back({id, JointEnd::removed});
+  if (*state_->regions != *regions) delta->regions = state_->regions;
+  for (const auto& [store, masses] : stores)
+    if (!state_->stores.contains(store)) delta->stores.push_back({store, {}});
+  for (const auto& [store, masses] : state_->stores)
+    if (const auto known = stores.find(store); known == stores.end() || known->second != masses)
+      delta->stores.push_back({store, masses});
+  std::ranges::sort(delta->stores, std::less<>(), &StoreContent::store);
   if (state_->settings != settings) delta->settings = state_->settings;
   state_->tell_spawn(*delta);
   return delta;

@@ -57,10 +57,13 @@ Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& bef
   }
   joints.clear();
   for (const auto& [id, joint] : keyframe.joints) joints[id] = std::make_shared<const Joint>(joint);
+  stores.clear();
+  for (const StoreContent& one : keyframe.stores) stores[one.store] = one.masses;
   for (PieceMessage& piece : keyframe.pieces) {
     poses[piece.id] = piece.pose;
     pieces[piece.id] = std::make_shared<const Volume>(std::move(piece.volume));
   }
+  regions = std::make_shared<const std::vector<Region>>(std::move(keyframe.regions));
   ledger = keyframe.ledger;
   materials.reset();
   if (keyframe.materials.agrees(ledger)) materials = keyframe.materials;
@@ -174,7 +177,8 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   auto frame = reader->frame(tick + 1);
   TRY(frame);
   PlayedTick undo;
-  if (undoable) undo = {{}, pieces, poses, props, joints, ledger, materials, settings, state_hash};
+  if (undoable)
+    undo = {{}, pieces, poses, props, joints, regions, stores, ledger, materials, settings, state_hash};
   const bool notes = before != nullptr || undoable;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++tick;
@@ -190,10 +194,18 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   tell_props(*delta);
   TRY(check_hash(frame->field_hash));
   for (const BrickCoord coord : changed) delta->bricks.push_back(published_brick(field, coord));
+  for (const StoreContent& one : frame->stores)
+    if (one.masses.empty())
+      stores.erase(one.store);
+    else
+      stores[one.store] = one.masses;
+  delta->stores = frame->stores;
   ledger = frame->ledger;
   state_hash = frame->state_hash;
   if (!frame->settings.empty()) settings = frame->settings;
   delta->settings = frame->settings;
+  if (frame->regions != nullptr) regions = frame->regions;
+  delta->regions = frame->regions;
   delta->ledger = ledger;
   if (materials) delta->materials = *materials;
   delta->field_hash = frame->field_hash;
@@ -214,6 +226,8 @@ void ReplaySource::State::revert_tick(BricksBefore& before) {
   poses = std::move(last.poses);
   props = std::move(last.props);
   joints = std::move(last.joints);
+  regions = std::move(last.regions);
+  stores = std::move(last.stores);
   ledger = last.ledger;
   materials = std::move(last.materials);
   settings = std::move(last.settings);
@@ -258,7 +272,9 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
   for (const auto& [id, volume] : pieces) delta->spawned.push_back({id, volume});
   for (const auto& [id, one] : props) delta->props_spawned.push_back({id, one.prop});
   for (const auto& [id, joint] : joints) delta->joints_added.push_back({id, joint});
+  for (const auto& [store, masses] : stores) delta->stores.push_back({store, masses});
   delta->settings = settings;
+  if (!regions->empty()) delta->regions = regions;
   delta->spawn = spawn();
   return delta;
 }

@@ -25,6 +25,8 @@ struct PlayedTick {
   std::map<PieceId, QuantisedPose> poses;
   std::map<PieceId, PublishedProp> props;
   PublishedJoints joints;
+  std::shared_ptr<const std::vector<Region>> regions;
+  PublishedStores stores;
   Ledger ledger;
   std::optional<MaterialLedger> materials;
   SettingValues settings;
@@ -56,6 +58,9 @@ struct ReplaySource::State {
   std::map<PieceId, QuantisedPose> poses;
   std::map<PieceId, PublishedProp> props;
   PublishedJoints joints;
+  std::shared_ptr<const std::vector<Region>> regions =
+      std::make_shared<const std::vector<Region>>();  ///< never null
+  PublishedStores stores;
   Ledger ledger;
   std::optional<MaterialLedger> materials;  ///< nothing: a keyframe keeps none
   SettingValues settings;

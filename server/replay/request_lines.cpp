@@ -22,6 +22,43 @@ struct Asked {
   std::string text{};
 };
 
+Asked of_region(std::string_view what, const std::string& name) {
+  return {what, {}, name};
+}
+
+Asked asked_of(const DigRequest& dig) {
+  const std::string piece = dig.piece != 0 ? fmt::format("piece {} ", dig.piece) : std::string();
+  return {"dig", dig.shape, piece + "into " + text_of(dig.store)};
+}
+
+Asked asked_of(const PlaceRequest& place, const Palette& palette) {
+  return {"place", place.shape,
+          fmt::format("{}{} out of {}", palette.row_or_first(place.material).name,
+                      place.solid ? ", solid," : "", text_of(place.store))};
+}
+
+Asked asked_of(const TransferRequest& transfer, const Palette& palette) {
+  const std::string of = transfer.material ? palette.row_or_first(*transfer.material).name : "all";
+  return {"transfer", {}, fmt::format("{} from {} to {}", of, text_of(transfer.from), text_of(transfer.to))};
+}
+
+Asked asked_of(const SettingsRequest& settings) {
+  Asked asked{"settings"};
+  for (const SettingValue& setting : settings.settings)
+    asked.text += (asked.text.empty() ? "" : " ") + setting.name + "=" + setting.value;
+  return asked;
+}
+
+Asked asked_of(const AddJointRequest& add) {
+  const Joint& joint = add.joint;
+  const auto side = [](PieceId body) {
+    return body == 0 ? std::string("the terrain") : fmt::format("body {}", body);
+  };
+  return {"add_joint",
+          {},
+          fmt::format("{}, {} and {}", name_of(joint.kind), side(joint.a.body), side(joint.b.body))};
+}
+
 Asked asked_by(const Request& request, const Palette& palette) {
   return std::visit(
       Overloaded{[](const CarveRequest& carve) {
@@ -36,12 +73,7 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  [&](const PaintRequest& paint) {
                    return Asked{"paint", paint.shape, std::string(palette.row_or_first(paint.material).name)};
                  },
-                 [](const SettingsRequest& settings) {
-                   Asked asked{"settings"};
-                   for (const SettingValue& setting : settings.settings)
-                     asked.text += (asked.text.empty() ? "" : " ") + setting.name + "=" + setting.value;
-                   return asked;
-                 },
+                 [](const SettingsRequest& settings) { return asked_of(settings); },
                  [](const LeaveRequest&) { return Asked{}; },
                  [](const AddPropRequest& add) {
                    return Asked{
@@ -62,12 +94,7 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  [](const BreakRequest& broken) {
                    return Asked{"break", {}, fmt::format("piece {}", broken.piece)};
                  },
-                 [](const AddJointRequest& add) {
-                   return Asked{"add_joint",
-                                {},
-                                fmt::format("{}, bodies {} and {}", name_of(add.joint.kind), add.joint.a.body,
-                                            add.joint.b.body)};
-                 },
+                 [](const AddJointRequest& add) { return asked_of(add); },
                  [](const RemoveJointRequest& remove) {
                    return Asked{"remove_joint", {}, fmt::format("joint {}", remove.joint)};
                  },
@@ -80,12 +107,21 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  [](const ReleaseRequest& release) {
                    return Asked{"release", {}, fmt::format("piece {}", release.piece)};
                  },
+                 [](const StandRequest& stand) {
+                   return Asked{"stand", {}, stand.away ? "away" : ""};
+                 },
+                 [](const WalkRequest&) { return Asked{}; },  // too many to be read
+                 [](const DigRequest& dig) { return asked_of(dig); },
+                 [&](const PlaceRequest& place) { return asked_of(place, palette); },
+                 [&](const TransferRequest& transfer) { return asked_of(transfer, palette); },
                  [](const AddPieceRequest& add) {
                    return Asked{
                        "add_piece",
                        {},
                        add.volume ? fmt::format("{} voxels", add.volume->window.codes.size()) : "no voxels"};
-                 }},
+                 },
+                 [](const SetRegionRequest& set) { return of_region("set_region", set.region.name); },
+                 [](const RemoveRegionRequest& remove) { return of_region("remove_region", remove.name); }},
       request);
 }
 

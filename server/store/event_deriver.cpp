@@ -50,6 +50,17 @@ class Telling {
   std::optional<Event> operator()(const IslandOperation& island) const {
     return with_pieces(at(EventKind::fall, centre_of(island.box, voxel_size_m_)));
   }
+  std::optional<Event> operator()(const DigOperation& dig) const {
+    Event event = at(EventKind::dig, centre_of(dig.shape));
+    event.volume_m3 = m3_of(applied_.stored);
+    event.body = dig.piece;
+    return event;
+  }
+  std::optional<Event> operator()(const PlaceOperation& place) const {
+    Event event = at(EventKind::place, centre_of(place.shape));
+    event.volume_m3 = m3_of(-applied_.stored);
+    return event;
+  }
   // Bursts of merges are the tick's as a whole; what leaves the world is nobody's to see.
   std::optional<Event> operator()(const StampOperation&) const { return std::nullopt; }
   std::optional<Event> operator()(const DiscardOperation&) const { return std::nullopt; }
@@ -66,9 +77,12 @@ class Telling {
       if (made != delta_.spawned.end() && made->id == id) mass += made->volume->mass;
     }
     event.pieces = static_cast<uint32_t>(applied_.created.size());
-    const double voxel_m3 = double{voxel_size_m_} * voxel_size_m_ * voxel_size_m_;
-    event.volume_m3 = static_cast<float>(static_cast<double>(mass) / units_per_voxel * voxel_m3);
+    event.volume_m3 = m3_of(mass);
     return event;
+  }
+  float m3_of(MassUnits mass) const {
+    const double voxel_m3 = double{voxel_size_m_} * voxel_size_m_ * voxel_size_m_;
+    return static_cast<float>(static_cast<double>(mass) / units_per_voxel * voxel_m3);
   }
 
   const TickDelta& delta_;
@@ -108,6 +122,8 @@ std::optional<glm::vec3> place_of(const AppliedOperation& applied, const TickDel
       Overloaded{[&](const CarveOperation& carve) { return of_shape(carve); },
                  [&](const FillOperation& fill) { return of_shape(fill); },
                  [&](const PaintOperation& paint) { return of_shape(paint); },
+                 [&](const DigOperation& dig) { return of_shape(dig); },
+                 [&](const PlaceOperation& place) { return of_shape(place); },
                  [&](const ShatterOperation&) { return place_of_pieces(applied.created, delta); },
                  [&](const IslandOperation& island) -> Place { return centre_of(island.box, voxel_size_m); },
                  [&](const SlideOperation& slide) -> Place { return centre_of(slide.box, voxel_size_m); },

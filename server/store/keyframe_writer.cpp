@@ -154,6 +154,8 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
   pieces_ = std::move(alive);
   for (const auto& [id, prop] : state.props()) keyframe.props.push_back({id, *prop.prop, prop.pose});
   for (const auto& [id, joint] : state.joints()) keyframe.joints.push_back({id, *joint});
+  keyframe.regions = *state.regions();
+  for (const auto& [store, masses] : state.stores()) keyframe.stores.push_back({store, masses});
   keyframe.tick = state.tick();
   keyframe.ledger = state.ledger();
   keyframe.materials = state.materials();

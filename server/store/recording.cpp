@@ -84,11 +84,13 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
   add_pieces(frame, delta);
   add_props(frame, delta, before);
   add_joints(frame, delta, before);
+  frame.stores = delta.stores;
   std::ranges::sort(frame.moved, {}, &PieceState::id);
   frame.ledger = delta.ledger;
   frame.field_hash = delta.field_hash;
   frame.state_hash = delta.state_hash;
   frame.settings = delta.settings;
+  frame.regions = delta.regions;
   return frame;
 }
 
@@ -105,11 +107,13 @@ RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
   }
   keyframe.props = props_of(delta);
   for (const AddedJoint& added : delta.joints_added) keyframe.joints.push_back({added.id, *added.joint});
+  keyframe.stores = delta.stores;
   keyframe.ledger = delta.ledger;
   keyframe.materials = delta.materials;
   keyframe.field_hash = delta.field_hash;
   keyframe.state_hash = delta.state_hash;
   keyframe.settings = delta.settings;
+  if (delta.regions != nullptr) keyframe.regions = *delta.regions;
   return keyframe;
 }
 

@@ -60,10 +60,19 @@ struct Pricing {
            rest_price_us(voxels);
   }
   float operator()(const ReleaseRequest&) const { return limits::prop_touch_cost_us; }
+  float operator()(const SetRegionRequest&) const { return limits::prop_cost_us; }
+  float operator()(const RemoveRegionRequest&) const { return limits::prop_cost_us; }
   float operator()(const AddPieceRequest& request) const {
     CHECK(request.volume != nullptr);
     return added_price_us(Window::count(request.volume->window.box));
   }
+  float operator()(const StandRequest&) const { return limits::prop_cost_us; }
+  float operator()(const WalkRequest&) const { return 0.0F; }  // the tick's stage pays
+  float operator()(const DigRequest& request) const {
+    return request.piece != 0 ? limits::prop_touch_cost_us : edit_price_us(request.shape, field);
+  }
+  float operator()(const PlaceRequest& request) const { return edit_price_us(request.shape, field); }
+  float operator()(const TransferRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
     return cut_price_us(cutter, limits::broken_voxels, request.seeds);

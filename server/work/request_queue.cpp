@@ -139,10 +139,8 @@ RequestsValue RequestQueue::value() const {
     PartyValue& one = value.parties.emplace_back(PartyValue{id, party.turns(), {}});
     for (const auto& [session_id, line] : party.lines()) {
       SessionValue& waiting = one.sessions.emplace_back(SessionValue{session_id, line.waiting_us, {}});
-      for (const WaitingRequest& request : line.items) {
-        const auto& [asker, number, body, in_common] = request.command;
-        waiting.requests.push_back({{asker, number, body, in_common}, request.cost_us, request.since});
-      }
+      for (const WaitingRequest& request : line.items)
+        waiting.requests.push_back({request.command, request.cost_us, request.since});
     }
   }
   return value;
@@ -168,12 +166,10 @@ Result<void> RequestQueue::restore_party(const PartyValue& value) {
     if (session.requests.empty() || !may_cost(session.waiting_us))
       return fail("a session without requests, or that waits for less than nothing or too much");
     if (party.waits(session.session)) return fail("a session's requests come twice");
-    for (const auto& [recorded, cost_us, since] : session.requests) {
-      const auto& [asker, number, body, in_common] = recorded;
-      const Command command{asker, number, body, in_common};
-      if (asker != session.session || party_of(command) != value.party || !may_cost(cost_us))
+    for (const auto& [command, cost_us, since] : session.requests) {
+      if (command.session != session.session || party_of(command) != value.party || !may_cost(cost_us))
         return fail("a request waits where another one's turn is, or costs too much");
-      party.push(asker, {command, cost_us, since});
+      party.push(command.session, {command, cost_us, since});
     }
     party.lines().at(session.session).waiting_us = session.waiting_us;
     with_requests.push_back(session.session);

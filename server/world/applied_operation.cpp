@@ -17,6 +17,7 @@ AppliedOperation describe(const Operation& operation, const VoxelBox& reads, con
                          described.writes.end());
   described.created.reserve(applied.created.size());
   for (const CreatedPiece& piece : applied.created) described.created.push_back(piece.id);
+  described.stored = applied.stored;
   CHECK_DEBUG(std::ranges::is_sorted(described.reads));
   CHECK_DEBUG(std::ranges::includes(described.reads, described.writes));
   return described;

@@ -98,9 +98,11 @@ float break_off(World::State& state, const TerrainBlow& blow, const BlowFound& f
 
 /// Nothing where the terrain holds.
 std::optional<float> search(World::State& state, const Strike& strike, TickDelta& delta) {
-  const BlowFound found = find_break(state.field, *state.palette, strike.load, limits::blow_reach_bricks);
+  const BlowFound found = find_break(state.field, *state.palette, strike.load, limits::blow_reach_bricks,
+                                     state.regions.holding());
+  state.regions.remember_held({});
   charge(state, found);
-  if (!found.overload) return std::nullopt;
+  if (!found.overload || region_of_necks(state, *found.overload) != nullptr) return std::nullopt;
   const size_t pieces = state.pieces.size() + found.overload->necks.size() * limits::neck_seeds_max;
   if (pieces > state.config.pieces_max) {
     ++delta.work.blows_left_out;

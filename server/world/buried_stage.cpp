@@ -5,6 +5,7 @@
 #include "server/work/limits.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
+#include "shared/field/edit.h"
 #include "shared/field/window.h"
 
 namespace scree {
@@ -105,6 +106,16 @@ std::vector<PieceId> pieces_within(const World::State& state, const VoxelBox& bo
   std::vector<PieceId> found = pieces_near(state, bounds);
   std::erase_if(found, [&](PieceId id) { return !lies_within(state, id, in_rock); });
   return found;
+}
+
+uint32_t merge_enclosed(World::State& state, const Shape& shape, TickDelta& delta) {
+  if (!merges(state.config.methods.recombine)) return 0;
+  const Shape in_field = in_voxels(shape, state.config.terrain.voxel_size_m);
+  const std::vector<PieceId> enclosed = pieces_within(
+      state, band_box(in_field), [&](glm::vec3 p_voxels) { return distance(in_field, p_voxels) < 0.0F; });
+  for (const PieceId id : enclosed) state.work.spend(merge_cost_us(state, id));
+  merge_pieces(state, enclosed, delta);
+  return static_cast<uint32_t>(enclosed.size());
 }
 
 void merge_buried(World::State& state, TickDelta& delta) {

@@ -21,6 +21,10 @@ using InRock = std::function<bool(glm::vec3 p_voxels)>;
 /// `bounds` (voxels) are tested, so `in_rock` must not hold outside of it.
 std::vector<PieceId> pieces_within(const World::State& state, const VoxelBox& bounds, const InRock& in_rock);
 
+/// Pieces that lie in a shape that is to be filled become terrain first, so that they do not travel out of
+/// it. Returns their number.
+uint32_t merge_enclosed(World::State& state, const Shape& shape, TickDelta& delta);
+
 /// Merges buried pieces by the method in the settings: pieces near terrain that gained rock in this tick, and
 /// pieces that two tests in a row found buried. At least one, and more as far as the tick's budget goes; the
 /// others freeze until their turn. With Recombination::off all of them freeze; they thaw as all frozen pieces

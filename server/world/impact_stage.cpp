@@ -341,6 +341,7 @@ void dent_ground(World::State& state, const Blow& blow, Quota& quota, TickDelta&
                            voxels_of(band_box(in_voxels(sphere(impact.point_m, radius_m), dx))))};
   if (!validate(Operation(operation), state.pieces, state.config.terrain.voxel_size_m))
     return;  // at the world's edge
+  if (state.regions.forbidding(forbids::dents, operation.shape) != nullptr) return;
   if (!quota.try_afford(limits::dent_cost_us, state.work, delta.work.dents_left_out)) return;
   const uint64_t owner = state.traits_of(impact.id).owner;
   const Applied applied = state.apply_and_record(operation, owner, delta);

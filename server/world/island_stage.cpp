@@ -65,9 +65,12 @@ void drop(World::State& state, const Island& island, uint64_t party, TickDelta& 
   spawn(state, applied, at_rest, delta);
 }
 
-constexpr SearchLimits search_limits{
-    .parts_max = limits::island_parts_max,
-    .bricks_per_chunk = static_cast<size_t>(limits::ground_chunk_cost_us / limits::island_brick_cost_us)};
+constexpr SearchLimits limits_with(const Holding* holding) {
+  return {
+      .parts_max = limits::island_parts_max,
+      .bricks_per_chunk = static_cast<size_t>(limits::ground_chunk_cost_us / limits::island_brick_cost_us),
+      .holding = holding};
+}
 
 bool has_seen(const IslandSearch& search, std::span<const BrickCoord> bricks) {
   return std::ranges::any_of(bricks, [&](BrickCoord brick) { return search.visited(brick); });
@@ -215,7 +218,7 @@ bool IslandQueue::is_known(uint64_t party, std::span<const BrickCoord> loosened)
                              [&](const Falling& falling) { return falling.search->knows(loosened); });
 }
 
-bool IslandQueue::search(Field& field, SearchAllowance& allowance, uint32_t rules) {
+bool IslandQueue::search(Field& field, SearchAllowance& allowance, uint32_t rules, const Holding* holding) {
   if (waiting_.empty() || allowance.bricks == 0) return false;
   const uint64_t party = waiting_.whose();
   Waiting& first = waiting_.next();
@@ -225,7 +228,7 @@ bool IslandQueue::search(Field& field, SearchAllowance& allowance, uint32_t rule
   }
   const size_t read_before = allowance.read;
   if (first.search == nullptr) {
-    first.search = std::make_unique<IslandSearch>(field, first.loosened, search_limits);
+    first.search = std::make_unique<IslandSearch>(field, first.loosened, limits_with(holding));
     allowance.read += first.search->read();
     allowance.bricks -= std::min(allowance.bricks, first.search->read());
   }
@@ -347,8 +350,9 @@ void drop_islands(World::State& state, TickDelta& delta) {
   begin_searches(state);
   state.islands.begin_tick();
   SearchAllowance allowance{.bricks = bricks_to_read(state.work)};
-  while (state.islands.search(state.field, allowance, state.config.rules)) {
+  while (state.islands.search(state.field, allowance, state.config.rules, state.regions.holding())) {
   }
+  state.regions.remember_held();
   delta.work.islands_too_large += allowance.too_large;
   state.work.spend(limits::island_brick_cost_us * static_cast<float>(allowance.read));
   fall_in_turn(state, delta);
@@ -362,6 +366,10 @@ void sweep_specks(World::State& state, TickDelta& delta) {
     for (const auto& [party, changed] : unswept) {
       const std::vector<BrickCoord> bricks(changed.begin(), changed.end());
       for (const Island& speck : find_specks(state.field, bricks)) {
+        if (const Region* const region = state.regions.forbidding(forbids::falls, speck.box)) {
+          state.regions.remember(region->id, brick_of(speck.start));
+          continue;
+        }
         drop(state, speck, party, delta);
         state.work.spend(limits::speck_cost_us);
       }

@@ -50,7 +50,9 @@ class IslandQueue {
   void fell(std::span<const BrickCoord> bricks);
   /// Continues the search whose turn it is, as far as `allowance` allows. True when it ended: its islands
   /// wait to fall. False when no bricks are left or there is no search.
-  bool search(Field& field, SearchAllowance& allowance, uint32_t rules = rules::newest);
+  /// `holding`: as of SearchLimits.
+  bool search(Field& field, SearchAllowance& allowance, uint32_t rules = rules::newest,
+              const Holding* holding = nullptr);
   /// The next island that waits to fall, valid until pop(); null when none waits but of parties that were
   /// passed over.
   const Island* next() const { return falling_.empty() ? nullptr : &falling_.next().islands.back(); }

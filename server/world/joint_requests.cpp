@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/world/limits.h"
+#include "server/world/person_requests.h"
 #include "server/world/state_hash.h"
 #include "shared/base/check.h"
 #include "shared/base/plain_number.h"
@@ -40,7 +41,7 @@ CheckedRequest check_side(const World::State& state, const JointSide& side) {
     if (lies_in_rock(state, side.place_m)) return {};
     return refuse(Refusal::joint_invalid, "the joint's place in the terrain is no rock");
   }
-  if (state.bodies.contains(side.body)) return {};
+  if (state.bodies.contains(side.body)) return check_is_no_person(state, side.body);
   return refuse(Refusal::body_missing,
                 "there is no body " + std::to_string(side.body) + ": it may have become terrain");
 }

@@ -91,6 +91,21 @@ inline constexpr size_t concave_samples_max = 128;
 inline constexpr int compound_side_min_voxels = 16;
 inline constexpr size_t compound_parts_max = 64;
 
+/// Chunks of terrain that hangs on one region which forbids falls, as a world remembers them: all around a
+/// town. Above: what hangs in others falls when a change touches it after the region is over.
+inline constexpr size_t hung_chunks_max = 2048;
+
+/// Chunks whose terrain is searched in one tick after the region on which it hung is over: two searches.
+inline constexpr size_t released_chunks_per_tick = 16;
+
+/// Chunks for which a world remembers the regions that hold terrain there, some 100 bytes each. Above: all
+/// are forgotten, and looked for again.
+inline constexpr size_t region_chunks_kept_max = 16384;
+
+/// How much a body's middle is put back before the surface of a region that it may not enter, metres: a
+/// step of a pose on the wire is a thousandth.
+inline constexpr float region_skin_m = 0.01F;
+
 /// Seconds since the last fall up to which pieces that lean on hanging terrain do not become terrain: the
 /// search for a large island takes one. Above: falls wait for room that only merges make.
 inline constexpr uint32_t lean_s_max = 5;
@@ -202,9 +217,9 @@ inline constexpr uint32_t sessions_max_max = 4096;
 inline constexpr double requests_per_second_min = 0.1;
 inline constexpr double requests_per_second_max = 1.0e6;
 
-/// Reach of a client from its eye that a server may be asked for, metres: from an arm's length to beyond any
-/// place of a world.
-inline constexpr double reach_min_m = 1.0;
+/// Reach of a client from its eye that a server may be asked for, metres: up to beyond any place of a world.
+/// 0: there is no limit.
+inline constexpr double reach_min_m = 0.0;
 inline constexpr double reach_max_m = 16384.0;
 
 /// Least reach of a request's shape, voxels: between the centres of voxels a smaller one would change

@@ -106,6 +106,12 @@ void crush_by_halves(World::State& state, const VoxelBox& box, int64_t section_v
 
 }  // namespace
 
+const Region* region_of_necks(const World::State& state, const Overload& overload) {
+  for (const Neck& neck : overload.necks)
+    if (const Region* const region = state.regions.forbidding(forbids::dents, neck.box)) return region;
+  return nullptr;
+}
+
 bool crush_necks(World::State& state, const Overload& overload, uint64_t party, NeckPush* push,
                  TickDelta& delta) {
   for (const Neck& neck : overload.necks) {

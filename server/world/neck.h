@@ -15,6 +15,9 @@ struct NeckPush {
   float energy_j = 0.0F;
 };
 
+/// A region in which a neck lies that may not be crushed there; null: there is none.
+const Region* region_of_necks(const World::State& state, const Overload& overload);
+
 /// Crushes the necks. The pieces part, or move as `push` says, which is then less by what they took. False
 /// when there is no room for the pieces under WorldConfig::pieces_max: the rest stands.
 bool crush_necks(World::State& state, const Overload& overload, uint64_t party, NeckPush* push,

@@ -92,6 +92,9 @@ CheckedRequest check_piece_carve(const World::State& state, const CarveRequest& 
 }
 
 CheckedRequest check(const World::State& state, const ReleaseRequest& request) {
+  if (state.props.contains(request.piece))
+    return refuse(Refusal::body_missing,
+                  "body " + std::to_string(request.piece) + " is a prop, which never becomes terrain");
   if (!state.pieces.contains(request.piece)) return no_piece(request.piece);
   if (state.traits_of(request.piece).kept) return {};
   return refuse(Refusal::body_not_kept, "piece " + std::to_string(request.piece) +

@@ -10,6 +10,7 @@
 #include "server/work/limits.h"
 #include "server/work/price.h"
 #include "server/world/limits.h"
+#include "server/world/person_requests.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -58,6 +59,13 @@ void spend_on_meetings(World::State& state, PieceId id) {
   state.work.spend(limits::overlap_cost_us * overlaps);
 }
 
+/// Whether a place is at the body, or was a moment ago.
+bool is_at(const World::State& state, PieceId body, glm::vec3 at_m) {
+  const glm::vec3 off_m = at_m - state.bodies.state(body).pose.position_m;
+  const float most_m = state.bodies.reach_m(body) + limits::push_slack_m;
+  return glm::dot(off_m, off_m) <= most_m * most_m;
+}
+
 }  // namespace
 
 /// Refuses also what is no number, axis by axis: the greater of a number and of none may be the number.
@@ -100,12 +108,13 @@ CheckedRequest check(const World::State& state, const AddPropRequest& request) {
 
 CheckedRequest check(const World::State& state, const RemovePropRequest& request) {
   if (!state.props.contains(request.prop)) return no_prop(request.prop);
-  return {};
+  return check_is_no_person(state, request.prop);
 }
 
 CheckedRequest check(const World::State& state, const MovePropRequest& request) {
   const auto found = state.props.find(request.prop);
   if (found == state.props.end()) return no_prop(request.prop);
+  TRY(check_is_no_person(state, request.prop));
   if (request.place_m) TRY(check_place(*request.place_m, Refusal::prop_invalid, "prop"));
   if (request.turn) TRY(check_turn(*request.turn, Refusal::prop_invalid, "prop"));
   TRY(check_speeds(request.velocity_m_s.value_or(glm::vec3(0.0F)),
@@ -120,14 +129,13 @@ CheckedRequest check(const World::State& state, const PushRequest& request) {
   if (!state.bodies.contains(request.body))
     return refuse(Refusal::body_missing,
                   "there is no body " + std::to_string(request.body) + ": it may have become terrain");
+  TRY(check_is_no_person(state, request.body));
   if (!is_number(request.impulse_n_s) || !is_number(request.at_m) ||
       !(glm::dot(request.impulse_n_s, request.impulse_n_s) <=
         limits::push_impulse_max_n_s * limits::push_impulse_max_n_s))
     return refuse(Refusal::push_invalid, "the push is no number, or of more than " +
                                              plain(limits::push_impulse_max_n_s) + " newton seconds");
-  const glm::vec3 off_m = request.at_m - state.bodies.state(request.body).pose.position_m;
-  const float most_m = state.bodies.reach_m(request.body) + limits::push_slack_m;
-  if (glm::dot(off_m, off_m) <= most_m * most_m) return {};
+  if (is_at(state, request.body, request.at_m)) return {};
   return refuse(Refusal::push_invalid,
                 "the push is not at body " + std::to_string(request.body) + ", which is elsewhere by now");
 }
@@ -143,7 +151,9 @@ CheckedRequest check(const World::State& state, const BreakRequest& request) {
   if (!state.pieces.contains(request.piece))
     return refuse(Refusal::body_missing,
                   "there is no piece " + std::to_string(request.piece) + ": it may have become terrain");
-  return {};
+  if (state.config.rules < rules::paid_looks || is_at(state, request.piece, request.at_m)) return {};
+  return refuse(Refusal::push_invalid,
+                "the break is not at piece " + std::to_string(request.piece) + ", which is elsewhere by now");
 }
 
 CheckedRequest check(const World::State& /*state*/, const BlastRequest& request) {
@@ -159,9 +169,14 @@ Performed perform(World::State& state, const AddPropRequest& request, uint64_t p
   // Faces of hulls take milliseconds to find: they are searched once, when the request's price is paid.
   const Result<PropMeasure> measure = measure_checked(prop);
   if (!measure) return refuse(Refusal::prop_invalid, measure.error().message);
-  if (prop.mass_kg == 0.0F)
-    prop.mass_kg = std::clamp(measure->volume_m3 * state.palette->row(prop.material).density_kg_m3,
-                              limits::prop_mass_min_kg, limits::prop_mass_max_kg);
+  if (prop.mass_kg == 0.0F) {
+    const float by_density_kg = measure->volume_m3 * state.palette->row(prop.material).density_kg_m3;
+    if (by_density_kg > limits::prop_mass_max_kg && state.config.rules >= rules::paid_looks)
+      return refuse(Refusal::prop_invalid, "of its material the prop weighs " + plain(by_density_kg) +
+                                               " kg, and may weigh " + plain(limits::prop_mass_max_kg) +
+                                               " at most: name its mass");
+    prop.mass_kg = std::clamp(by_density_kg, limits::prop_mass_min_kg, limits::prop_mass_max_kg);
+  }
   const PieceId id = state.next_piece++;
   auto shared = std::make_shared<const Prop>(std::move(prop));
   BodyShape shape = state.enter_prop(id, shared, *measure, party);

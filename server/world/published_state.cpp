@@ -102,8 +102,15 @@ void PublishedState::apply(const TickDelta& delta) {
   pieces_ = std::move(alive);
   kept_ = delta.kept;
   apply_props(delta);
+  apply_persons(delta);
   for (const AddedJoint& joint : delta.joints_added) joints_[joint.id] = joint.joint;
   for (const EndedJoint& joint : delta.joints_removed) joints_.erase(joint.id);
+  if (delta.regions != nullptr) regions_ = delta.regions;
+  for (const StoreContent& one : delta.stores)
+    if (one.masses.empty())
+      stores_.erase(one.store);
+    else
+      stores_[one.store] = one.masses;
   pieces_made_ += delta.spawned.size();
   for (const AppliedOperation& applied : delta.operations)
     pieces_merged_ += pieces_merged_by(applied.operation);
@@ -126,6 +133,19 @@ void PublishedState::apply_props(const TickDelta& delta) {
     ++there;
   }
   props_.erase(there, props_.end());
+}
+
+void PublishedState::apply_persons(const TickDelta& delta) {
+  const auto is_same = [](const PersonPlace& a, const PersonPlace& b) {
+    return a.session == b.session && a.body == b.body;
+  };
+  if (!std::ranges::equal(persons_, delta.persons, is_same)) ++persons_version_;
+  persons_ = delta.persons;
+}
+
+const PersonPlace* PublishedState::person_of(uint64_t session) const {
+  const auto found = std::ranges::lower_bound(persons_, session, {}, &PersonPlace::session);
+  return found != persons_.end() && found->session == session ? &*found : nullptr;
 }
 
 void PublishedState::revert(BrickCoord coord) {
@@ -180,6 +200,9 @@ TickDelta PublishedState::without_bricks() const {
     delta.props.push_back({id, one.pose});
   }
   for (const auto& [id, joint] : joints_) delta.joints_added.push_back({id, joint});
+  if (!regions_->empty()) delta.regions = regions_;
+  delta.persons = persons_;
+  for (const auto& [store, masses] : stores_) delta.stores.push_back({store, masses});
   delta.ledger = ledger_;
   delta.materials = materials_;
   delta.settings = settings_;

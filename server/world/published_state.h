@@ -57,6 +57,7 @@ struct PublishedProp {
   QuantisedPose pose;
 };
 
+using PublishedStores = std::map<StoreName, MaterialMasses>;
 using PublishedJoints = std::map<JointId, std::shared_ptr<const Joint>>;
 
 class PublishedState {
@@ -87,7 +88,17 @@ class PublishedState {
   /// Those that are kept, ordered; none in a replay.
   const std::vector<PieceId>& kept() const { return kept_; }
   const std::map<PieceId, PublishedProp>& props() const { return props_; }
+  /// Persons on foot, ordered by session; none in a replay.
+  const std::vector<PersonPlace>& persons() const { return persons_; }
+  /// Null where the session has no person on foot.
+  const PersonPlace* person_of(uint64_t session) const;
+  /// Another number whenever other persons, or other bodies, are on foot.
+  uint64_t persons_version() const { return persons_version_; }
   const PublishedJoints& joints() const { return joints_; }
+  /// All regions, ordered by id; never null. It is another list when one changed.
+  const std::shared_ptr<const std::vector<Region>>& regions() const { return regions_; }
+  /// Those that hold something, by owner.
+  const PublishedStores& stores() const { return stores_; }
   const Ledger& ledger() const { return ledger_; }
   const MaterialLedger& materials() const { return materials_; }
   const SettingValues& settings() const { return settings_; }
@@ -111,6 +122,7 @@ class PublishedState {
 
   void apply_terrain(const TickDelta& delta);
   void apply_props(const TickDelta& delta);
+  void apply_persons(const TickDelta& delta);
 
   Tick tick_ = 0;
   std::unordered_map<ChunkCoord, PublishedChunk, CoordHash> chunks_;
@@ -120,6 +132,10 @@ class PublishedState {
   std::vector<PieceId> kept_;
   std::map<PieceId, PublishedProp> props_;
   PublishedJoints joints_;
+  std::shared_ptr<const std::vector<Region>> regions_ = std::make_shared<const std::vector<Region>>();
+  std::vector<PersonPlace> persons_;
+  uint64_t persons_version_ = 0;
+  PublishedStores stores_;
   Ledger ledger_;
   MaterialLedger materials_;
   SettingValues settings_;

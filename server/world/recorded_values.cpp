@@ -14,7 +14,11 @@ RecordedHeader to_recorded(const WorldConfig& config) {
   out.merges_per_tick_max = config.merges_per_tick_max;
   out.settings = print(config);
   // Older programs refuse a header with a setting that they do not know.
-  std::erase_if(out.settings, [](const SettingValue& value) { return value.name == spawn_setting; });
+  std::erase_if(out.settings, [](const SettingValue& value) {
+    return value.name == spawn_setting ||
+           value == SettingValue{std::string(persons_setting), std::string(name_of(Persons::fly))} ||
+           value == SettingValue{std::string(sight_setting), "false"};
+  });
   out.spawn = config.spawn;
   out.rules = config.rules;
   out.palette = config.palette;

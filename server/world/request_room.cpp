@@ -42,6 +42,14 @@ std::optional<CarveRequest> carve_in(const Request& request) {
   return carve_of(*blast, blast_reach_m(blast->energy_j), pieces_of_blast(blast->energy_j));
 }
 
+bool may_loosen(const Request& request) {
+  const auto* carve = std::get_if<CarveRequest>(&request);
+  if (carve != nullptr && carve->piece != 0) return false;
+  const auto* dig = std::get_if<DigRequest>(&request);
+  return carve_in(request) || std::holds_alternative<FillRequest>(request) ||
+         std::holds_alternative<PlaceRequest>(request) || (dig != nullptr && dig->piece == 0);
+}
+
 PieceGrant grant_for(const World::State& state, const Command& command) {
   const std::optional<CarveRequest> carve = carve_in(command.body);
   const bool adds = std::holds_alternative<AddPieceRequest>(command.body);

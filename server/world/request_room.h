@@ -17,6 +17,9 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const
 /// As the carve that a request is, or that its blast is at most; nothing: it makes no pieces.
 std::optional<CarveRequest> carve_in(const Request& request);
 
+/// Whether terrain may fall because of it.
+bool may_loosen(const Request& request);
+
 /// The pieces that a request may make.
 PieceGrant grant_for(const World::State& state, const Command& command);
 

@@ -6,7 +6,6 @@
 
 #include "server/fracture/relaxed_seeds.h"
 #include "server/work/limits.h"
-#include "server/work/memory.h"
 #include "server/work/price.h"
 #include "server/world/blast.h"
 #include "server/world/buried_stage.h"
@@ -15,13 +14,17 @@
 #include "server/world/joint_requests.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
+#include "server/world/person_requests.h"
 #include "server/world/piece_addition.h"
 #include "server/world/piece_carving.h"
 #include "server/world/prop_requests.h"
 #include "server/world/refracture_stage.h"
+#include "server/world/region_requests.h"
 #include "server/world/request_room.h"
 #include "server/world/settings.h"
+#include "server/world/settings_change.h"
 #include "server/world/spawn.h"
+#include "server/world/store_requests.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
@@ -98,6 +101,7 @@ uint32_t seeds_at_once(const World::State& state, const CarveRequest& request, c
 /// Refuses what no wait could make valid.
 struct Checking {
   const World::State& state;
+  uint64_t session;
 
   Checked operator()(const CarveRequest& request) const {
     if (is_relaxed(request.pattern) && !request.authored_m.empty())
@@ -131,6 +135,15 @@ struct Checking {
     return check_edit(state, PaintOperation{request.shape, request.material}, request.shape,
                       Refusal::paint_invalid);
   }
+  Checked operator()(const DigRequest& request) const {
+    TRY(check_edit(state, DigOperation{request.shape}, request.shape, Refusal::dig_invalid));
+    return check(state, request);
+  }
+  Checked operator()(const PlaceRequest& request) const {
+    TRY(check_material(request.material, Refusal::place_invalid));
+    TRY(check_edit(state, operation_of(state, request), request.shape, Refusal::place_invalid));
+    return check(state, request);
+  }
   Checked check_material(Material material, Refusal refusal) const {
     if (state.palette->has(material)) return {};
     return refuse(refusal, "material " + std::to_string(row_number(material)) +
@@ -145,6 +158,8 @@ struct Checking {
     return {};
   }
   Checked operator()(const LeaveRequest&) const { return {}; }
+  Checked operator()(const StandRequest& request) const { return check(state, request, session); }
+  Checked operator()(const WalkRequest&) const { return {}; }  // take_input() refuses
   Checked operator()(const auto& of_bodies) const { return check(state, of_bodies); }
 };
 
@@ -185,20 +200,8 @@ Outcome blow_up(World::State& state, const BlastRequest& request, uint64_t party
   return made;
 }
 
-/// Pieces that lie in a shape that is filled become terrain with it, so that they do not travel out of it.
-/// Returns their number, for the reply.
-uint32_t merge_into_fill(World::State& state, const Shape& shape, TickDelta& delta) {
-  if (!merges(state.config.methods.recombine)) return 0;
-  const Shape in_field = in_voxels(shape, state.config.terrain.voxel_size_m);
-  const std::vector<PieceId> enclosed = pieces_within(
-      state, band_box(in_field), [&](glm::vec3 p_voxels) { return distance(in_field, p_voxels) < 0.0F; });
-  for (const PieceId id : enclosed) state.work.spend(merge_cost_us(state, id));
-  merge_pieces(state, enclosed, delta);
-  return static_cast<uint32_t>(enclosed.size());
-}
-
 Outcome fill(World::State& state, const FillRequest& request, uint64_t party, TickDelta& delta) {
-  const uint32_t enclosed = merge_into_fill(state, request.shape, delta);
+  const uint32_t enclosed = merge_enclosed(state, request.shape, delta);
   for (const Shape& shape : with_joints(request.shape, state.field, state.config.rules))
     state.ledger.poured +=
         state.apply_and_record(FillOperation{shape, request.material}, party, delta).terrain_gain;
@@ -213,27 +216,9 @@ Outcome paint(World::State& state, const PaintRequest& request, uint64_t party, 
       applied.changed, [&](BrickCoord coord) { return brick_mass(state.field.brick(coord)) > 0; }));
 }
 
-Outcome change(World::State& state, const SettingsRequest& request, TickDelta& delta) {
-  const WorldConfig before = state.config;
-  const Result<void> done = set_all(state.config, request.settings);
-  CHECK(done);
-  if (state.config != before) publish_settings(state, delta);
-  CHECK(delta.settings.size() <= limits::settings_max);
-  if (!merges(before.methods.recombine) && merges(state.config.methods.recombine)) state.bodies.thaw_all();
-  state.bodies.set_terrain_collider(state.config.methods.collider);
-  state.bodies.set_air_drag(drag_of(state.config));
-  if (before.material_numbers != state.config.material_numbers) {
-    state.palette = palette_with(state.config.palette, state.config.material_numbers);
-    state.bodies.set_palette(state.palette);
-  }
-  state.field.bound_generated(generated_bytes_within(state.config.memory_max_mb));
-  state.work.allow(state.config.work_percent);
-  state.requests.expect(client_us_per_s(state.work, state.config));
-  return 0U;
-}
-
 struct Executing {
   World::State& state;
+  uint64_t session;
   uint64_t party;
   const PieceGrant& grant;
   TickDelta& delta;
@@ -250,8 +235,15 @@ struct Executing {
   }
   Outcome operator()(const FillRequest& request) const { return fill(state, request, party, delta); }
   Outcome operator()(const PaintRequest& request) const { return paint(state, request, party, delta); }
-  Outcome operator()(const SettingsRequest& request) const { return change(state, request, delta); }
+  Outcome operator()(const SettingsRequest& request) const {
+    change_settings(state, request, delta);
+    return 0U;
+  }
   Outcome operator()(const LeaveRequest&) const { return 0U; }  // enqueue_commands() has done it
+  Outcome operator()(const WalkRequest&) const { return 0U; }   // likewise
+  Outcome operator()(const StandRequest& request) const {
+    return perform(state, request, session, party, delta);
+  }
   Outcome operator()(const BlastRequest& request) const {
     return blow_up(state, request, party, grant, delta);
   }
@@ -273,7 +265,7 @@ bool may_begin(const World::State& state, float cost_us) {
   return state.tick - state.requested >= rest;
 }
 
-void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
+void answer(World::State& state, const Command& command, const Outcome& outcome, TickDelta& delta) {
   Reply reply{command.session, command.request, {}, 0};
   const auto name_first = [&] {
     if (*outcome == 0) return;
@@ -282,10 +274,14 @@ void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
     reply.pieces = static_cast<uint32_t>(std::ranges::count_if(delta.spawned, is_part));
   };
   if (outcome) {
+    reply.mass = std::exchange(state.request_mass, std::nullopt);
     std::visit(
         Overloaded{[&](const PaintRequest&) { reply.painted = *outcome; },
                    [&](const AddPropRequest&) { reply.prop = *outcome; },
                    [&](const AddJointRequest&) { reply.joint = *outcome; },
+                   [&](const StandRequest& stand) {
+                     if (!stand.away) reply.prop = *outcome;
+                   },
                    [&](const CutOutRequest&) { name_first(); }, [&](const AddPieceRequest&) { name_first(); },
                    [&](const auto&) { reply.pieces = *outcome; }},
         command.body);
@@ -297,34 +293,30 @@ void answer(const Command& command, const Outcome& outcome, TickDelta& delta) {
 }
 
 Checked check(const World::State& state, const Command& command) {
-  return std::visit(Checking{state}, command.body);
+  TRY(std::visit(Checking{state, command.session}, command.body));
+  return check_regions(state, command);
 }
 
 /// Carries out one request, or refuses it: what was valid when it came may not be any more.
 Outcome execute(World::State& state, const Command& command, const PieceGrant& grant, TickDelta& delta) {
   if (Checked valid = check(state, command); !valid) return tl::unexpected(valid.error());
+  if (Checked seen = check_sight(state, command); !seen) return tl::unexpected(seen.error());
   const size_t before = delta.operations.size(), told_before = delta.told.size();
-  Outcome done = std::visit(Executing{state, party_of(command), grant, delta}, command.body);
+  Outcome done = std::visit(Executing{state, command.session, party_of(command), grant, delta}, command.body);
   for (size_t i = before; i < delta.operations.size(); ++i) delta.operations[i].session = command.session;
   for (size_t i = told_before; i < delta.told.size(); ++i) delta.told[i].session = command.session;
   if (std::holds_alternative<SettingsRequest>(command.body)) delta.settings_by = command.session;
   return done;
 }
 
-/// Whether terrain may fall because of it.
-bool may_loosen(const Request& request) {
-  const auto* carve = std::get_if<CarveRequest>(&request);
-  if (carve != nullptr && carve->piece != 0) return false;
-  return carve_in(request) || std::holds_alternative<FillRequest>(request);
-}
-
-Checked enqueue(World::State& state, const Command& command) {
+Checked enqueue(World::State& state, Command command) {
+  command.body = with_own_store(std::move(command.body), store_of_person(0, command.session));
   if (Checked valid = check(state, command); !valid) return valid;
   if (may_loosen(command.body))
     if (Result<void> may = may_cause_falls(state, party_of(command)); !may)
       return refuse(Refusal::falls_waiting, may.error().message);
   const float cost_us = price_us(command.body, state.field, state.config.methods.cutter);
-  if (Result<void> taken = state.requests.push({command, cost_us, state.tick}); !taken)
+  if (Result<void> taken = state.requests.push({std::move(command), cost_us, state.tick}); !taken)
     return refuse(Refusal::requests_waiting, taken.error().message);
   return {};
 }
@@ -332,8 +324,9 @@ Checked enqueue(World::State& state, const Command& command) {
 /// Refuses what waits for a session that cannot go on.
 void drop(World::State& state, uint64_t session, TickDelta& delta) {
   for (const Command& dropped : state.requests.drop(session))
-    answer(dropped, refuse(Refusal::session_over, "the session ended before its request was carried out"),
-           delta);
+    answer(state, dropped,
+           refuse(Refusal::session_over, "the session ended before its request was carried out"), delta);
+  give_up_store(state, session);
 }
 
 }  // namespace
@@ -342,23 +335,34 @@ bool may_wait_for_turn(const World::State& state, const Command& command) {
   // They are checked again when they are carried out, and what they are of may be gone by then.
   if (std::holds_alternative<SettingsRequest>(command.body) ||
       std::holds_alternative<PushRequest>(command.body) ||
+      std::holds_alternative<StandRequest>(command.body) ||
       std::holds_alternative<AddJointRequest>(command.body))
     return true;
   const Checked checked = check(state, command);
   if (checked) return true;
   const Refusal reason = checked.error().reason;
   return reason == Refusal::body_missing || reason == Refusal::joint_missing ||
-         reason == Refusal::body_not_kept || reason == Refusal::props_max || reason == Refusal::joints_max;
+         reason == Refusal::body_not_kept || reason == Refusal::props_max || reason == Refusal::joints_max ||
+         reason == Refusal::regions_max || reason == Refusal::region_missing || reason == Refusal::in_region;
 }
 
 void enqueue_commands(World::State& state, std::span<const Command> commands, TickDelta& delta) {
   for (const Command& command : commands)
-    std::visit(Overloaded{[&](const LeaveRequest&) { drop(state, command.session, delta); },
-                          [&](const auto&) {
-                            if (const Checked taken = enqueue(state, command); !taken)
-                              answer(command, tl::unexpected(taken.error()), delta);
-                          }},
-               command.body);
+    std::visit(
+        Overloaded{[&](const LeaveRequest&) {
+                     drop(state, command.session, delta);
+                     leave_on_foot(state, command.session, delta);
+                   },
+                   [&](const WalkRequest& walk) {
+                     if (const Checked taken = take_input(state, walk, command.session, command.request);
+                         !taken)
+                       answer(state, command, tl::unexpected(taken.error()), delta);
+                   },
+                   [&](const auto&) {
+                     if (const Checked taken = enqueue(state, command); !taken)
+                       answer(state, command, tl::unexpected(taken.error()), delta);
+                   }},
+        command.body);
 }
 
 void carry_out(World::State& state, TickDelta& delta) {
@@ -381,7 +385,7 @@ void carry_out(World::State& state, TickDelta& delta) {
     }
     const Command command = next->command;
     state.requests.pop(cost);
-    answer(command, execute(state, command, grant, delta), delta);
+    answer(state, command, execute(state, command, grant, delta), delta);
     state.work.spend_on_request(std::max(0.0F, cost - std::exchange(state.cut_later_us, 0.0F)));
   }
   delta.work.requests_waiting = static_cast<uint32_t>(state.requests.size());

@@ -28,7 +28,8 @@ inline constexpr uint32_t slides = 7;
 /// Also, a fill that lies exactly on a face of the terrain joins it, and what falls from a large island
 /// becomes terrain again when all of it has fallen. Posts that were cut off topple.
 inline constexpr uint32_t joints = 8;
-/// Also, a look at a slope pays for the ground that it may have to generate.
+/// Also, a look at a slope pays for the ground that it may have to generate; a break must be at its piece;
+/// and a prop whose density makes it too heavy is refused.
 inline constexpr uint32_t paid_looks = 9;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
 inline constexpr uint32_t newest = paid_looks;

@@ -11,6 +11,7 @@
 #include "shared/base/kind_table.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
+#include "shared/operation/store_limits.h"
 
 namespace scree {
 
@@ -61,6 +62,14 @@ template <auto Member>
 constexpr Setting choice(std::string_view name, std::string_view help) {
   const std::span<const std::string_view> names = names_of<ValueOf<Member>>();
   return {name, help, names, {}, names, get_member<Member>, put_member<Member>};
+}
+
+/// The same where the network's side alone goes by it: no simulation differs.
+template <auto Member>
+constexpr Setting choice_of_service(std::string_view name, std::string_view help) {
+  Setting row = choice<Member>(name, help);
+  row.tried = {};
+  return row;
 }
 
 template <auto Member>
@@ -137,34 +146,52 @@ constexpr std::array table{
     text(spawn_setting, "where visitors begin, and which way they look; auto: where the ground suggests",
          {"auto or X,Y,Z or X,Y,Z,YAW,PITCH, metres and degrees", parse_spawn_choice, print_spawn_choice}),
     number<&ServiceLimits::reach_m>(
-        "reach", "how far from its eye a client may edit, metres; administrators: anywhere",
+        "reach", "how far from its eye a client may edit, metres; 0 and administrators: anywhere",
         {limits::reach_min_m, limits::reach_max_m, "metres", false}),
+    choice_of_service<&ServiceLimits::sight>(
+        sight_setting,
+        "whether an edit has to be in sight of its client's eye; administrators edit anything"),
+    choice<&ServiceLimits::persons>(
+        persons_setting,
+        "how persons are in the world; walk: with bodies, which the server moves by their input"),
+    number<&WorldConfig::store_m3>("store-m3", "rock that a person carries; 0: nobody digs",
+                                   {0, limits::store_max_m3, "cubic metres"}),
+    number<&WorldConfig::dig_m3_per_s>("dig-m3-per-s",
+                                       "digging into one store, cubic metres a second; 0: no limit",
+                                       {0, limits::dig_max_m3_per_s, "cubic metres a second"}),
 };
 
 /// Each member is bound by name: a new member that is not in the table does not compile. The terrain, the
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
   const auto& [terrain, tick_rate_hz, pieces_max, props_max, joints_max, memory_max_mb, merges_per_tick_max,
-               work_percent, air_drag_percent, methods, service, spawn, ground, rules, palette,
-               material_numbers] = world;
+               work_percent, store_m3, dig_m3_per_s, air_drag_percent, methods, service, spawn, ground, rules,
+               palette, material_numbers] = world;
   static_cast<void>(ground);  // names the terrain's
   static_cast<void>(rules);   // fixed from the start, as these three
   static_cast<void>(palette);
   static_cast<void>(material_numbers);  // a setting each (material_settings.h)
   const auto& [collider, impacts, dents, islands, support, recombine, group_merges, cutter, simplifier] =
       methods;
-  const auto& [sessions_max, requests_per_second, reach_m] = service;
+  const auto& [sessions_max, requests_per_second, reach_m, sight, persons] = service;
   constexpr size_t fixed = 3;
-  const std::array config{static_cast<double>(terrain.voxel_size_m), static_cast<double>(tick_rate_hz),
-                          static_cast<double>(pieces_max),           static_cast<double>(props_max),
-                          static_cast<double>(joints_max),           static_cast<double>(memory_max_mb),
-                          static_cast<double>(merges_per_tick_max),  static_cast<double>(work_percent),
+  const std::array config{static_cast<double>(terrain.voxel_size_m),
+                          static_cast<double>(tick_rate_hz),
+                          static_cast<double>(pieces_max),
+                          static_cast<double>(props_max),
+                          static_cast<double>(joints_max),
+                          static_cast<double>(memory_max_mb),
+                          static_cast<double>(merges_per_tick_max),
+                          static_cast<double>(work_percent),
+                          static_cast<double>(store_m3),
+                          static_cast<double>(dig_m3_per_s),
                           static_cast<double>(air_drag_percent)};
   const std::array choices{
       static_cast<int>(collider),     static_cast<int>(impacts), static_cast<int>(dents),
       static_cast<int>(islands),      static_cast<int>(support), static_cast<int>(recombine),
       static_cast<int>(group_merges), static_cast<int>(cutter),  static_cast<int>(simplifier)};
-  const std::array granted{static_cast<double>(sessions_max), requests_per_second, reach_m};
+  const std::array granted{static_cast<double>(sessions_max), requests_per_second, reach_m,
+                           static_cast<double>(sight), static_cast<double>(persons)};
   const std::array texts{&spawn};
   return std::integral_constant<size_t,
                                 config.size() - fixed + choices.size() + granted.size() + texts.size()>{};

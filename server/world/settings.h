@@ -2,8 +2,8 @@
 // runs. The server's flags, its configuration file, the environment, requests to change settings, recordings
 // and reports all use it. To add a setting, add a member and a row in settings.cpp. The member is a choice
 // between methods (methods.h), a number of the simulation (world_config.h, with its bounds in limits.h) or a
-// limit of clients (service_limits.h). Where something else keeps the value, change() in request_stage.cpp
-// hands it on. The tests of determinism take each value in turn.
+// limit of clients (service_limits.h). Where something else keeps the value, change_settings()
+// (settings_change.h) hands it on. The tests of determinism take each value in turn.
 #pragma once
 
 #include <span>
@@ -35,6 +35,10 @@ inline constexpr std::string_view spawn_setting = "spawn";
 /// As its value in an administrator's request: the place of a person's eye, which the network side writes in
 /// its place. With a space and a session's number: of that one.
 inline constexpr std::string_view spawn_here = "here";
+
+/// The names of ServiceLimits::persons and sight, likewise.
+inline constexpr std::string_view persons_setting = "persons";
+inline constexpr std::string_view sight_setting = "sight";
 
 /// A choice of several values by name, a number within bounds, or a text.
 struct Setting {

@@ -91,6 +91,10 @@ std::vector<SlideOperation> due_slides(World::State& state, BrickCoord place,
   for (const Material row : rows) {
     const SlideOperation operation{box, row, *repose_of(state.palette->row(row)), cell};
     if (!validate(Operation(operation), state.pieces, dx)) continue;  // at the world's edge
+    if (const Region* const region = state.regions.forbidding(forbids::falls, box)) {
+      state.regions.remember(region->id, place);
+      continue;
+    }
     if (SlideColumns(materials, codes, terms_of(operation)).steepest() >
         operation.tangent + limits::slide_excess)
       due.push_back(operation);

@@ -18,6 +18,7 @@ enum class TickStage : uint8_t {
   requests,    ///< carves, fills, paint, settings
   refracture,  ///< pieces of large carves that are cut into smaller ones
   spawn,       ///< hulls and bodies of new pieces, whichever stage made them
+  persons,     ///< persons on foot walk
   bodies,      ///< terrain contacts and the Bullet step; pieces beyond the world's bounds
   impacts,     ///< breaks and dents
   rest,        ///< rest detection
@@ -46,6 +47,8 @@ constexpr TickStageRow row_of(TickStage stage) {
       return {stage, "cut", true};
     case TickStage::spawn:
       return {stage, "spawn", true};
+    case TickStage::persons:
+      return {stage, "persons", false};
     case TickStage::bodies:
       return {stage, "bodies", false};
     case TickStage::impacts:

@@ -19,7 +19,8 @@ uint64_t state_hash(const HashedState& state) {
                                          static_cast<uint64_t>(ledger.poured),
                                          static_cast<uint64_t>(ledger.moved)};
   uint64_t hash = XXH3_64bits(words.data(), sizeof(words));
-  for (const uint64_t sum : {state.props, state.joints, state.kept})
+  for (const uint64_t sum :
+       {state.props, state.joints, state.kept, state.regions, state.persons, state.stores})
     if (sum != 0) hash = XXH3_64bits_withSeed(&sum, sizeof sum, hash);
   return hash;
 }
@@ -61,9 +62,63 @@ uint64_t hash_of(PieceId id, const Prop& prop, uint64_t owner) {
   return XXH3_64bits(put.bytes.data(), put.bytes.size());
 }
 
+uint64_t hash_of(const Region& region) {
+  Putting put;
+  const auto put_text = [&](const std::string& text) {
+    put(text.size());
+    put.bytes.insert(put.bytes.end(), text.begin(), text.end());
+  };
+  put(region.id);
+  put_text(region.name);
+  put(region.form);
+  for (const glm::vec3& v : {region.centre_m, region.half_m}) put(v);
+  put(region.forbids);
+  put(region.editors);
+  put(region.role);
+  for (const std::string& person : region.persons) put_text(person);
+  put(region.tells);
+  put(region.until);
+  return XXH3_64bits(put.bytes.data(), put.bytes.size());
+}
+
 uint64_t hash_of_kept(PieceId id) {
   constexpr uint64_t seed = 0x6B657074;  // not that of another list
   return XXH3_64bits_withSeed(&id, sizeof id, seed);
+}
+
+uint64_t hash_of(const PersonRecord& person) {
+  Putting put;
+  put(person.session);
+  put(person.body);
+  for (const glm::vec3& v : {person.walker.feet_m, person.walker.speed_m_s, person.look}) put(v);
+  put(person.walker.time_left_s);
+  put(person.walker.stands);
+  put(person.walker.still_ticks);
+  for (const uint32_t number : {person.taken, person.credit, person.idle_ticks}) put(number);
+  put(person.is_held);
+  for (const WaitingInput& waiting : person.inputs) {
+    put(waiting.number);
+    for (const glm::vec3& v : {waiting.input.go, waiting.look}) put(v);
+    put(waiting.input.fast);
+    put(waiting.input.jump);
+  }
+  constexpr uint64_t seed = 0x7065727a;  // not that of another list
+  return XXH3_64bits_withSeed(put.bytes.data(), put.bytes.size(), seed);
+}
+
+uint64_t hash_of(const StoreRecord& store) {
+  Putting put;
+  put(store.content.store.kind);
+  put(store.content.store.number);
+  const std::string& name = store.content.store.name;
+  put.bytes.insert(put.bytes.end(), name.begin(), name.end());
+  for (const MaterialMass& one : store.content.masses) {
+    put(one.material);
+    put(one.mass);
+  }
+  put(store.dug);
+  put(store.dug_at);
+  return XXH3_64bits(put.bytes.data(), put.bytes.size());
 }
 
 uint64_t hash_of(JointId id, const Joint& joint, uint64_t owner) {

@@ -31,7 +31,7 @@ std::vector<BrickCoord> first_cluster(const std::set<BrickCoord>& strained) {
 /// Where nothing is too heavy for its neck and nothing is a lever: whether a span between supports breaks.
 void add_spans(World::State& state, std::span<const BrickCoord> cluster, SupportFound& found) {
   if (state.config.rules < rules::spans || !found.overloads.empty()) return;
-  SpansFound spans = find_spans(state.field, *state.palette, cluster);
+  SpansFound spans = find_spans(state.field, *state.palette, cluster, state.regions.holding());
   state.work.spend(limits::span_brick_cost_us * static_cast<float>(spans.bricks_read) +
                    limits::span_joint_cost_us * static_cast<float>(spans.joints) +
                    limits::span_product_cost_us * static_cast<float>(spans.products));
@@ -43,13 +43,20 @@ bool search_cluster(World::State& state, uint64_t party, TickDelta& delta) {
   std::set<BrickCoord>& strained = state.strained.at(party);
   const std::vector<BrickCoord> cluster = first_cluster(strained);
   for (const BrickCoord brick : cluster) strained.erase(brick);
-  SupportFound found = find_overloads(state.field, *state.palette, cluster, limits::support_reach_bricks);
+  SupportFound found = find_overloads(state.field, *state.palette, cluster, limits::support_reach_bricks,
+                                      state.regions.holding());
   state.work.spend(limits::support_part_cost_us * static_cast<float>(found.parts));
   delta.work.supports_given_up += found.given_up ? 1 : 0;
   add_spans(state, cluster, found);
+  state.regions.remember_held(cluster);
   bool room = true;
-  for (const Overload& overload : found.overloads)
+  for (const Overload& overload : found.overloads) {
+    if (const Region* const region = region_of_necks(state, overload)) {
+      for (const BrickCoord brick : cluster) state.regions.remember(region->id, brick);
+      continue;
+    }
     room = room && crush_necks(state, overload, party, nullptr, delta);
+  }
   if (!room) state.strained[party].insert(cluster.begin(), cluster.end());
   return !found.overloads.empty();
 }

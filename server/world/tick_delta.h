@@ -20,6 +20,7 @@
 #include "shared/operation/ledger.h"
 #include "shared/operation/operation.h"
 #include "shared/prop/joint.h"
+#include "shared/region/region.h"
 
 namespace scree {
 
@@ -33,6 +34,7 @@ struct AppliedOperation {
   /// Whose request it carries out, and the party (Command::party) that caused it, perhaps earlier. 0:
   /// nobody's, and in a replay.
   uint64_t session = 0, party = 0;
+  MassUnits stored = 0;  ///< Applied::stored
 };
 
 /// A brick's state after the tick.
@@ -82,6 +84,9 @@ struct TickDelta {
   std::vector<AddedJoint> joints_added;    ///< in this tick, and whose motor changed; ordered, once each
   std::vector<EndedJoint> joints_removed;  ///< ordered; some may be among those that were added
   std::vector<Event> told;                 ///< what became of props and joints, in order; none in a replay
+  std::shared_ptr<const std::vector<Region>> regions;  ///< all of them, by id, when one changed; else null
+  std::vector<PersonPlace> persons;  ///< every person on foot after the tick, by session; none in a replay
+  std::vector<StoreContent> stores;  ///< that changed, as they stand; ordered by owner
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
   uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay

@@ -8,8 +8,12 @@
 #include "server/world/island_stage.h"
 #include "server/world/joint_requests.h"
 #include "server/world/merge_stage.h"
+#include "server/world/person_requests.h"
+#include "server/world/person_stage.h"
 #include "server/world/prop_requests.h"
 #include "server/world/refracture_stage.h"
+#include "server/world/region_bodies.h"
+#include "server/world/region_requests.h"
 #include "server/world/request_stage.h"
 #include "server/world/settings.h"
 #include "server/world/slide_stage.h"
@@ -26,11 +30,15 @@ constexpr glm::vec3 world_half_m(limits::world_half_width_m, limits::world_half_
                                  limits::world_half_width_m);
 
 void step_bodies(World::State& state, TickDelta& delta) {
+  const std::vector<BodyState> before = places_before_step(state);
   state.bodies.step();
+  meet_regions(state, before, delta);
   state.work.stepped(state.bodies);
   delta.contacts = contacts_of_bodies(state);
+  tell_of_hurts(state, delta);
 
   for (const PieceId id : state.bodies.beyond(world_half_m)) {
+    if (is_body_of_person(state, id)) continue;  // its walker stays in the world
     if (state.props.contains(id)) {
       tell_of_prop(state, EventKind::prop_removed, id, delta);
       delta.told.back().text = "left the world";
@@ -65,6 +73,7 @@ void describe_physics(World::State& state, TickDelta& delta) {
 }
 
 void publish(World::State& state, TickDelta& delta) {
+  tell_of_regions(state, delta);
   end_joints(state, delta);
   for (const BrickCoord coord : state.changed) {
     delta.bricks.push_back(state.brick_state(coord));
@@ -77,6 +86,8 @@ void publish(World::State& state, TickDelta& delta) {
   }
   state.changed.clear();
   publish_poses(state, delta);
+  publish_persons(state, delta);
+  delta.stores = state.stores.take_changed();
   delta.ledger = state.ledger;
   delta.materials = state.materials;
   state.work.report(delta.work);
@@ -100,6 +111,8 @@ StageRun run_of(TickStage stage) {
       return refracture_pieces;
     case TickStage::spawn:
       return nullptr;
+    case TickStage::persons:
+      return walk_persons;
     case TickStage::bodies:
       return step_bodies;
     case TickStage::impacts:
@@ -160,6 +173,8 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   s.stopwatch.restart(TickStage::requests);
   s.work.begin(s.bodies);
   delta->times.model_ms[index_of(TickStage::bodies)] = 1e-3 * static_cast<double>(s.work.spent_us());
+  end_regions(s, *delta);
+  release_terrain(s);
   enqueue_commands(s, commands, *delta);
   for (const TickStageRow& row : tick_stages) run_stage(row.stage, s, *delta);
   s.stopwatch.switch_to(TickStage::requests, delta->times);

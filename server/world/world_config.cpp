@@ -8,6 +8,7 @@
 #include "server/world/limits.h"
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
+#include "shared/operation/store_limits.h"
 
 namespace scree {
 
@@ -35,6 +36,22 @@ Result<void> check(const Bounded& bounded) {
               "): choose another (" + bounded.option + ")");
 }
 
+/// What of stores may be asked for.
+Result<void> check_stores(const WorldConfig& config) {
+  TRY(check({.value = static_cast<double>(config.store_m3),
+             .min = 0.0,
+             .max = limits::store_max_m3,
+             .name = "store_m3",
+             .limits = "limits.store_max_m3",
+             .option = "--store-m3"}));
+  return check({.value = static_cast<double>(config.dig_m3_per_s),
+                .min = 0.0,
+                .max = limits::dig_max_m3_per_s,
+                .name = "dig_m3_per_s",
+                .limits = "limits.dig_max_m3_per_s",
+                .option = "--dig-m3-per-s"});
+}
+
 /// What is rubble follows from the palette and the rules.
 TerrainSource without_rubble(TerrainSource source) {
   source.rubble = Rubble();
@@ -46,8 +63,8 @@ TerrainSource without_rubble(TerrainSource source) {
 bool WorldConfig::operator==(const WorldConfig& other) const {
   const auto tied = [](const WorldConfig& c) {
     return std::tie(c.tick_rate_hz, c.pieces_max, c.props_max, c.joints_max, c.memory_max_mb,
-                    c.merges_per_tick_max, c.work_percent, c.air_drag_percent, c.methods, c.service, c.spawn,
-                    c.ground, c.rules, *c.palette, c.material_numbers);
+                    c.merges_per_tick_max, c.work_percent, c.store_m3, c.dig_m3_per_s, c.air_drag_percent,
+                    c.methods, c.service, c.spawn, c.ground, c.rules, *c.palette, c.material_numbers);
   };
   return tied(*this) == tied(other) && without_rubble(terrain) == without_rubble(other.terrain);
 }
@@ -113,6 +130,7 @@ Result<void> validate(const WorldConfig& config) {
        .option = "WorldConfig"},
   };
   for (const Bounded& bounded : all) TRY(check(bounded));
+  TRY(check_stores(config));
   return check_together(config);
 }
 

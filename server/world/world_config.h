@@ -32,6 +32,8 @@ struct WorldConfig {
   /// Percent of a tick's length that its work may take by the model (server/work/work.h). A live server
   /// lowers it while its ticks are late, and raises it again (server/app/load_governor.h).
   uint32_t work_percent = 65;
+  uint32_t store_m3 = 1000;       ///< rock that a person's store holds; 0: nothing, so that nobody digs
+  uint32_t dig_m3_per_s = 50;     ///< into each store; 0: as much as one likes
   uint32_t air_drag_percent = 0;  ///< of their speed and spin, which pieces lose to the air in a second
   Methods methods;
   ServiceLimits service;           ///< for the network; the simulation does not read it

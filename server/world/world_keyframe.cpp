@@ -1,6 +1,7 @@
 // World::keyframe() and outline(): what a tick would publish that changed all there is.
 #include <algorithm>
 
+#include "server/world/person_stage.h"
 #include "server/world/request_stage.h"
 #include "server/world/settings.h"
 #include "server/world/world_state.h"
@@ -32,7 +33,10 @@ TickDelta World::outline() {
   for (const auto& [id, volume] : s.pieces) delta.spawned.push_back({id, volume});
   for (const auto& [id, one] : s.props) delta.props_spawned.push_back({id, one.prop});
   for (const auto& [id, one] : s.joints) delta.joints_added.push_back({id, one.joint});
+  if (!s.regions.empty()) delta.regions = s.regions.shared();
   publish_poses(s, delta);
+  publish_persons(s, delta);
+  delta.stores = s.stores.contents();
   delta.ledger = s.ledger;
   delta.materials = s.materials;
   publish_settings(s, delta);

@@ -3,6 +3,7 @@
 
 #include "server/world/recorded_values.h"
 #include "server/world/refracture_stage.h"
+#include "server/world/region_requests.h"
 #include "server/world/world_snapshot.h"
 #include "server/world/world_state.h"
 #include "shared/base/check.h"
@@ -34,6 +35,7 @@ WorldMoment World::moment() const {
   m.tick = s.tick;
   m.next_piece = s.next_piece;
   m.ledger = s.ledger;
+  m.stores = s.stores.value();
   m.materials = s.materials;
   m.field_hash = s.field.hash();
   m.state_hash = s.hash();
@@ -41,6 +43,7 @@ WorldMoment World::moment() const {
     m.pieces.push_back({id, s.traits.at(id), volume, s.bodies.shape(id)});
   for (const auto& [id, one] : s.props) m.props.push_back({id, one.owner, one.prop});
   for (const auto& [id, one] : s.joints) m.joints.push_back({id, one.owner, one.joint});
+  for (const auto& [session, person] : s.persons) m.persons.push_back(person);
   m.motion = s.bodies.motions();
   m.rest = s.rest.value();
   m.requests = s.requests.value();
@@ -55,6 +58,7 @@ WorldMoment World::moment() const {
   m.slopes = value_of(s.slopes);
   m.gained = s.gained;
   m.struck = s.struck.value();
+  enter_regions(s, m);
   m.buried = {s.buried.begin(), s.buried.end()};
   m.sunk = {s.sunk.begin(), s.sunk.end()};
   return m;
@@ -71,6 +75,7 @@ void World::renew() {
   for (const PendingRefracture& pending : refractures) enter_refracture(s, pending);
   s.turns = {};
   s.contact_sums.clear();
+  s.person_blows.clear();
   s.check();
 }
 
@@ -79,6 +84,9 @@ uint64_t first_free_session(const WorldMoment& moment) {
   for (const PieceRecord& piece : moment.pieces) last = std::max(last, piece.traits.owner);
   for (const PropRecord& prop : moment.props) last = std::max(last, prop.owner);
   for (const JointRecord& joint : moment.joints) last = std::max(last, joint.owner);
+  for (const PersonRecord& person : moment.persons) last = std::max(last, person.session);
+  for (const StoreRecord& store : moment.stores)
+    if (store.content.store.kind == StoreKind::session) last = std::max(last, store.content.store.number);
   for (const PartyValue& party : moment.requests.parties) {
     last = std::max(last, party.party);
     for (const SessionValue& session : party.sessions) last = std::max(last, session.session);

@@ -6,9 +6,12 @@
 
 #include "server/world/joint_requests.h"
 #include "server/world/limits.h"
+#include "server/world/person_requests.h"
 #include "server/world/recorded_values.h"
 #include "server/world/refracture_stage.h"
+#include "server/world/region_requests.h"
 #include "server/world/request_stage.h"
+#include "server/world/store_requests.h"
 #include "server/world/world_state.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -37,9 +40,9 @@ class Restoring {
 
   Result<void> run() {
     using Step = Result<void> (Restoring::*)();
-    for (const Step step :
-         {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::props, &Restoring::bodies,
-          &Restoring::ledger, &Restoring::places, &Restoring::waiting, &Restoring::refractures})
+    for (const Step step : {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::props,
+                            &Restoring::bodies, &Restoring::regions, &Restoring::persons, &Restoring::ledger,
+                            &Restoring::places, &Restoring::waiting, &Restoring::refractures})
       TRY((this->*step)());
     s_.rest.restore(m_.rest);
     s_.islands.restore(m_.islands);
@@ -171,25 +174,39 @@ class Restoring {
     return s_.bodies.restore(shapes, m_.motion, joints);
   }
 
+  Result<void> regions() { return restore_regions(s_, m_); }
+
+  Result<void> persons() { return restore_persons(s_, m_); }
+
   /// Worlds of older programs have none, and who measures anew knows the whole alone.
   Result<void> materials() {
     s_.materials = m_.materials;
     if (!measure_ && !m_.materials.rows().empty()) {
-      if (s_.materials.agrees(s_.ledger)) return {};
+      if (s_.materials.agrees(s_.ledger) && holds_stores()) return {};
       return fail("the ledgers of its materials do not add up to its ledger");
     }
     MaterialMasses of_pieces;
     for (const auto& [id, volume] : s_.pieces) add(of_pieces, masses_of(*volume));
-    s_.materials = MaterialLedger(s_.ledger, of_pieces, s_.config.terrain.rows.bulk);
+    s_.materials = MaterialLedger(s_.ledger, of_pieces, s_.config.terrain.rows.bulk, s_.stores.masses());
     return {};
+  }
+
+  /// Whether each material's ledger has what the stores have of it.
+  bool holds_stores() const {
+    MaterialMasses of_rows;
+    for (size_t row = 0; row < s_.materials.rows().size(); ++row)
+      if (const MassUnits mass = s_.materials.rows()[row].stored; mass != 0)
+        add(of_rows, static_cast<Material>(row), mass);
+    return of_rows == s_.stores.masses();
   }
 
   Result<void> ledger() {
     const Ledger said = m_.ledger;
     constexpr MassUnits most = limits::ledger_mass_max;
-    for (const MassUnits mass : {said.terrain, said.pieces, said.dust, said.poured, said.moved})
+    for (const MassUnits mass : {said.terrain, said.pieces, said.dust, said.poured, said.moved, said.stored})
       if (mass < -most || mass > most)
         return fail("its ledger has more than there can be (limits.ledger_mass_max)");
+    TRY(restore_stores(s_, m_.stores));
     s_.ledger = measure_ ? measured() : m_.ledger;
     const Ledger& ledger = s_.ledger;
     for (const MassUnits mass : {ledger.pieces, ledger.dust, ledger.moved})
@@ -197,6 +214,7 @@ class Restoring {
     if (ledger.pieces != s_.mass_of_pieces()) return fail("its ledger does not hold the mass of its pieces");
     if (!measure_ && ledger.terrain != s_.measure_terrain(ground_))
       return fail("its ledger does not hold the mass of its terrain");
+    if (ledger.stored != s_.stores.mass()) return fail("its ledger does not hold the mass of its stores");
     if (ledger.error() != 0) return fail("its ledger does not balance");
     return materials();
   }
@@ -206,6 +224,7 @@ class Restoring {
     Ledger ledger = m_.ledger;
     ledger.terrain = s_.measure_terrain(ground_);
     ledger.pieces = s_.mass_of_pieces();
+    ledger.stored = s_.stores.mass();
     ledger.poured += ledger.error();
     if (ledger.poured >= 0) return ledger;
     ledger.dust -= ledger.poured;
@@ -253,8 +272,7 @@ class Restoring {
     for (const PartyValue& party : m_.requests.parties)
       for (const SessionValue& session : party.sessions)
         for (const WaitingValue& request : session.requests) {
-          const auto& [asker, number, body, in_common] = request.command;
-          if (request.since > m_.tick || !may_wait_for_turn(s_, {asker, number, body, in_common}))
+          if (request.since > m_.tick || !may_wait_for_turn(s_, request.command))
             return fail("a waiting request is not valid");
         }
     return s_.requests.restore(m_.requests);
@@ -341,6 +359,9 @@ Result<std::unique_ptr<World>> World::salvaged(WorldSnapshot value, const PagedT
   moment.props = std::move(props);
   moment.motion.bodies = std::move(bodies);
   drop_joints_without(moment.motion.bodies, moment.joints);
+  std::erase_if(moment.persons, [&](const PersonRecord& person) {
+    return std::ranges::find(moment.props, person.body, &PropRecord::id) == moment.props.end();
+  });
   auto state = TRY(state_of(value, 1, ground, terrain, true));
   return std::unique_ptr<World>(new World(Made{}, std::move(state)));
 }

@@ -60,6 +60,8 @@ Loose left_by(const Operation& operation) {
                         [](const IslandOperation&) { return Loose::specks; },
                         [](const PaintOperation&) { return Loose::nothing; },
                         [](const SlideOperation&) { return Loose::specks; },
+                        [](const DigOperation&) { return Loose::islands; },
+                        [](const PlaceOperation&) { return Loose::islands; },
                     },
                     operation);
 }
@@ -98,6 +100,7 @@ World::State::State(const WorldConfig& world_config, size_t threads)
     : config(with_rubble_of_palette(world_config)),
       palette(palette_with(config.palette, config.material_numbers)),
       field(config.terrain),
+      regions(config.terrain.voxel_size_m),
       bodies(field, bodies_config(config, threads)),
       rest(RestConfig{}, config.tick_rate_hz),
       work(config.tick_rate_hz, config.work_percent),
@@ -177,8 +180,10 @@ uint64_t World::State::hash() const {
   for (const auto& [id, one] : joints) sum_of_joints += one.hash;
   uint64_t sum_of_kept = 0;
   for (const auto& [id, one] : traits) sum_of_kept += one.kept ? hash_of_kept(id) : 0;
+  uint64_t sum_of_persons = 0;
+  for (const auto& [session, person] : persons) sum_of_persons += hash_of(person);
   return state_hash({tick, field.hash(), bodies.state_hash(), next_piece, ledger, sum_of_props, sum_of_joints,
-                     sum_of_kept});
+                     sum_of_kept, regions.hash(), sum_of_persons, stores.hash()});
 }
 
 BodyShape World::State::enter_prop(PieceId id, std::shared_ptr<const Prop> prop, const PropMeasure& measure,
@@ -232,6 +237,7 @@ MassUnits World::State::measure_terrain(const GroundMasses& ground) {
 void World::State::check() const {
   CHECK(ledger.error() == 0);
   CHECK(ledger.pieces >= 0 && ledger.dust >= 0 && ledger.moved >= 0);
+  CHECK_EQ(ledger.stored, stores.mass());
   CHECK_EQ(bodies.size(), pieces.size() + props.size());
   CHECK_EQ(bodies.joints(), joints.size());
   CHECK_EQ(traits.size(), pieces.size());
@@ -239,11 +245,14 @@ void World::State::check() const {
   CHECK(props.empty() || props.rbegin()->first < next_piece);
   CHECK(joints.empty() || joints.rbegin()->first < next_piece);
   CHECK(requests.size() <= limits::requests_waiting_max);
+  CHECK(persons.size() <= props.size());
   CHECK(materials.agrees(ledger));
   CHECK_DEBUG(ledger.pieces == mass_of_pieces());
   CHECK_DEBUG(std::ranges::all_of(pieces, [this](const auto& piece) {
     return bodies.contains(piece.first) && traits.contains(piece.first);
   }));
+  CHECK_DEBUG(std::ranges::all_of(persons,
+                                  [this](const auto& person) { return props.contains(person.second.body); }));
 }
 
 }  // namespace scree

@@ -22,9 +22,12 @@
 #include "server/work/work.h"
 #include "server/world/contact_sums.h"
 #include "server/world/island_stage.h"
+#include "server/world/person_blows.h"
+#include "server/world/region_state.h"
 #include "server/world/rules.h"
 #include "server/world/spawn_place.h"
 #include "server/world/stages.h"
+#include "server/world/stores.h"
 #include "server/world/struck_places.h"
 #include "server/world/world.h"
 #include "shared/base/thread_check.h"
@@ -111,11 +114,13 @@ struct World::State {
   std::shared_ptr<const Palette> palette;  ///< as it stands; never null
   VdbField field;
   PieceTable pieces;
-  std::map<PieceId, WorldProp> props;    ///< ids are from the same numbers as pieces'
-  std::map<JointId, WorldJoint> joints;  ///< ids likewise; within a tick some may have ended in `bodies`
+  std::map<PieceId, WorldProp> props;        ///< ids are from the same numbers as pieces'
+  std::map<JointId, WorldJoint> joints;      ///< ids likewise; within a tick some may have ended in `bodies`
+  std::map<uint64_t, PersonRecord> persons;  ///< by session; the body of each is one of `props`
   std::map<BrickCoord, std::set<JointId>> anchors;  ///< joints by the brick of the rock that they hold
-  Bodies bodies;                                    ///< one for each of `pieces` and of `props`
-  std::map<PieceId, PieceTraits> traits;            ///< one for each of `pieces`
+  WorldRegions regions;
+  Bodies bodies;                          ///< one for each of `pieces` and of `props`
+  std::map<PieceId, PieceTraits> traits;  ///< one for each of `pieces`
   RestDetector rest;
   Ledger ledger;
   MaterialLedger materials;  ///< the ledger by material
@@ -135,6 +140,8 @@ struct World::State {
   Tick refractured_at = 0;  ///< tick in which one of them, or what they are parts of, was cut last
   Tick island_at = 0;       ///< tick in which an island fell last
   WorkBudget work;
+  Stores stores;                          ///< the ledger has the sum of their masses
+  std::optional<MassUnits> request_mass;  ///< of the request that is carried out: for its reply
   float cut_later_us = 0.0F;     ///< part of a request's price that the ticks pay in which its pieces are cut
   RequestQueue requests;         ///< that wait for a tick with room for them
   Tick requested = 0;            ///< tick in which a request that costs time was carried out last
@@ -143,6 +150,7 @@ struct World::State {
   std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
   SpawnPlace spawn_place;        ///< where visitors begin
   SceneMaker scenes;             ///< for questions; no tick depends on it
+  PersonBlows person_blows;      ///< what moves towards persons; no state depends on it
   ContactSums contact_sums;      ///< blows between bodies that go on; no state depends on them
   bool wants_physics = false;    ///< a client wants to see the bodies
   StageStopwatch stopwatch;      ///< of the tick's stages

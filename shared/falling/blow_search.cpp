@@ -88,14 +88,16 @@ struct Break {
 
 class BlowSearch {
  public:
-  BlowSearch(Field& field, const Palette& palette, const BlowLoad& load, int reach_bricks)
+  BlowSearch(Field& field, const Palette& palette, const BlowLoad& load, int reach_bricks,
+             const Holding* holding)
       : field_(field),
         palette_(palette),
         load_(load),
         newtons_(glm::length(load.newtons)),
         direction_(direction_of(load.newtons)),
         bricks_(bricks_of(load.on)),
-        parts_(field, palette, bricks_, reach_bricks, support_parts_max) {
+        holding_(holding),
+        parts_(field, palette, bricks_, reach_bricks, support_parts_max, holding) {
     found_.parts = parts_.parts().size();
     for (const VoxelCoord voxel : load.on)
       if (const auto part = part_of(voxel)) struck_.insert(*part);
@@ -194,7 +196,7 @@ class BlowSearch {
     const double most_n = (best_ ? best_->share : 1.0) * newtons_;
     double greatest_n = 1.0;
     while (greatest_n * span_step <= most_n) greatest_n *= span_step;
-    SpanSearch spans(field_, palette_, bricks_, struck_parts_max);
+    SpanSearch spans(field_, palette_, bricks_, struck_parts_max, holding_);
     SpansFound found = spans_under(spans, greatest_n / newtons_);
     if (found.overloads.empty()) return;
     const double weight = spans_under(spans, 0.0).strain;
@@ -217,6 +219,7 @@ class BlowSearch {
   double newtons_;
   LoadDirection direction_;
   std::vector<BrickCoord> bricks_;
+  const Holding* holding_;
   SupportParts parts_;
   std::set<uint32_t> struck_;  ///< parts
   std::optional<Break> best_;
@@ -235,9 +238,10 @@ bool surely_holds(const Field& field, const Palette& palette, const BlowLoad& lo
   });
 }
 
-BlowFound find_break(Field& field, const Palette& palette, const BlowLoad& load, int reach_bricks) {
+BlowFound find_break(Field& field, const Palette& palette, const BlowLoad& load, int reach_bricks,
+                     const Holding* holding) {
   CHECK(!load.on.empty() && glm::length(load.newtons) > 0.0);
-  return BlowSearch(field, palette, load, reach_bricks).run();
+  return BlowSearch(field, palette, load, reach_bricks, holding).run();
 }
 
 }  // namespace scree

@@ -19,6 +19,7 @@
 #include <optional>
 #include <vector>
 
+#include "shared/falling/holding.h"
 #include "shared/falling/overload.h"
 #include "shared/field/field.h"
 #include "shared/material/palette.h"
@@ -43,7 +44,9 @@ struct BlowFound {
 /// No search is needed then. The harder the blow, the more rock that takes.
 bool surely_holds(const Field& field, const Palette& palette, const BlowLoad& load);
 
-/// Searches the bounds of the struck bricks, grown by `reach_bricks` in every direction.
-BlowFound find_break(Field& field, const Palette& palette, const BlowLoad& load, int reach_bricks);
+/// Searches the bounds of the struck bricks, grown by `reach_bricks` in every direction. `holding`: as of
+/// find_overloads().
+BlowFound find_break(Field& field, const Palette& palette, const BlowLoad& load, int reach_bricks,
+                     const Holding* holding = nullptr);
 
 }  // namespace scree

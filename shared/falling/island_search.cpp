@@ -173,6 +173,7 @@ void IslandSearch::add_part(BrickCoord brick, const BrickBits& bits, uint32_t fl
   Flood& into = floods_[flood];
   push(into.ahead, part);
   if (++into.parts > limits_.parts_max) into.verdict = Verdict::too_large;
+  if (limits_.holding != nullptr && limits_.holding->holds(brick, bits)) into.verdict = Verdict::ground;
 }
 
 /// Makes one flood of two that met. Returns it.

@@ -28,6 +28,7 @@
 
 #include "shared/base/limits.h"
 #include "shared/falling/ground.h"
+#include "shared/falling/holding.h"
 #include "shared/field/brick_bits.h"
 #include "shared/field/field.h"
 
@@ -51,6 +52,8 @@ struct BlockLimits {
 struct SearchLimits {
   size_t parts_max = SIZE_MAX;  ///< components of more parts count as ground
   size_t bricks_per_chunk = 0;  ///< as so many bricks counts an unedited chunk that may hold a surface
+  const Holding* holding =
+      nullptr;  ///< what it holds counts as ground; it outlives the search. Null: nothing
 };
 
 class IslandSearch {

@@ -53,8 +53,8 @@ glm::dvec3 sum_of_places(const SpanPart& part) {
 }  // namespace
 
 SpanBodies::SpanBodies(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                       size_t parts_max)
-    : field_(field), palette_(palette), ground_(field), parts_max_(parts_max) {
+                       size_t parts_max, const Holding* holding)
+    : field_(field), palette_(palette), ground_(field), parts_max_(parts_max), holding_(holding) {
   const auto start = [&](BrickCoord brick) {
     if (brick_holds(brick)) return;
     for (uint32_t i = first_part(brick); i != SpanPart::none; i = parts_[i].next) reach(i);
@@ -189,8 +189,9 @@ bool SpanBodies::lies_on_what_holds(uint32_t part) {
 void SpanBodies::reach(uint32_t number) {
   if (parts_[number].body != SpanPart::none) return;
   parts_[number].body = reached;
-  const bool holds =
-      free_.size() >= parts_max_ || brick_holds(parts_[number].brick) || lies_on_what_holds(number);
+  const bool holds = free_.size() >= parts_max_ || brick_holds(parts_[number].brick) ||
+                     lies_on_what_holds(number) ||
+                     (holding_ != nullptr && holding_->holds(parts_[number].brick, parts_[number].bits));
   parts_[number].holds = holds;
   if (!holds) free_.push_back(number);
 }

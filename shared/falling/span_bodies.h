@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "shared/falling/ground.h"
+#include "shared/falling/holding.h"
 #include "shared/field/brick_bits.h"
 #include "shared/material/palette.h"
 
@@ -52,9 +53,9 @@ struct SpanContact {
 class SpanBodies {
  public:
   /// What connects to the changed bricks, or to bricks beside them. Parts beyond `parts_max` hold.
-  /// `field` and `palette` must outlive this.
+  /// `field` and `palette` must outlive this. `holding`: what it holds holds, too; null: nothing.
   SpanBodies(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-             size_t parts_max);
+             size_t parts_max, const Holding* holding = nullptr);
 
   const std::vector<SpanPart>& parts() const { return parts_; }
   const std::vector<SpanBody>& bodies() const { return bodies_; }
@@ -94,6 +95,7 @@ class SpanBodies {
   const Palette& palette_;
   Ground ground_;
   size_t parts_max_;
+  const Holding* holding_;
   std::unordered_map<BrickCoord, Entry, CoordHash> bricks_;  ///< looked up, never walked through
   std::map<ChunkCoord, bool> ground_chunks_;
   std::vector<SpanPart> parts_;

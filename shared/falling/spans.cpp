@@ -50,8 +50,9 @@ constexpr double pressed_share = 1.25;
 
 class SpanSearch::Frame {
  public:
-  Frame(const Field& field, const Palette& palette, std::span<const BrickCoord> changed, size_t parts_max)
-      : bodies_(field, palette, changed, parts_max),
+  Frame(const Field& field, const Palette& palette, std::span<const BrickCoord> changed, size_t parts_max,
+        const Holding* holding)
+      : bodies_(field, palette, changed, parts_max, holding),
         frame_(join_spans(bodies_, field.source().voxel_size_m)) {
     find_loose();
     weight_ = frame_.loads;
@@ -344,8 +345,8 @@ class SpanSearch::Frame {
 };
 
 SpanSearch::SpanSearch(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                       size_t parts_max)
-    : frame_(std::make_unique<Frame>(field, palette, changed, parts_max)) {}
+                       size_t parts_max, const Holding* holding)
+    : frame_(std::make_unique<Frame>(field, palette, changed, parts_max, holding)) {}
 
 SpanSearch::~SpanSearch() = default;
 
@@ -353,8 +354,9 @@ SpansFound SpanSearch::run(const SpanForce* force) {
   return frame_->run(force);
 }
 
-SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed) {
-  return SpanSearch(field, palette, changed, span_parts_max).run(nullptr);
+SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                      const Holding* holding) {
+  return SpanSearch(field, palette, changed, span_parts_max, holding).run(nullptr);
 }
 
 }  // namespace scree

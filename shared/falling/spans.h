@@ -19,6 +19,7 @@
 #include <span>
 #include <vector>
 
+#include "shared/falling/holding.h"
 #include "shared/falling/overload.h"
 #include "shared/field/field.h"
 #include "shared/material/palette.h"
@@ -51,8 +52,9 @@ inline constexpr size_t struck_parts_max = 40;
 class SpanSearch {
  public:
   /// What connects to these bricks, or to bricks beside them. `field` and `palette` must outlive this.
+  /// `holding`: as of find_spans().
   SpanSearch(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-             size_t parts_max);
+             size_t parts_max, const Holding* holding = nullptr);
   ~SpanSearch();
   SpanSearch(const SpanSearch&) = delete;
   SpanSearch& operator=(const SpanSearch&) = delete;
@@ -65,7 +67,8 @@ class SpanSearch {
   std::unique_ptr<Frame> frame_;
 };
 
-/// By weight alone.
-SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed);
+/// By weight alone. `holding`: what it holds holds the rest, as ground does; null: nothing.
+SpansFound find_spans(const Field& field, const Palette& palette, std::span<const BrickCoord> changed,
+                      const Holding* holding = nullptr);
 
 }  // namespace scree

@@ -113,8 +113,8 @@ BrickCoord most(BrickCoord a, BrickCoord b) {
 }  // namespace
 
 SupportParts::SupportParts(Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                           int reach_bricks, size_t parts_max)
-    : field_(field), palette_(palette), ground_(field), parts_max_(parts_max) {
+                           int reach_bricks, size_t parts_max, const Holding* holding)
+    : field_(field), palette_(palette), ground_(field), parts_max_(parts_max), holding_(holding) {
   CHECK(reach_bricks >= 0 && parts_max < unread);
   if (changed.empty()) return;
   BrickCoord lo = changed.front(), hi = changed.front();
@@ -206,7 +206,7 @@ bool SupportParts::is_held(const SupportPart& part) {
     const BrickCoord beyond = part.brick + brick_faces[face];
     if ((!inside(beyond) || is_ground(beyond)) && across(part.bits, face).any()) return true;
   }
-  return false;
+  return holding_ != nullptr && holding_->holds(part.brick, part.bits);
 }
 
 uint32_t SupportParts::load(BrickCoord brick) {

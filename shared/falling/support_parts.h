@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "shared/falling/ground.h"
+#include "shared/falling/holding.h"
 #include "shared/field/brick_bits.h"
 #include "shared/field/material_window.h"
 #include "shared/material/palette.h"
@@ -33,8 +34,8 @@ struct SupportPart {
   std::shared_ptr<const BrickRock> each{};  ///< the brick's, where this part is of several materials
   float density_kg_m3 = 0.0F;               ///< mean over its voxels
   float bending_pa = 0.0F;                  ///< what the weakest of its materials bears
-  bool held = false;                        ///< touches ground, or continues outside the surroundings
-  uint32_t next = none;                     ///< next part of the same brick
+  bool held = false;     ///< touches ground or is held as it, or continues outside the surroundings
+  uint32_t next = none;  ///< next part of the same brick
 
   bool is_whole() const { return voxels == whole_voxels; }
   /// `at`: relative to the brick's first voxel.
@@ -60,9 +61,10 @@ struct SectionVoxels {
 class SupportParts {
  public:
   /// Every part that connects to the changed bricks, or to their neighbours, through the surroundings: the
-  /// bricks' bounds grown by `reach_bricks`. `field` and `palette` must outlive this.
+  /// bricks' bounds grown by `reach_bricks`. `field` and `palette` must outlive this. `holding`: what it
+  /// holds is held; null: nothing.
   SupportParts(Field& field, const Palette& palette, std::span<const BrickCoord> changed, int reach_bricks,
-               size_t parts_max);
+               size_t parts_max, const Holding* holding = nullptr);
 
   const std::vector<SupportPart>& parts() const { return parts_; }
   const std::vector<SupportLink>& links() const { return links_; }
@@ -106,6 +108,7 @@ class SupportParts {
   const Palette& palette_;
   Ground ground_;
   size_t parts_max_;
+  const Holding* holding_;
   BrickCoord lo_, size_;  ///< surroundings
   enum class Holds : uint8_t { unknown, no, yes };
   ChunkCoord lo_chunk_, size_chunks_;  ///< those of the surroundings and of the bricks beside them

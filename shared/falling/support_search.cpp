@@ -15,10 +15,11 @@ namespace {
 
 class Search {
  public:
-  Search(Field& field, const Palette& palette, std::span<const BrickCoord> changed, int reach_bricks)
+  Search(Field& field, const Palette& palette, std::span<const BrickCoord> changed, int reach_bricks,
+         const Holding* holding)
       : field_(field),
         palette_(palette),
-        parts_(field, palette, changed, reach_bricks, support_parts_max),
+        parts_(field, palette, changed, reach_bricks, support_parts_max, holding),
         network_(parts_, palette, field.source().voxel_size_m, LoadKind::weight),
         changed_(changed.begin(), changed.end()) {}
 
@@ -72,8 +73,8 @@ class Search {
 }  // namespace
 
 SupportFound find_overloads(Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                            int reach_bricks) {
-  return Search(field, palette, changed, reach_bricks).run();
+                            int reach_bricks, const Holding* holding) {
+  return Search(field, palette, changed, reach_bricks, holding).run();
 }
 
 }  // namespace scree

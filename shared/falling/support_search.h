@@ -17,6 +17,7 @@
 #include <span>
 #include <vector>
 
+#include "shared/falling/holding.h"
 #include "shared/falling/overload.h"
 #include "shared/field/field.h"
 #include "shared/material/palette.h"
@@ -29,9 +30,10 @@ struct SupportFound {
   bool given_up = false;            ///< the terrain is too intricate for the limits; nothing is found
 };
 
-/// Searches the bounds of the changed bricks, grown by `reach_bricks` in every direction.
+/// Searches the bounds of the changed bricks, grown by `reach_bricks` in every direction. `holding`: what it
+/// holds is held, as all that touches ground; null: nothing.
 SupportFound find_overloads(Field& field, const Palette& palette, std::span<const BrickCoord> changed,
-                            int reach_bricks);
+                            int reach_bricks, const Holding* holding = nullptr);
 
 /// Parts of one search: more than any solid ground has; 10 ms. Above, the search gives up.
 inline constexpr size_t support_parts_max = 16384;

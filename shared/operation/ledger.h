@@ -18,16 +18,17 @@ namespace limits {
 inline constexpr MassUnits ledger_mass_max = MassUnits{1} << 55U;
 }  // namespace limits
 
-/// Mass in all its places, in units of 1/254 voxel. Invariant, at every tick: terrain + pieces + dust =
-/// poured.
+/// Mass in all its places, in units of 1/254 voxel. Invariant, at every tick: terrain + pieces + dust +
+/// stored = poured.
 struct Ledger {
   MassUnits terrain = 0;  ///< gain of the terrain since the start (negative: loss)
   MassUnits pieces = 0;   ///< in pieces alive; not negative
   MassUnits dust = 0;     ///< merges take it up again; not negative
   MassUnits poured = 0;   ///< added by fills, and by pieces that requests bring
   MassUnits moved = 0;    ///< taken out of the terrain since the start, in all; for scale
+  MassUnits stored = 0;   ///< dug, and not placed since (store.h); not negative
 
-  MassUnits error() const { return terrain + pieces + dust - poured; }
+  MassUnits error() const { return terrain + pieces + dust + stored - poured; }
   bool operator==(const Ledger&) const = default;
 };
 
@@ -38,6 +39,7 @@ struct MaterialFlow {
   MassUnits pieces = 0;
   MassUnits poured = 0;
   MassUnits converted = 0;  ///< into this material, by paint
+  MassUnits stored = 0;
 
   bool operator==(const MaterialFlow&) const = default;
 };
@@ -45,8 +47,8 @@ struct MaterialFlow {
 /// The flows of a piece of these masses that is poured in.
 std::vector<MaterialFlow> flows_poured(std::span<const MaterialMass> masses);
 
-/// The ledger of each material. Invariants: of each row, terrain + pieces + dust = poured + converted; dust
-/// and pieces are not negative; all that is converted sums up to 0.
+/// The ledger of each material. Invariants: of each row, terrain + pieces + dust + stored = poured +
+/// converted; dust, pieces and what is stored are not negative; all that is converted sums up to 0.
 ///
 /// A voxel counts for one material, also where rests of two lie in it. What a merge gave too much to one, and
 /// too little to another, the dust of these takes and gives; where there is not enough, it is `converted`.
@@ -58,20 +60,22 @@ class MaterialLedger {
     MassUnits dust = 0;
     MassUnits poured = 0;
     MassUnits converted = 0;
+    MassUnits stored = 0;
 
-    MassUnits error() const { return terrain + pieces + dust - poured - converted; }
+    MassUnits error() const { return terrain + pieces + dust + stored - poured - converted; }
     bool operator==(const Row&) const = default;
   };
 
   MaterialLedger() = default;
   /// Takes these rows, by material; they need not balance.
   explicit MaterialLedger(std::vector<Row> rows) : rows_(std::move(rows)) {}
-  /// The ledger of a world that kept none of its materials: all counts for one, but for what its pieces are
-  /// of.
-  MaterialLedger(const Ledger& all, const MaterialMasses& pieces, Material material);
+  /// The ledger of a world that kept none of its materials: all counts for one, but for what its pieces and
+  /// its stores are of.
+  MaterialLedger(const Ledger& all, const MaterialMasses& pieces, Material material,
+                 const MaterialMasses& stored = {});
 
-  /// Enters one operation's flows. False, and nothing is entered, when they need more dust than there is: no
-  /// world's operations do, and those of a file may.
+  /// Enters one operation's flows, one of each material. False, and nothing is entered, when they need more
+  /// dust than there is, or more than is stored: no world's operations do, and those of a file may.
   [[nodiscard]] bool enter(std::span<const MaterialFlow> flows);
 
   /// By material; those beyond have nothing.

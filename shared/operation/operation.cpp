@@ -12,6 +12,8 @@
 #include "shared/field/paint.h"
 #include "shared/fracture/material_shares.h"
 #include "shared/fracture/seeds.h"
+#include "shared/operation/edit_operations.h"
+#include "shared/operation/flows.h"
 #include "shared/operation/prepared_stamp.h"
 #include "shared/operation/shatter_operation.h"
 #include "shared/operation/slide_operation.h"
@@ -20,21 +22,6 @@
 namespace scree {
 
 namespace {
-
-MaterialFlow& flow_of(Applied& applied, Material material) {
-  for (MaterialFlow& flow : applied.flows)
-    if (flow.material == material) return flow;
-  applied.flows.push_back({.material = material});
-  return applied.flows.back();
-}
-
-void enter_terrain(Applied& applied, const MaterialMasses& gains) {
-  for (const MaterialMass& gain : gains) flow_of(applied, gain.material).terrain += gain.mass;
-}
-
-void enter_piece(Applied& applied, const Volume& volume, int sign) {
-  for (const MaterialMass& one : masses_of(volume)) flow_of(applied, one.material).pieces += sign * one.mass;
-}
 
 /// The cut's pieces go into the table, from that id on.
 void enter(Cut cut, PieceId id, PieceTable& pieces, Applied& applied) {
@@ -63,57 +50,18 @@ std::vector<glm::vec3> seeds_of(const CarveOperation& op, const Window& volume, 
 
 Applied apply_carve(const CarveOperation& carve_op, Field& field, PieceTable& pieces) {
   const float dx = field.source().voxel_size_m;
-  const Shape shape = in_voxels(carve_op.shape, dx);
-  const Window before = gather(field, band_box(shape));
-  const Window solid = codes_of(shape, before.box);
-  Window after = before;
-  carve(after, solid);
-  const Window volume = extract(before, solid);
+  CarvedTerrain carved = carved_terrain(carve_op.shape, field);
+  const Window volume = extract(carved.before, carved.solid);
   Applied applied;
   applied.seeds_voxels = seeds_of(carve_op, volume, dx);
-  const RockWindow rock = rock_of(gather_materials(field, before.box), field.rubble());
-  std::vector<uint8_t> lost_at = mass_changes(before.codes, after.codes, rock.fills);
-  const MaterialMasses lost = masses_lost(lost_at, rock.stones);
-  Cut cut = cut_volume(carve_op.cutter, volume, std::move(lost_at), applied.seeds_voxels);
-  for (const MaterialMass& one : lost) flow_of(applied, one.material).terrain -= one.mass;
-  applied.terrain_gain = -sum_of(lost);
-  share_materials(cut, rock.stones, lost);
+  Cut cut = cut_volume(carve_op.cutter, volume, std::move(carved.lost_at), applied.seeds_voxels);
+  enter_lost(carved, applied);
+  share_materials(cut, carved.rock.stones, carved.lost);
   finish_cut(cut, carve_op, carve_op.impact_m / dx);
   enter(std::move(cut), carve_op.first_piece, pieces, applied);
-  applied.changed = scatter(field, after);
+  applied.changed = scatter(field, carved.after);
   CHECK_EQ(mass_created(applied, pieces) + applied.dust, -applied.terrain_gain);
   return applied;
-}
-
-/// Puts codes and materials into the field, and notes the bricks that changed.
-void write(Field& field, const Window& codes, const AddedMaterials& added, Applied& applied) {
-  enter_terrain(applied, added.gains);
-  applied.changed = added.says.empty() ? scatter(field, codes) : scatter(field, codes, added.says);
-}
-
-Applied apply_fill(const FillOperation& fill_op, Field& field) {
-  const Shape shape = in_voxels(fill_op.shape, field.source().voxel_size_m);
-  const Window before = gather(field, band_box(shape));
-  Window after = before;
-  fill(after, codes_of(shape, after.box));
-  const AddedMaterials added =
-      fill_materials(MaterialReader(field, before.box), field.rubble(), before, after, fill_op.material);
-  Applied applied;
-  applied.terrain_gain = sum_of(added.gains);
-  if (fill_op.material)
-    flow_of(applied, field.rubble().stones[row_number(*fill_op.material)]).poured += applied.terrain_gain;
-  else
-    for (const MaterialMass& gain : added.gains) flow_of(applied, gain.material).poured += gain.mass;
-  write(field, after, added, applied);
-  return applied;
-}
-
-std::shared_ptr<const Volume> remove_piece(PieceTable& pieces, PieceId id) {
-  const auto found = pieces.find(id);
-  CHECK(found != pieces.end());
-  std::shared_ptr<const Volume> volume = std::move(found->second);
-  pieces.erase(found);
-  return volume;
 }
 
 using Volumes = std::vector<std::shared_ptr<const Volume>>;
@@ -186,7 +134,7 @@ Applied apply_stamp(const StampOperation& op, Field& field, PieceTable& pieces,
     const AddedMaterials added =
         merge_materials(were, rows, before, after, merged, op.brings, field.source().voxel_size_m);
     applied.terrain_gain = sum_of(added.gains);
-    write(field, after, added, applied);
+    write_terrain(field, after, added, applied);
   }
   if (holds) CHECK_EQ(applied.terrain_gain, prepared->gain);
   return applied;
@@ -350,6 +298,8 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
                                                  : around(op.shape);
                         },
                         [](const SlideOperation& op) { return slide_window(op.box); },
+                        [&](const DigOperation& op) { return op.piece != 0 ? VoxelBox{} : around(op.shape); },
+                        [&](const PlaceOperation& op) { return around(op.shape); },
                     },
                     operation);
 }
@@ -365,6 +315,8 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
           [&](const IslandOperation& op) { return apply_island(op, field, pieces); },
           [&](const PaintOperation& op) { return apply_paint(op, field); },
           [&](const SlideOperation& op) { return apply_slide(op, field); },
+          [&](const DigOperation& op) { return apply_dig(op, field, pieces); },
+          [&](const PlaceOperation& op) { return apply_place(op, field); },
       },
       operation);
 }

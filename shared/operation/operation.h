@@ -140,10 +140,29 @@ struct SlideOperation {
   bool operator==(const SlideOperation&) const = default;
 };
 
+/// Takes the terrain in the shape out of the world, into a store; or a piece, whole, that was at the shape.
+struct DigOperation {
+  static constexpr std::string_view plural = "digs";
+  Shape shape;
+  PieceId piece = 0;  ///< 0: the terrain
+
+  bool operator==(const DigOperation&) const = default;
+};
+
+/// Adds a solid shape as a fill of that material does, but its mass comes out of a store.
+struct PlaceOperation {
+  static constexpr std::string_view plural = "places";
+  Shape shape;
+  Material material{};
+
+  bool operator==(const PlaceOperation&) const = default;
+};
+
 /// The place in this list is an operation's number on the wire and in recordings: new ones come last. Each
 /// says by `plural` how reports call it.
-using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation,
-                               ShatterOperation, IslandOperation, PaintOperation, SlideOperation>;
+using Operation =
+    std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation, ShatterOperation,
+                 IslandOperation, PaintOperation, SlideOperation, DigOperation, PlaceOperation>;
 
 /// The pieces that the operation takes out of the table.
 std::vector<PieceId> pieces_ended_by(const Operation& operation);
@@ -180,15 +199,17 @@ struct Applied {
   MassUnits terrain_gain = 0;  ///< negative for a carve
   MassUnits dust = 0;  ///< mass that went into no piece (carve, shatter, island), or a discarded piece's
   std::vector<MaterialFlow> flows;  ///< the same by material; what they leave is dust
+  MassUnits stored = 0;             ///< what a dig took into a store; negative: what a place took out of one
 };
 
 /// The voxels that apply() reads: a field that holds their bricks can apply the operation.
-/// Empty for a discard and a shatter. `pieces` must hold the piece of a stamp.
+/// Empty for a discard, a shatter and the dig of a piece. `pieces` must hold the piece of a stamp.
 VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float voxel_size_m);
 
 struct PreparedStamp;
 
-/// Applies a valid operation. A stamp, discard or shatter takes its piece out of the table; it must be there.
+/// Applies a valid operation. A stamp, discard, shatter or dig takes its piece out of the table; it must be
+/// there.
 /// `prepared` may hold the result of a stamp (prepared_stamp.h); it is used if it is this stamp's.
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces,
               const PreparedStamp* prepared = nullptr);
@@ -209,6 +230,10 @@ struct PieceCutLook {
   size_t rests = 0;
 };
 PieceCutLook look_at_cut(const PieceCut& cut, const Volume& piece, float voxel_size_m);
+
+/// What a dig of terrain would take, and the gain of a place: both valid. The field stays as it is.
+MassUnits mass_dug(const DigOperation& operation, const Field& field);
+MassUnits mass_placed(const PlaceOperation& operation, const Field& field);
 
 /// The volume that a carve of that shape would cut into pieces.
 Window carved_volume(Field& field, const Shape& shape);

@@ -20,6 +20,8 @@ std::vector<PieceId> pieces_ended_by(const Operation& operation) {
                         [](const IslandOperation&) { return Ids{}; },
                         [](const PaintOperation&) { return Ids{}; },
                         [](const SlideOperation&) { return Ids{}; },
+                        [](const DigOperation& op) { return op.piece != 0 ? Ids{op.piece} : Ids{}; },
+                        [](const PlaceOperation&) { return Ids{}; },
                     },
                     operation);
 }
@@ -34,6 +36,8 @@ size_t pieces_merged_by(const Operation& operation) {
                         [](const IslandOperation&) { return size_t{0}; },
                         [](const PaintOperation&) { return size_t{0}; },
                         [](const SlideOperation&) { return size_t{0}; },
+                        [](const DigOperation&) { return size_t{0}; },
+                        [](const PlaceOperation&) { return size_t{0}; },
                     },
                     operation);
 }
@@ -54,6 +58,8 @@ PieceIds ids_made_by(const Operation& operation) {
                         },
                         [](const PaintOperation&) { return PieceIds{}; },
                         [](const SlideOperation&) { return PieceIds{}; },
+                        [](const DigOperation&) { return PieceIds{}; },
+                        [](const PlaceOperation&) { return PieceIds{}; },
                     },
                     operation);
 }
@@ -69,6 +75,8 @@ std::optional<PieceId> parent_of(const Operation& operation) {
                         [](const IslandOperation&) { return Parent(); },
                         [](const PaintOperation&) { return Parent(); },
                         [](const SlideOperation&) { return Parent(); },
+                        [](const DigOperation&) { return Parent(); },
+                        [](const PlaceOperation&) { return Parent(); },
                     },
                     operation);
 }

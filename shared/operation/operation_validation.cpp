@@ -152,6 +152,14 @@ struct Validator {
     if (op.piece == UINT32_MAX) return fail("the piece ids are used up");
     return {};
   }
+  Result<void> operator()(const DigOperation& op) const {
+    if (op.piece != 0) TRY(known(op.piece, pieces));
+    return validate_edit(op.shape);
+  }
+  Result<void> operator()(const PlaceOperation& op) const {
+    TRY(validate_material(op.material));
+    return validate_edit(op.shape);
+  }
   Result<void> operator()(const SlideOperation& op) const {
     TRY(validate_material(op.material));
     TRY(validate_place(op.box, "slide"));

@@ -35,6 +35,10 @@ struct OperationPricing {
     return rest_us + cut_price_us(shatter.cutter, voxels, shatter.seeds);
   }
   float operator()(const IslandOperation& island) const { return lift_price_us(island.box); }
+  float operator()(const DigOperation& dig) const {
+    return dig.piece != 0 ? 0.0F : edit_price_us(dig.shape, field);
+  }
+  float operator()(const PlaceOperation& place) const { return edit_price_us(place.shape, field); }
   float operator()(const SlideOperation& slide) const { return slide_price_us(slide.box); }
 };
 

@@ -5,19 +5,23 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 #include <vector>
 
 #include "shared/base/ids.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/setting_value.h"
+#include "shared/base/walking.h"
 #include "shared/field/piece.h"
 #include "shared/field/shape.h"
 #include "shared/fracture/seed_pattern.h"
 #include "shared/material/material.h"
 #include "shared/operation/blast.h"
+#include "shared/operation/store.h"
 #include "shared/prop/joint.h"
 #include "shared/prop/prop.h"
+#include "shared/region/region.h"
 
 namespace scree {
 
@@ -165,6 +169,48 @@ struct ReleaseRequest {
   bool operator==(const ReleaseRequest&) const = default;
 };
 
+/// Adds a region, or puts it in the place of the one of its name; its id and `until` are the world's to say.
+struct SetRegionRequest {
+  Region region;
+  float lasts_s = 0.0F;  ///< seconds from then on; 0: until it is removed
+
+  bool operator==(const SetRegionRequest&) const = default;
+};
+
+struct RemoveRegionRequest {
+  std::string name;
+
+  bool operator==(const RemoveRegionRequest&) const = default;
+};
+
+/// Takes the terrain in the shape into a store, without pieces and without dust; or a piece, whole.
+struct DigRequest {
+  Shape shape;        ///< of a piece: where it was seen
+  PieceId piece = 0;  ///< 0: the terrain
+  StoreName store{};
+
+  bool operator==(const DigRequest&) const = default;
+};
+
+/// Fills the shape out of a store.
+struct PlaceRequest {
+  Shape shape;
+  Material material = material::rock;  ///< that the store has; of a row that is rubble: that of its stones
+  bool solid = false;                  ///< else as rubble, where the material has any
+  StoreName store{};
+
+  bool operator==(const PlaceRequest&) const = default;
+};
+
+/// Moves mass from a store to another.
+struct TransferRequest {
+  StoreName from{}, to{};
+  std::optional<Material> material{};  ///< nothing: all that the store has
+  MassUnits mass = 0;                  ///< of the material; 0: as much as there is
+
+  bool operator==(const TransferRequest&) const = default;
+};
+
 /// Changes how the simulation goes on (server/world/settings.h): all of them, or none.
 struct SettingsRequest {
   SettingValues settings;
@@ -178,10 +224,30 @@ struct LeaveRequest {
   bool operator==(const LeaveRequest&) const = default;
 };
 
+/// Enters the world on foot, or leaves it; the reply has the id of the person's body.
+struct StandRequest {
+  /// Where the feet are; nothing: where visitors begin. The network side passes it on for directors alone.
+  std::optional<glm::vec3> place_m{};
+  bool away = false;  ///< the person leaves; there is no place then
+
+  bool operator==(const StandRequest&) const = default;
+};
+
+/// What a person on foot does for one tick. The number of the request is that of the input: they ascend.
+/// Answered by a reply only where it is refused.
+struct WalkRequest {
+  WalkInput input;
+  glm::vec3 look{0.0F, 0.0F, -1.0F};  ///< unit
+
+  bool operator==(const WalkRequest&) const = default;
+};
+
 using Request =
     std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest, AddPropRequest,
                  RemovePropRequest, MovePropRequest, PushRequest, BreakRequest, BlastRequest, AddJointRequest,
-                 RemoveJointRequest, SetMotorRequest, CutOutRequest, ReleaseRequest, AddPieceRequest>;
+                 RemoveJointRequest, SetMotorRequest, CutOutRequest, ReleaseRequest, AddPieceRequest,
+                 SetRegionRequest, RemoveRegionRequest, StandRequest, WalkRequest, DigRequest, PlaceRequest,
+                 TransferRequest>;
 
 /// The shape of a request that edits terrain, or in which it does; nothing: it edits none.
 inline std::optional<Shape> shape_of(const Request& request) {
@@ -190,11 +256,29 @@ inline std::optional<Shape> shape_of(const Request& request) {
                                [](const FillRequest& fill) -> Found { return fill.shape; },
                                [](const PaintRequest& paint) -> Found { return paint.shape; },
                                [](const CutOutRequest& cut_out) -> Found { return cut_out.shape; },
+                               [](const DigRequest& dig) -> Found { return dig.shape; },
+                               [](const PlaceRequest& place) -> Found { return place.shape; },
                                [](const BlastRequest& blast) -> Found {
                                  return sphere(blast.centre_m, blast_reach_m(blast.energy_j));
                                },
                                [](const auto&) -> Found { return std::nullopt; }},
                     request);
+}
+
+/// The request with the name of its asker's store, where it says `own`.
+inline Request with_own_store(Request request, const StoreName& own) {
+  const auto name = [&](StoreName& store) {
+    if (store.kind == StoreKind::own) store = own;
+  };
+  std::visit(
+      Overloaded{[&](DigRequest& dig) { name(dig.store); }, [&](PlaceRequest& place) { name(place.store); },
+                 [&](TransferRequest& transfer) {
+                   name(transfer.from);
+                   name(transfer.to);
+                 },
+                 [](auto&) {}},
+      request);
+  return request;
 }
 
 /// The place in the terrain that a request joins a body to; null: it does not.

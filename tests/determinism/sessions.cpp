@@ -63,13 +63,20 @@ Command carve(const Shape& shape, uint32_t seeds, glm::vec3 impact_m, float blas
   return {1, 2, request};
 }
 
+/// A person who stands up beside the blow and walks into it, where persons walk.
+std::vector<Command> walks(uint32_t number) {
+  constexpr uint64_t person = 5;
+  if (number == 1) return {{person, 1, StandRequest{ground(-5.0F) + glm::vec3(0.0F, 0.5F, 0.0F)}}};
+  return {{person, number, WalkRequest{{{-1.0F, 0.0F, 0.25F}, true, number % 9 == 0}}}};
+}
+
 /// A block that falls from a height, blows on the ground and again on what they left, a crater, a tower that
-/// loses its foot, and a table whose leg gets thin.
+/// loses its foot, a table whose leg gets thin, and a person.
 std::map<Tick, std::vector<Command>> script() {
   const glm::vec3 up(0.0F, 1.0F, 0.0F), half(0.6F);
   const glm::vec3 block = ground(0.0F) + 16.0F * up, tower = ground(10.0F), blow = ground(-8.0F);
   const glm::vec3 table = ground(24.0F);
-  return {
+  std::map<Tick, std::vector<Command>> commands{
       {1,
        {fill(box(block, half)), fill(box(tower + 2.5F * up, {0.8F, 3.5F, 0.8F})),
         fill(box(table + 3.0F * up, {0.75F, 5.0F, 0.75F})),
@@ -81,6 +88,8 @@ std::map<Tick, std::vector<Command>> script() {
       {20, {carve(box(tower + 1.0F * up, {1.2F, 0.4F, 1.2F}), 3, tower, 2.0F)}},
       {100, {carve(sphere(blow - 0.8F * up, 1.0F), 8, blow, 4.0F)}},
   };
+  for (uint32_t number = 1; number <= 60; ++number) commands[30 + number] = walks(number);
+  return commands;
 }
 
 struct Happened {

@@ -17,7 +17,7 @@ fault() {
 # names_in TEXT: the options and variables in it, each between spaces.
 names_in() { printf ' %s ' "$(grep -oE -- '--[a-z][a-z-]*|SCREE_[A-Z_]+' <<<"$1" | sort -u | tr '\n' ' ')"; }
 
-# print_help COMMAND [SUBCOMMAND]: what --help prints for it. Benches and studies are not built for the tests: their sources
+# print_help COMMAND [SUBCOMMAND…]: what --help prints for it. Benches and studies are not built for the tests: their sources
 # name the options.
 print_help() {
   if ! program_of "$@"; then
@@ -26,8 +26,8 @@ print_help() {
     cat "$source"/bench/programs/*.cpp
   elif [[ $program == scree-studies ]]; then
     cat "$source"/studies/programs/*.cpp
-  elif [[ $consumed == 1 && $# == 2 ]]; then
-    "$bin/$program" "$2" --help 2>/dev/null || true # no subcommand, but an argument
+  elif [[ $consumed == 1 && $# -ge 2 ]]; then
+    "$bin/$program" "${@:2}" --help 2>/dev/null || true # no subcommand, but an argument
   else
     "$bin/$program" "${subcommand[@]}" --help
   fi
@@ -79,7 +79,7 @@ commands=$("$source/scree" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | tr '\n' '
 all=$(names_in "$(cat "$source/CMakeLists.txt" "$source/.ci/run")")
 for name in server viewer bot replay world scene import export place admin token bench 'bench studies' 'replay render' 'replay control' \
   'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' 'admin ban' \
-  'admin kick' 'admin set' 'admin health' 'admin list-bodies' 'admin ask' 'token new' 'token show' setup build test fuzz demo web; do
+  'admin kick' 'admin set' 'admin health' 'admin list-bodies' 'admin ask' 'admin region add' 'token new' 'token show' setup build test fuzz demo web; do
   # shellcheck disable=SC2086  # two words
   help_of $name
   all+=$help

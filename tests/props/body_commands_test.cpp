@@ -99,6 +99,51 @@ TEST_F(BodyCommands, space_is_asked_about) {
   EXPECT_EQ(code, misused);
   EXPECT_TRUE(holds(said, "the cast is longer than 1000 m")) << said;
   EXPECT_EQ(run("ask ray --from 0 20 0").first, misused) << "no direction";
+  EXPECT_EQ(run("ask ray --from 0 20 0 --direction 0 0 0").first, misused);
+  EXPECT_EQ(run("ask overlap").first, misused) << "no place";
+  EXPECT_EQ(run("ask nearest --at 0 6 0 --most 50").first, misused);
+}
+
+TEST_F(BodyCommands, answers_name_materials_and_say_kilograms) {
+  EXPECT_EQ(json("ask ray --from 0 20 0 --direction 0 -1 0")["hit"]["material"], "rock");
+  const nlohmann::json content = json("ask content --lo 0 -4 0 --hi 1 -3 1");
+  EXPECT_EQ(content["masses"][0]["material"], "rock");
+  EXPECT_NEAR(content["masses"][0]["kg"].get<double>(), 2600.0, 30.0);
+  EXPECT_TRUE(holds(run("ask content --lo 0 -4 0 --hi 1 -3 1").second, "rock: "));
+}
+
+TEST_F(BodyCommands, a_body_that_has_just_come_has_no_wild_speed) {
+  for (int i = 0; i < 12; ++i) {
+    run("add-prop box 1 1 1 --at 1000 " + std::to_string(20 + 2 * i) + " 1000");
+    for (const nlohmann::json& body : json("list-bodies")["bodies"])
+      EXPECT_LT(body["speed_m_s"].get<double>(), 100.0) << body;
+  }
+}
+
+TEST_F(BodyCommands, a_prop_is_turned_and_one_that_is_too_heavy_is_refused) {
+  run("add-prop box 4 1 1 --at 0 9 0 --motion fixed --turn 0 0 90");
+  EXPECT_EQ(json("ask solid --at 0 10.8 0")["solid"], true) << "it stands";
+  EXPECT_EQ(json("ask solid --at 1.8 9 0")["solid"], false);
+  run("move-prop 1 --turn 0 0 0");
+  EXPECT_EQ(json("ask solid --at 1.8 9 0")["solid"], true) << "it lies";
+  const auto [code, said] = run("add-prop sphere 30 --at 0 40 0");
+  EXPECT_EQ(code, refused);
+  EXPECT_TRUE(holds(said, "name its mass")) << said;
+}
+
+TEST_F(BodyCommands, words_that_would_do_nothing_are_refused) {
+  run("add-prop box 1 1 1 --at 0 9 0 --motion fixed");
+  for (const std::string act :
+       {"move-prop 1", "list-bodies --at 0 0 0 --radius -4", "list-bodies --lo 5 0 0 --hi 0 1 1",
+        "add-joint rope --a 1 --b terrain --at 0 9 0",
+        "add-joint hinge --a 1 --b terrain --at 0 9 0 --to 0 0 0",
+        "add-joint rope --a 1 --b terrain --at 0 9 0 --to 0 0 0 --axis 1 0 0",
+        "add-joint ball --a foo --b 1 --at 0 9 0"}) {
+    const auto [code, said] = run(act);
+    EXPECT_EQ(code, misused) << act << ": " << said;
+  }
+  EXPECT_TRUE(holds(run("list-joints").second, "no joint"));
+  EXPECT_TRUE(holds(run("release 1").second, "is a prop"));
 }
 
 TEST_F(BodyCommands, a_piece_is_broken_and_a_blow_far_from_the_origin_is_in_reach) {

@@ -48,7 +48,7 @@ TEST(Codec, every_client_message_round_trips) {
 }
 
 TEST(Codec, an_operation_of_no_kind_is_refused) {
-  const std::vector<uint8_t> head{7, 4};
+  const std::vector<uint8_t> head{7, 6};
   const Result<Operation> got = decode_operation(head);
   ASSERT_FALSE(got);
   EXPECT_TRUE(holds(got.error().message, "kind of an operation with a material")) << got.error().message;

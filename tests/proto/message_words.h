@@ -174,6 +174,7 @@ inline Lines words(const AdminRequest& act) {
                  [](const ListJointsRequest& list) {
                    return Lines{fmt::format("list joints: {}", words(list.within))};
                  },
+                 [](const ListStoresRequest&) { return Lines{"list stores"}; },
                  [](const ControlReplayRequest& control) {
                    return Lines{fmt::format("control replay: {}, speed {}, {} {}", name_of(control.play),
                                             control.speed, name_of(control.move), control.value)};
@@ -343,6 +344,7 @@ inline Lines describe(const ReplyMessage& m) {
                                 m.latency.tick_us, m.latency.sending_us));
   if (m.painted) lines.push_back(fmt::format("{} bricks painted", *m.painted));
   if (m.prop) lines.push_back(fmt::format("prop {}", *m.prop));
+  if (m.mass) lines.push_back(fmt::format("mass {}", *m.mass));
   if (m.tick != 0) lines.push_back(fmt::format("tick {}", m.tick));
   return lines;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tests/proto/message_words.h"
+#include "tests/proto/store_words.h"
 
 namespace scree {
 
@@ -127,6 +128,25 @@ inline Lines describe(const KeptPiecesMessage& m) {
   return {fmt::format("kept pieces: {}", fmt::join(m.kept, " ")),
           fmt::format("released: {}", fmt::join(m.released, " "))};
 }
+inline Lines describe(const StandMessage& m) {
+  return {fmt::format("stand: request {}{}{}", m.request, m.place_m ? " at " + words(*m.place_m) : "",
+                      m.away ? ", away" : "")};
+}
+inline Lines describe(const WalkMessage& m) {
+  return {fmt::format("walk: number {}, go {}{}{}, look {}", m.request, words(m.input.go),
+                      m.input.fast ? ", fast" : "", m.input.jump ? ", jump" : "", words(m.look))};
+}
+inline Lines describe(const PersonPlacesMessage& m) {
+  Lines lines{fmt::format("person places: tick {}", m.tick)};
+  if (m.persons)
+    for (const PersonBody& person : *m.persons)
+      lines.push_back(fmt::format("session {}: body {}", person.session, person.body));
+  if (m.own)
+    lines.push_back(fmt::format("own: input {} taken, feet {}, speed {}, {} s left, {}", m.own->taken,
+                                words(m.own->walker.feet_m), words(m.own->walker.speed_m_s),
+                                m.own->walker.time_left_s, m.own->walker.stands ? "stands" : "falls"));
+  return lines;
+}
 inline Lines describe(const AdminListMessage& m) {
   Lines lines{fmt::format("admin list: request {}", m.request)};
   for (const SessionRow& row : m.sessions) {
@@ -145,6 +165,7 @@ inline Lines describe(const AdminListMessage& m) {
     lines.push_back(fmt::format("velocity {}, {} kg, tag {}", words(row.velocity_m_s), row.mass_kg, row.tag));
   }
   for (const KnownJoint& one : m.joints) append(lines, words(one));
+  append(lines, words(m.stores));
   if (m.left_out > 0) lines.push_back(fmt::format("{} more are left out", m.left_out));
   return lines;
 }

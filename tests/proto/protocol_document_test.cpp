@@ -19,12 +19,16 @@
 #include "server/doors/limits.h"
 #include "server/net/limits.h"
 #include "server/publish/limits.h"
+#include "server/world/person_limits.h"
 #include "shared/operation/added_piece_limits.h"
 #include "shared/operation/limits.h"
 #include "shared/prop/limits.h"
+#include "shared/region/limits.h"
 #include "tests/proto/message_words.h"
 #include "tests/proto/prop_words.h"
 #include "tests/proto/query_words.h"
+#include "tests/proto/region_words.h"
+#include "tests/proto/store_words.h"
 #include "tests/support/wire_samples.h"
 
 namespace scree {
@@ -156,7 +160,22 @@ std::map<std::string, double> stated_limits_of_streams() {
           {"query_bytes_per_tick", limits::query_bytes_per_tick},
           {"joint_gap_max_m", limits::joint_gap_max_m},
           {"kept_pieces_max", limits::kept_pieces_max},
+          {"person_bodies_max", limits::person_bodies_max},
+          {"walk_inputs_max", limits::walk_inputs_max},
+          {"walk_numbers_ahead_max", limits::walk_numbers_ahead_max},
+          {"walk_inputs_a_tick_max", limits::walk_inputs_a_tick_max},
+          {"walk_inputs_burst_s", limits::walk_inputs_burst_s},
+          {"eye_off_person_m", limits::eye_off_person_m},
+          {"store_name_bytes_max", limits::store_name_bytes_max},
+          {"stores_max", limits::stores_max},
+          {"stores_a_message", limits::stores_a_message},
           {"bodies_named_max", limits::bodies_named_max},
+          {"regions_max", limits::regions_max},
+          {"region_name_bytes_max", limits::region_name_bytes_max},
+          {"region_persons_max", limits::region_persons_max},
+          {"region_half_min_m", limits::region_half_min_m},
+          {"region_half_max_m", limits::region_half_max_m},
+          {"regions_wait_s", limits::regions_wait_s},
           {"tile_bytes_per_tick_all", limits::tile_bytes_per_tick_all}};
 }
 
@@ -240,7 +259,7 @@ TEST(ProtocolDocument, its_limits_are_the_programs) {
     std::erase(number, ',');
     const auto limit = limits_by_name.find((*it)[1]);
     ASSERT_NE(limit, limits_by_name.end()) << (*it)[1];
-    EXPECT_EQ(std::stod(number), limit->second) << (*it)[1];
+    EXPECT_FLOAT_EQ(std::stof(number), static_cast<float>(limit->second)) << (*it)[1];
   }
   EXPECT_EQ(found, limits_by_name.size());
 }

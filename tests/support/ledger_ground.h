@@ -23,10 +23,11 @@ struct LedgerGround {
     for (const CreatedPiece& piece : applied.created) made += pieces.at(piece.id)->mass;
     ledger.terrain += applied.terrain_gain;
     ledger.pieces += made - ended;
+    ledger.stored += applied.stored;
     if (std::holds_alternative<FillOperation>(operation))
       ledger.poured += applied.terrain_gain;
     else
-      ledger.dust -= applied.terrain_gain + made - ended;
+      ledger.dust -= applied.terrain_gain + made - ended + applied.stored;
     if (applied.terrain_gain < 0) ledger.moved -= applied.terrain_gain;
     EXPECT_TRUE(materials.enter(applied.flows));
     EXPECT_TRUE(materials.agrees(ledger));

@@ -159,6 +159,9 @@ class TrustingClient {
   void apply(const PaletteChangedMessage&) {}
   void apply(const JointsMessage&) {}
   void apply(const KeptPiecesMessage&) {}
+  void apply(const RegionsMessage&) {}
+  void apply(const PersonPlacesMessage&) {}
+  void apply(const StoresMessage&) {}
   void apply(const AnswerMessage& message) { answers.push_back(message); }
   void apply(const ReplyMessage& message) { replies.push_back(message); }
   void apply(const StatusMessage& message) { statuses.push_back(message); }

@@ -9,6 +9,8 @@
 #include "proto/transforms.h"
 #include "shared/base/random.h"
 #include "tests/support/materials.h"
+#include "tests/support/query_samples.h"
+#include "tests/support/store_samples.h"
 
 namespace scree::samples {
 
@@ -86,7 +88,10 @@ inline FrameMessage frame() {
                        PieceCut{sphere({1.0F, -2.0F, 3.0F}, 1.5F), {100, -200, 300, 0x80200802U}}},
       IslandOperation{{{-40, 7, 300}, {-3, 40, 412}}, {-40, 9, 311}, 80005},
       PaintOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), material::ice},
-      SlideOperation{{{-12, 8, 400}, {12, 40, 436}}, material::soil, 46, 3}};
+      SlideOperation{{{-12, 8, 400}, {12, 40, 436}}, material::soil, 46, 3},
+      DigOperation{sphere({1.0F, -2.0F, 3.0F}, 1.5F)},
+      DigOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), 77794},
+      PlaceOperation{capsule({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, 0.5F), material::ice}};
   frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2), all_of(material::soil)}};
   frame.dropped_chunks = {{1, -2, 3}, {-100, 0, 100}};
   frame.removed_pieces = {9, 4000000000U, 12};
@@ -126,7 +131,9 @@ inline StatusMessage status() {
   status.refusals = {{"pieces_max", 3}, {"message_malformed", 1ULL << 40U}};
   status.latency = {{8000, 2100, 300}, {16000, 9000, limits::latency_max_us}};
   status.settings = {{"impacts", "true"}, {"collider", "field"}, {"material.rock.strength", "12.5"}};
-  status.materials = MaterialLedger({{-5, 3, 2, 0, 0}, {}, {1LL << 40, 0, 7, (1LL << 40) + 9, -2}});
+  status.materials =
+      MaterialLedger({{-5, 3, 2, 0, 0}, {}, {1LL << 40, 0, 7, (1LL << 40) + 9, -2}, {0, 0, 0, 0, 0, 99}});
+  status.ledger_stored = 99;
   return status;
 }
 
@@ -155,6 +162,21 @@ inline Prop prop() {
   return prop;
 }
 
+inline Region region() {
+  Region region;
+  region.id = 36;
+  region.name = "tower";
+  region.form = RegionForm::cylinder;
+  region.centre_m = {-4.0F, 12.5F, 3.0F};
+  region.half_m = {6.0F, 20.0F, 6.0F};
+  region.forbids = forbids::edits | forbids::falls;
+  region.editors = RegionEditors::persons;
+  region.persons = {"Ann", "Bo"};
+  region.tells = true;
+  region.until = 1ULL << 40U;
+  return region;
+}
+
 inline Joint joint() {
   Joint joint;
   joint.kind = JointKind::hinge;
@@ -168,46 +190,6 @@ inline Joint joint() {
   return joint;
 }
 
-inline QueryMessage query() {
-  const glm::vec3 a(1.0F, 2.0F, 3.0F), b(4.0F, -5.0F, 6.0F), x(1.0F, 0.0F, 0.0F);
-  QueryMask mask;
-  mask.terrain = mask.bodies = false;
-  mask.groups = 0x80000001U;
-  mask.except = {7, 4000000000U};
-  QueryMask props;
-  props.pieces = false;
-  return {27,
-          1ULL << 40U,
-          {{RayQuestion{a, x, 100.0F}, mask},
-           {SphereQuestion{a, x, 40.0F, 0.5F}, props},
-           {CapsuleQuestion{a, b, x, 4.0F, 0.25F}},
-           {InSphereQuestion{a, 2.0F}},
-           {InBoxQuestion{a, b}},
-           {NearestQuestion{a, 8.0F}},
-           {SolidQuestion{b}},
-           {ContentQuestion{a, b}},
-           {BodiesQuestion{b, a}},
-           {UnknownQuestion{}}}};
-}
-
-inline AnswerMessage answer() {
-  const Hit terrain{HitKind::terrain, 0, 1.5F, {1.0F, 2.0F, 3.0F}, {0.0F, 1.0F, 0.0F}, material::soil, true};
-  const Hit piece{HitKind::piece, 4000000000U, 0.0F, {1.0F, 2.0F, 3.0F}, {0.6F, 0.8F, 0.0F}, material::ice};
-  std::vector<QuestionReply> answers(9);
-  answers[0].answer = std::optional<Hit>(terrain);
-  answers[1].answer = std::optional<Hit>(piece);
-  answers[2].answer = std::optional<Hit>();
-  answers[3].answer = Overlapping{true, {3, 900, 4000000000U}};
-  answers[3].more = true;
-  answers[4].answer = true;
-  answers[5].answer = false;
-  answers[6].answer = BoxContent{12.25, {{material::rock, 1LL << 40}, {material::ice, -3}}};
-  answers[7].answer = std::vector<PieceId>{1, 2};
-  answers[8].refusal = "the question reaches 300 m";
-  answers[8].refusal_name = "query_far";
-  return {27, 1ULL << 40U, answers};
-}
-
 inline AdminListMessage body_list() {
   return {4,
           {},
@@ -218,7 +200,7 @@ inline AdminListMessage body_list() {
           7};
 }
 
-inline std::vector<ServerMessage> server_messages() {
+inline WelcomeMessage replay_welcome() {
   WelcomeMessage welcome;
   welcome.session = 0x1234567890ABCDEFULL;
   welcome.tick = 42;
@@ -229,6 +211,11 @@ inline std::vector<ServerMessage> server_messages() {
   welcome.world = 0xFEDCBA9876543210ULL;
   welcome.ticket = std::string("\0\xFF ticket", 9);
   welcome.resumed = true;
+  return welcome;
+}
+
+inline std::vector<ServerMessage> server_messages_but_stores() {
+  const WelcomeMessage welcome = replay_welcome();
   ChunkMessage chunk;
   chunk.chunk = {-1, 2, 0};
   chunk.version = 17;
@@ -255,6 +242,7 @@ inline std::vector<ServerMessage> server_messages() {
       answer(),
       AnswerMessage{10, 0, {}, "more than 1000 questions a second", "queries_per_second"},
       ResetMessage{},
+      RegionsMessage{{region()}},
       ReplyMessage{7, "radius 12 m is over 8 m", 0, "carve_invalid", {8300, limits::latency_max_us, 400}},
       ReplyMessage{8, "", 0, "", {}, 40, 3},
       ReplyMessage{9, "", 0, "", {}, 41, std::nullopt, 32},
@@ -286,6 +274,8 @@ inline std::vector<ServerMessage> server_messages() {
           {{"10.0.0.1", 90, "too loud"}}},
       body_list(),
       KeptPiecesMessage{{31, 34}, {2}},
+      PersonPlacesMessage{600, std::vector<PersonBody>{{3, 31}, {1ULL << 40U, 34}},
+                          OwnPerson{70, {{1.0F, 2.0F, -3.0F}, {0.5F, -9.0F, 0.0F}, 0.0078125F, true, 2}}},
       UnknownMessage{}};
 }
 
@@ -301,7 +291,7 @@ inline AddPieceMessage add_piece() {
   return add;
 }
 
-inline std::vector<ClientMessage> client_messages() {
+inline std::vector<ClientMessage> client_messages_but_stores() {
   CarveMessage carve;
   carve.request = 5;
   carve.shape = capsule({1.0F, 2.0F, 3.0F}, {4.0F, 5.0F, 6.0F}, 1.5F);
@@ -361,11 +351,29 @@ inline std::vector<ClientMessage> client_messages() {
           CarveMessage{{.shape = sphere({0.0F, 1.0F, 2.0F}, 1.0F), .piece = 77}, 33},
           CutOutMessage{{box({4.0F, 5.0F, 6.0F}, {1.0F, 2.0F, 1.0F})}, 31},
           ReleaseMessage{{34}, 32},
+          StandMessage{{glm::vec3(4.0F, 5.0F, -6.0F)}, 36},
+          WalkMessage{{{{0.5F, 0.0F, -0.25F}, true, true}, {0.0F, 0.6F, -0.8F}}, 71},
           add_piece(),
           query(),
+          SetRegionMessage{{region(), 2.5F}, 35},
+          RemoveRegionMessage{{"tower"}, 36},
           GoodbyeMessage{},
           AskHealthMessage{},
           UnknownMessage{}};
+}
+
+/// The last one is unknown.
+inline std::vector<ServerMessage> server_messages() {
+  std::vector<ServerMessage> messages = server_messages_but_stores();
+  const std::vector<ServerMessage> more = store_server_messages();
+  messages.insert(messages.end() - 1, more.begin(), more.end());
+  return messages;
+}
+inline std::vector<ClientMessage> client_messages() {
+  std::vector<ClientMessage> messages = client_messages_but_stores();
+  const std::vector<ClientMessage> more = store_client_messages();
+  messages.insert(messages.end() - 1, more.begin(), more.end());
+  return messages;
 }
 
 /// The message without its length prefix.

@@ -172,6 +172,14 @@ TEST(Tool, what_is_filled_stands_on_the_rock_and_what_is_painted_is_in_it) {
   EXPECT_EQ(paint.material, material::soil);
   EXPECT_LT(distance(paint.shape, hit_m), 0.0F);
   change(tool, Action::next_use);
+  const auto dig = std::get<DigRequest>(request_of(tool, hit_m, down, 1, builtin_palette()));
+  EXPECT_EQ(dig.store, StoreName{});
+  EXPECT_LT(centre_of(dig.shape).y, hit_m.y);
+  change(tool, Action::next_use);
+  const auto place = std::get<PlaceRequest>(request_of(tool, hit_m, down, 1, builtin_palette()));
+  EXPECT_EQ(place.material, material::soil);
+  EXPECT_GT(centre_of(place.shape).y, hit_m.y);
+  change(tool, Action::next_use);
   EXPECT_EQ(tool.use, ToolUse::carve);
 }
 

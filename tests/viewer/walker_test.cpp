@@ -6,9 +6,9 @@
 #include <numbers>
 
 #include "client/viewer/session/on_foot.h"
-#include "client/viewer/session/solid_ground.h"
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
+#include "shared/person/solid_ground.h"
 
 namespace scree {
 namespace {
@@ -129,11 +129,11 @@ void walk_at_random(World& world, Random& random, bool rubble, float seconds) {
     }
     input.jump = random.unit() < 0.05F;
     if (rubble) world.move_pieces(now_s);
-    SolidGround ground(Scene{world.field, world.pieces}, walker.feet_m());
+    SolidGround ground = ground_of_scene(Scene{world.field, world.pieces}, walker.feet_m());
     walker.step(input, frame_s, ground);
     ASSERT_LE(Walker::depth_m(walker.feet_m(), ground), depth_max_m) << "at " << now_s << " s";
   }
-  SolidGround ground(Scene{world.field, world.pieces}, walker.feet_m());
+  SolidGround ground = ground_of_scene(Scene{world.field, world.pieces}, walker.feet_m());
   EXPECT_GT(way_open_m(walker, ground), 0.5F);
 }
 
@@ -167,7 +167,7 @@ TEST(Walker, climbs_a_step_and_is_stopped_by_a_wall) {
   apply(FillOperation{box({4.0F, ground_m, 0.0F}, {2.0F, 0.4F, 4.0F})}, field, table);
   apply(FillOperation{box({9.0F, ground_m, 0.0F}, {1.0F, 3.5F, 4.0F})}, field, table);
   const ScenePieces pieces;
-  SolidGround ground(Scene{field, pieces}, {4.0F, ground_m, 0.0F});
+  SolidGround ground = ground_of_scene(Scene{field, pieces}, {4.0F, ground_m, 0.0F});
   Walker walker({0.0F, ground_m + 0.5F, 0.0F});
   walk(walker, ground, {.go = {1.0F, 0.0F, 0.0F}}, 1.1F);
   EXPECT_NEAR(walker.feet_m().y, ground_m + 0.4F, 0.1F);  // on the step
@@ -183,7 +183,7 @@ TEST(Walker, rises_out_of_rock_that_is_filled_over) {
   const ScenePieces pieces;
   Walker walker({0.0F, ground_m + 0.1F, 0.0F});
   apply(FillOperation{sphere({0.0F, ground_m, 0.0F}, 3.0F)}, field, table);
-  SolidGround ground(Scene{field, pieces}, walker.feet_m());
+  SolidGround ground = ground_of_scene(Scene{field, pieces}, walker.feet_m());
   walk(walker, ground, {}, 3.0F);
   EXPECT_GT(walker.feet_m().y, ground_m + 2.5F);
   EXPECT_LE(Walker::depth_m(walker.feet_m(), ground), depth_max_m);
@@ -196,7 +196,7 @@ TEST(Walker, the_same_walk_in_other_frames_ends_in_the_same_place) {
   world.carve(20, 6.0F, random);
   world.pieces.clear();
   const auto end_m = [&](float every_s, int frames) {
-    SolidGround ground(Scene{world.field, world.pieces}, {});
+    SolidGround ground = ground_of_scene(Scene{world.field, world.pieces}, {});
     Walker walker({1.0F, world.ground_m(1.0F, 1.0F) + 1.0F, 1.0F});
     for (int i = 0; i < frames; ++i) walker.step({.go = {1.0F, 0.0F, 0.3F}}, every_s, ground);
     return walker.feet_m();

@@ -329,6 +329,8 @@ int main(int argc, char** argv) {
   scree::add_prop_commands(app, of_world);
   scree::add_joint_commands(app, of_world);
   scree::add_ask_commands(app, of_world);
+  scree::add_region_commands(app, of_world);
+  scree::add_store_commands(app, of_world);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");

@@ -4,6 +4,8 @@
 #include <memory>
 
 #include "client/admin/programs/world_commands.h"
+#include "shared/base/option_check.h"
+#include "shared/query/limits.h"
 
 namespace scree {
 
@@ -18,36 +20,43 @@ struct AskWords {
   std::vector<PieceId> except;
 };
 
+/// What is asked, or why nothing can be.
+using Asked = tl::expected<AskedFor, Failed>;
+using Unit = tl::expected<glm::vec3, Failed>;
+
 /// A direction of any length but 0.
-glm::vec3 unit_of(const Place& direction) {
+Unit unit_of(const Place& direction) {
   const glm::vec3 way = vector_of(direction);
   const float length = glm::length(way);
-  return length > 0.0F ? way / length : way;
+  if (length > 0.0F) return way / length;
+  return misused({"--direction has no length: name a way, such as 0 -1 0"});
 }
 
-AskedFor ray_of(const AskWords& w, const CLI::App&) {
-  return RayQuestion{vector_of(w.from), unit_of(w.direction), w.most_m};
+Asked ray_of(const AskWords& w, const CLI::App&) {
+  return RayQuestion{vector_of(w.from), TRY(unit_of(w.direction)), w.most_m};
 }
-AskedFor sphere_of(const AskWords& w, const CLI::App&) {
-  return SphereQuestion{vector_of(w.from), unit_of(w.direction), w.most_m, w.radius_m};
+Asked sphere_of(const AskWords& w, const CLI::App&) {
+  return SphereQuestion{vector_of(w.from), TRY(unit_of(w.direction)), w.most_m, w.radius_m};
 }
-AskedFor capsule_of(const AskWords& w, const CLI::App&) {
-  return CapsuleQuestion{vector_of(w.from), vector_of(w.to), unit_of(w.direction), w.most_m, w.radius_m};
+Asked capsule_of(const AskWords& w, const CLI::App&) {
+  return CapsuleQuestion{vector_of(w.from), vector_of(w.to), TRY(unit_of(w.direction)), w.most_m, w.radius_m};
 }
-AskedFor overlap_of(const AskWords& w, const CLI::App& command) {
+Asked overlap_of(const AskWords& w, const CLI::App& command) {
+  if (command.count("--at") == 0 && command.count("--lo") == 0)
+    return misused({"--at, or --lo and --hi, is required"});
   if (command.count("--at") > 0) return InSphereQuestion{vector_of(w.at), w.radius_m};
   return InBoxQuestion{vector_of(w.lo), vector_of(w.hi)};
 }
-AskedFor nearest_of(const AskWords& w, const CLI::App&) {
+Asked nearest_of(const AskWords& w, const CLI::App&) {
   return NearestQuestion{vector_of(w.at), w.near_m};
 }
-AskedFor solid_of(const AskWords& w, const CLI::App&) {
+Asked solid_of(const AskWords& w, const CLI::App&) {
   return SolidQuestion{vector_of(w.at)};
 }
-AskedFor content_of(const AskWords& w, const CLI::App&) {
+Asked content_of(const AskWords& w, const CLI::App&) {
   return ContentQuestion{vector_of(w.lo), vector_of(w.hi)};
 }
-AskedFor bodies_of(const AskWords& w, const CLI::App&) {
+Asked bodies_of(const AskWords& w, const CLI::App&) {
   return BodiesQuestion{vector_of(w.lo), vector_of(w.hi)};
 }
 
@@ -58,7 +67,7 @@ struct AskKind {
   const char* name;
   const char* what;
   unsigned takes;
-  AskedFor (*make)(const AskWords& words, const CLI::App& command);
+  Asked (*make)(const AskWords& words, const CLI::App& command);
 };
 
 constexpr AskKind kinds[] = {
@@ -86,7 +95,9 @@ void add_options(CLI::App* command, unsigned takes, AskWords& w) {
   CLI::Option* at = nullptr;
   if ((takes & place) != 0) at = add_place(command, "--at", w.at, "X Y Z, metres");
   if ((takes & near) != 0)
-    command->add_option("--most", w.near_m, "how far it may be, metres")->capture_default_str();
+    bounded(command->add_option("--most", w.near_m, "how far it may be, metres"),
+            NumberWithin{0.0, limits::query_nearest_max_m})
+        ->capture_default_str();
   if ((takes & box) == 0) {
     if (at != nullptr) at->required();
     return;
@@ -101,14 +112,17 @@ void add_options(CLI::App* command, unsigned takes, AskWords& w) {
     lo->required();
 }
 
-Printed ask(const AdminServer& server, const AskWords& words, AskedFor asks, bool as_json) {
-  Question question{std::move(asks), {}};
+Printed ask(const AdminServer& server, const AskWords& words, const Asked& asks, bool as_json) {
+  if (!asks) return tl::unexpected(asks.error());
+  Question question{*asks, {}};
   question.mask.terrain = !words.no_terrain;
   question.mask.pieces = !words.no_pieces;
   question.mask.bodies = !words.no_props;
   question.mask.except = words.except;
   if (const Result<void> valid = validate(question); !valid) return misused(valid.error());
-  return print_said(ask_space(server, question, words.as_of), as_json ? answer_json : answer_lines);
+  const auto said = TRY(ask_space(server, question, words.as_of));
+  const auto palette = names_materials(said) ? TRY(read_materials(server)) : Palette();
+  return as_json ? answer_json(said, palette) : answer_lines(said, palette);
 }
 
 }  // namespace
@@ -118,8 +132,9 @@ void add_ask_commands(CLI::App& app, WorldCommands& table) {
   CLI::App* const asks = app.add_subcommand("ask", "asks what is where: rays, overlaps, what a box holds");
   asks->require_subcommand(1);
   asks->fallthrough();
-  asks->add_option("--as-of", words->as_of,
-                   "asks about a tick shortly before; negative: so many ticks before the newest");
+  asks->add_option(
+      "--as-of", words->as_of,
+      "asks about a tick shortly before; negative: so many ticks before the newest; 0: the newest");
   asks->add_flag("--no-terrain", words->no_terrain, "leaves terrain out");
   asks->add_flag("--no-pieces", words->no_pieces, "leaves pieces out");
   asks->add_flag("--no-props", words->no_props, "leaves props out");

@@ -13,9 +13,11 @@ std::string answer_text(const ReplyMessage& reply, bool as_json) {
     nlohmann::ordered_json json{{"tick", reply.tick}, {"pieces", reply.pieces}};
     if (reply.prop) json["prop"] = *reply.prop;
     if (reply.joint) json["joint"] = *reply.joint;
+    if (reply.mass) json["units"] = *reply.mass;
     return json.dump(2) + "\n";
   }
   if (reply.joint) return fmt::format("joint {} is added\n", *reply.joint);
+  if (reply.mass) return fmt::format("done, {} units of mass\n", *reply.mass);
   if (reply.prop && reply.pieces > 0)
     return fmt::format("piece {} is kept, the first of {}\n", *reply.prop, reply.pieces);
   if (reply.prop) return fmt::format("prop {} is added\n", *reply.prop);
@@ -35,10 +37,15 @@ CLI::Option* add_place(CLI::App* command, const std::string& name, Place& to, co
 CLI::Option* add_id(CLI::App* command, const std::string& name, PieceId& to, const std::string& what,
                     bool or_terrain) {
   CLI::Option* const option = command->add_option(name, to, what);
-  if (!or_terrain) return bounded(option, whole_within(1, UINT32_MAX));
-  return bounded(option, whole_within(0, UINT32_MAX))->transform([](std::string text) {
-    return text == "terrain" ? "0" : text;
-  });
+  const NumberWithin ids = whole_within(1, UINT32_MAX);
+  if (!or_terrain) return bounded(option, ids);
+  option->transform([](std::string text) { return text == "terrain" ? "0" : text; });
+  return option->check(
+      [ids](const std::string& text) {
+        const std::string wrong = text == "0" ? "" : ids(text);
+        return wrong.empty() ? wrong : "neither terrain nor the id of a body: " + wrong;
+      },
+      "terrain or an id");
 }
 
 Printed run_request(const AdminServer& server, const Made& request, bool as_json) {

@@ -28,12 +28,32 @@ Result<JointFrame> frame_of(PieceId body, const AdminListMessage& list) {
   return JointFrame{body, pose.position_m, pose.rotation};
 }
 
+using Checked = tl::expected<void, Failed>;
+
+/// Refuses options that the kind of joint has no use for, and a line without a length.
+Checked check_words(JointKind kind, const CLI::App& command) {
+  const auto& traits = traits_of(kind);
+  const auto takes = [&](const char* option, bool has) -> Checked {
+    if (has || command.count(option) == 0) return {};
+    return misused({fmt::format("a {} takes no {}", name_of(kind), option)});
+  };
+  TRY(takes("--to", traits.has_length));
+  TRY(takes("--length", traits.has_length));
+  TRY(takes("--axis", traits.has_axis));
+  TRY(takes("--limits", traits.has_axis));
+  TRY(takes("--motor", traits.has_axis));
+  if (traits.has_length && command.count("--to") == 0 && command.count("--length") == 0)
+    return misused({fmt::format("a {} takes --to, where it holds b, or --length", name_of(kind))});
+  return {};
+}
+
 /// Asks the server where the bodies are.
 Made addition_of(const JointWords& words, const CLI::App& command, const AdminServer& server) {
   const JointKind kind = *kind_named<JointKind>(words.kind);
   const glm::vec3 at_m = vector_of(words.at_m), axis = vector_of(words.axis);
   const glm::vec3 to_m = command.count("--to") > 0 ? vector_of(words.to_m) : at_m;
   if (axis == glm::vec3(0.0F)) return misused({"the axis has no direction"});
+  TRY(check_words(kind, command));
   if (words.a == words.b) return misused({"--a and --b are the same"});
   ListBodiesRequest wanted;
   for (const PieceId id : {words.a, words.b})
@@ -70,10 +90,14 @@ void add_words_of_joint(CLI::App* add, JointWords& words) {
   add_place(add, "--to", words.to_m, "X Y Z where a rope or a distance holds b");
   add_place(add, "--axis", words.axis, "X Y Z: the direction of a hinge's or a slider's axis")
       ->capture_default_str();
-  add->add_option("--limits", words.limits, "LOW HIGH of a hinge, radians, or of a slider, metres")
+  add->add_option("--limits", words.limits,
+                  "LOW HIGH of a hinge, radians, or of a slider, metres: how far b turns about the "
+                  "axis (by the right hand), or goes along it, as a sees it; 0 is how they are joined")
       ->delimiter(',');
-  add->add_option("--motor", words.motor,
-                  "SPEED GREATEST: rad/s and newton metres of a hinge, m/s and newtons of a slider")
+  add->add_option(
+         "--motor", words.motor,
+         "SPEED GREATEST: rad/s and newton metres of a hinge, m/s and newtons of a slider; the speed is "
+         "that of b as a sees it")
       ->delimiter(',');
   add->add_option("--length", words.length_m, "metres; else as far as --at and --to are apart");
   add->add_option("--break-force", words.break_force_n, "newtons at which it breaks; 0: none")
@@ -93,8 +117,11 @@ void add_joint_commands(CLI::App& app, WorldCommands& table) {
   add_words_of_joint(add, *words);
   for (CLI::App* command : {motor, remove})
     add_id(command, "JOINT", words->joint, "the id that add-joint printed")->required();
-  motor->add_option("SPEED", words->motor[0], "rad/s of a hinge, m/s of a slider")->required();
-  motor->add_option("GREATEST", words->motor[1], "newton metres or newtons at most; 0: no motor")->required();
+  motor->add_option("SPEED", words->motor[0], "rad/s of a hinge, m/s of a slider: of b as a sees it")
+      ->required();
+  motor->add_option("GREATEST", words->motor[1], "newton metres or newtons at most; 0: no motor")
+      ->required()
+      ->check(CLI::NonNegativeNumber);
   table.push_back({add, [words, add](const AdminServer& server, bool as_json) {
                      return run_request(server, addition_of(*words, *add, server), as_json);
                    }});

@@ -1,5 +1,7 @@
 // add-prop, move-prop, remove-prop, push, break, blast, cut-out, carve-piece and release.
 #include <fmt/format.h>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/trigonometric.hpp>
 #include <memory>
 
 #include "client/admin/programs/world_commands.h"
@@ -15,7 +17,8 @@ namespace {
 struct PropWords {
   std::string shape;
   std::vector<float> size_m;
-  Place at_m{}, velocity_m_s{}, spin_rad_s{}, impulse_n_s{};
+  Place at_m{}, velocity_m_s{}, spin_rad_s{}, impulse_n_s{}, turn_degrees{};
+  float friction = Prop().friction, restitution = Prop().restitution, gravity = Prop().gravity;
   float mass_kg = 0.0F, energy_j = 4.2e6F;
   std::string motion = "dynamic", material, model;
   uint64_t tag = 0;
@@ -48,6 +51,14 @@ Result<PropPart> part_of(const PropWords& words) {
   }
   part.kind = *kind;
   return part;
+}
+
+/// About X first, then about Y, then about Z: axes of the world.
+glm::quat turn_of(const Place& degrees) {
+  const glm::vec3 angle = glm::radians(vector_of(degrees));
+  return glm::angleAxis(angle.z, glm::vec3(0.0F, 0.0F, 1.0F)) *
+         glm::angleAxis(angle.y, glm::vec3(0.0F, 1.0F, 0.0F)) *
+         glm::angleAxis(angle.x, glm::vec3(1.0F, 0.0F, 0.0F));
 }
 
 /// The digest that 64 hexadecimal digits write; nothing where it is other text.
@@ -96,6 +107,10 @@ Made addition_of(const PropWords& words, const AdminServer& server) {
     add.prop.model = *model;
   }
   add.place_m = vector_of(words.at_m);
+  add.turn = turn_of(words.turn_degrees);
+  add.prop.friction = words.friction;
+  add.prop.restitution = words.restitution;
+  add.prop.gravity = words.gravity;
   add.velocity_m_s = vector_of(words.velocity_m_s);
   add.spin_rad_s = vector_of(words.spin_rad_s);
   return add;
@@ -115,11 +130,14 @@ CarveRequest piece_carve_of(const PropWords& words) {
   return carve;
 }
 
-MovePropRequest move_of(const PropWords& words, const CLI::App& command) {
+Made move_of(const PropWords& words, const CLI::App& command) {
   MovePropRequest move{words.id};
+  if (command.count("--turn") > 0) move.turn = turn_of(words.turn_degrees);
   if (command.count("--at") > 0) move.place_m = vector_of(words.at_m);
   if (command.count("--velocity") > 0) move.velocity_m_s = vector_of(words.velocity_m_s);
   if (command.count("--spin") > 0) move.spin_rad_s = vector_of(words.spin_rad_s);
+  if (move == MovePropRequest{words.id})
+    return misused({"nothing to change: name --at, --turn, --velocity or --spin"});
   return move;
 }
 
@@ -174,13 +192,18 @@ void add_addition(PropTable& table) {
       ->check(CLI::IsMember(std::vector<std::string>{"dynamic", "kinematic", "fixed"}))
       ->capture_default_str();
   add->add_option("--tag", words.tag, "a number of your own");
+  add->add_option("--friction", words.friction, "its coefficient, 0 to 4")->capture_default_str();
+  add->add_option("--restitution", words.restitution, "how much of a blow's speed comes back, 0 to 1")
+      ->capture_default_str();
+  add->add_option("--gravity", words.gravity, "its share of gravity; 0: it floats")->capture_default_str();
   CLI::App* const move = table.add("move-prop", "puts a prop elsewhere, or changes its speed",
                                    [](const PropWords& said, const CLI::App& command, const AdminServer&) {
-                                     return Request(move_of(said, command));
+                                     return move_of(said, command);
                                    });
   add_id(move, "ID", words.id, "the id that add-prop printed")->required();
   add_place(move, "--at", words.at_m, "X Y Z, metres");
   for (CLI::App* command : {add, move}) {
+    add_place(command, "--turn", words.turn_degrees, "degrees about X, then Y, then Z; Y is up");
     add_place(command, "--velocity", words.velocity_m_s, "metres a second along X Y Z");
     add_place(command, "--spin", words.spin_rad_s, "radians a second about X Y Z");
   }

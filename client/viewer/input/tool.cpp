@@ -29,7 +29,7 @@ std::string next_material(const Tool& tool, const Palette& palette) {
   const std::optional<Material> now = material_of(tool, palette);
   const size_t next = now ? row_number(*now) + 1 : 0;
   if (next < palette.rows.size()) return palette.rows[next].name;
-  return tool.use == ToolUse::paint ? palette.rows.front().name : std::string();
+  return traits_of(tool.use).as_ground ? std::string() : palette.rows.front().name;
 }
 
 uint32_t scaled(uint32_t seeds, float factor) {
@@ -67,7 +67,8 @@ uint32_t seeds_of(const Tool& tool) {
 }
 
 std::optional<Material> material_of(const Tool& tool, const Palette& palette) {
-  if (tool.material.empty() && tool.use != ToolUse::paint) return std::nullopt;
+  const UseRow& use = traits_of(tool.use);
+  if (!use.has_material || (use.as_ground && tool.material.empty())) return std::nullopt;
   return palette.named(tool.material).value_or(Material{});
 }
 
@@ -81,6 +82,10 @@ Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint3
       return FillRequest{shape, material_of(tool, palette)};
     case ToolUse::paint:
       return PaintRequest{shape, *material_of(tool, palette)};
+    case ToolUse::dig:
+      return DigRequest{shape};
+    case ToolUse::place:
+      return PlaceRequest{shape, *material_of(tool, palette)};
   }
   CarveRequest carve;
   carve.shape = shape;
@@ -101,7 +106,7 @@ std::string describe(const Tool& tool) {
   const auto radius_m = static_cast<double>(tool.radius_m);
   std::snprintf(numbers, sizeof numbers, ", radius %.2f m", radius_m);
   std::string text = std::string(name_of(tool.use)) + ": " + std::string(name_of(tool.kind)) + numbers;
-  if (tool.use != ToolUse::carve && !tool.material.empty()) text += ", " + tool.material;
+  if (traits_of(tool.use).has_material && !tool.material.empty()) text += ", " + tool.material;
   if (tool.use != ToolUse::carve) return text;
   std::snprintf(numbers, sizeof numbers, ", blast %.0f m/s, ", static_cast<double>(tool.blast_speed_m_s));
   return text + numbers + std::string(name_of(tool.pattern)) + ", about " + std::to_string(seeds_of(tool)) +

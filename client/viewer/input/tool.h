@@ -18,21 +18,27 @@ namespace scree {
 enum class ToolKind : uint8_t { sphere = 0, box = 1, tunnel = 2, crater = 3 };
 
 /// What a click does with the tool's shape.
-enum class ToolUse : uint8_t { carve = 0, fill = 1, paint = 2 };
+enum class ToolUse : uint8_t { carve = 0, fill = 1, paint = 2, dig = 3, place = 4 };
 
 struct UseRow {
   std::string_view name;
   float depth_in_radii;  ///< of the shape's centre in the rock, from the point that was hit
+  bool has_material = true;
+  bool as_ground = false;  ///< no material of one's own is one, too
 };
 
 constexpr UseRow row_of(ToolUse use) {
   switch (use) {
     case ToolUse::carve:
-      return {.name = "carve", .depth_in_radii = carve_depth_in_radii};
+      return {.name = "carve", .depth_in_radii = carve_depth_in_radii, .has_material = false};
     case ToolUse::fill:
-      return {.name = "fill", .depth_in_radii = -0.5F};  // it stands on what it touches
+      return {.name = "fill", .depth_in_radii = -0.5F, .as_ground = true};  // it stands on what it touches
     case ToolUse::paint:
       return {.name = "paint", .depth_in_radii = 0.0F};
+    case ToolUse::dig:
+      return {.name = "dig", .depth_in_radii = carve_depth_in_radii, .has_material = false};
+    case ToolUse::place:
+      return {.name = "place", .depth_in_radii = -0.5F};
   }
   return {};
 }
@@ -86,8 +92,8 @@ Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction);
 /// Number of seeds of a strike.
 uint32_t seeds_of(const Tool& tool);
 
-/// What a tool fills or paints with; nothing: as the ground. A name that the world's palette lacks stands for
-/// its first row, and so does none in a tool that paints.
+/// What a tool fills, paints or places with; nothing: as the ground. A name that the world's palette lacks
+/// stands for its first row, and so does none in a tool that paints or places.
 std::optional<Material> material_of(const Tool& tool, const Palette& palette);
 
 /// What a click along `direction` (unit) that meets rock at `hit_m` asks for; `number` tells it from others.

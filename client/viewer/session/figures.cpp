@@ -7,7 +7,7 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 
-#include "client/viewer/input/walker.h"
+#include "shared/person/walker.h"
 
 namespace scree {
 namespace {

@@ -5,9 +5,20 @@
 
 #include "client/render/scene/draw_method.h"
 #include "client/viewer/input/fly_camera.h"
-#include "client/viewer/input/walker.h"
+#include "shared/person/solid_ground.h"
+#include "shared/person/walker.h"
 
 namespace scree {
+
+/// The input of a person who looks so; upwards is a jump.
+WalkInput walk_input_of(const Camera& camera, const FlyInput& input);
+/// Turns the camera alone.
+void turn_by(Camera& camera, const FlyInput& input, float elapsed_s);
+/// Puts the camera there; `steps`: over a step or a slope, without a jolt.
+void carry(Camera& camera, glm::vec3 eye_m, bool steps, float elapsed_s);
+
+/// What stands in a walker's way about that place. It holds as long as the scene stays as it is.
+SolidGround ground_of_scene(const Scene& scene, glm::vec3 about_m);
 
 class OnFoot {
  public:

@@ -10,6 +10,7 @@
 #include "client/session/edit_reach.h"
 #include "client/viewer/base/limits.h"
 #include "proto/person_name.h"
+#include "shared/base/check.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
 
@@ -55,6 +56,7 @@ SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   if (!connected() && !client_.joining() && !gave_up_ && now_s >= next_try_s_) join(now_s, camera.eye_m);
   take_events(now_s, step);
   client_.settle(now_s, step.changes);
+  if (foreseen_walk_ && mirror() != nullptr) foreseen_walk_->follow(*mirror());
   if (!connected() || at_spawn_) return step;
   measure_rate(now_s);
   report(now_s, camera.eye_m);
@@ -104,6 +106,7 @@ void ViewerSession::begin(const Client::Joined& joined, double now_s, SessionSte
   step.other_world = joined.other_world;
   tick_rate_hz_ = welcome()->tick_rate_hz;
   pace_.start(tick_rate_hz_);
+  foreseen_walk_.emplace(welcome()->tick_rate_hz);
   pieces_.clear();
   conversation_.begin();
   timeline_.begin(tick_rate_hz_);
@@ -231,8 +234,17 @@ const SceneProps& ViewerSession::props(double now_s) {
   const Mirror* mirror = client_.mirror();
   if (mirror == nullptr) return props_;
   const double tick = client_.draw_tick(now_s);
+  // Who is shown as a figure is not shown as a body, too; nor is the own one.
+  const auto is_shown_else = [&](PieceId body) {
+    const auto person = mirror->persons().find(body);
+    if (person == mirror->persons().end()) return false;
+    return (welcome() != nullptr && person->second == welcome()->session) ||
+           std::ranges::any_of(cursors_,
+                               [&](const PlayerCursor& one) { return one.session == person->second; });
+  };
   for (const auto& [id, motion] : mirror->props())
-    props_.emplace_hint(props_.end(), id, SceneProp{motion.prop, mirror->pose_at(motion, tick)});
+    if (!is_shown_else(id))
+      props_.emplace_hint(props_.end(), id, SceneProp{motion.prop, mirror->pose_at(motion, tick)});
   return props_;
 }
 
@@ -241,6 +253,22 @@ const Figures& ViewerSession::figures(double now_s) {
   all.insert(all.end(), recorded_cursors_.begin(), recorded_cursors_.end());
   figures_.step(all, now_s);
   return figures_;
+}
+
+bool ViewerSession::persons_walk() const {
+  return client_.mirror() != nullptr && scree::persons_walk(client_.mirror()->status());
+}
+
+void ViewerSession::stand(bool away) {
+  StandMessage message;
+  message.request = ++requests_;
+  message.away = away;
+  client_.send(message);
+}
+
+void ViewerSession::walk(const WalkInput& input, glm::vec3 look) {
+  CHECK(foreseen_walk_ && mirror() != nullptr);
+  if (const auto message = foreseen_walk_->step(input, look, *mirror())) client_.send(*message);
 }
 
 void ViewerSession::say(const std::string& text) {

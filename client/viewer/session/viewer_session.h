@@ -15,6 +15,7 @@
 
 #include "client/render/scene/draw_method.h"
 #include "client/session/client.h"
+#include "client/session/walk_prediction.h"
 #include "client/viewer/input/tool.h"
 #include "client/viewer/session/conversation.h"
 #include "client/viewer/session/figures.h"
@@ -93,6 +94,8 @@ class ViewerSession {
   std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
   /// Whether the server refuses an edit of this shape from there as too far away, as far as it has told so.
   bool is_beyond_reach(const Shape& shape, glm::vec3 from_m) const;
+  /// Who this person is to regions, as far as it is known here: the name counts if a token states it.
+  Asker asker() const { return {welcome() == nullptr ? Role::viewer : welcome()->role, choice_.name}; }
   /// Requests what the tool does at the point where the ray meets rock; does nothing if it meets none. Beyond
   /// the server's reach there is a notice instead.
   void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction, double now_s);
@@ -104,6 +107,14 @@ class ViewerSession {
   const Figures& figures(double now_s);
   /// Who is in the world, and what they said.
   const Conversation& conversation() const { return conversation_; }
+  /// Whether the server moves persons on foot, as far as it has told so.
+  bool persons_walk() const;
+  /// Asks to be put on foot, or to leave it.
+  void stand(bool away);
+  /// This client's own person, foreseen as of this step; null without a world.
+  WalkPrediction* foreseen_walk() { return foreseen_walk_ ? &*foreseen_walk_ : nullptr; }
+  /// Carries out an input of one tick, and sends it. Only on foot.
+  void walk(const WalkInput& input, glm::vec3 look);
   /// To all persons.
   void say(const std::string& text);
   /// Switches the server's PhysicsMessages on or off; and the last one, null before the first.
@@ -177,6 +188,7 @@ class ViewerSession {
   Timeline timeline_;
   Figures figures_;
   Conversation conversation_;
+  std::optional<WalkPrediction> foreseen_walk_;
   bool wants_physics_ = false;
   bool physics_requested_ = false;  ///< the last state sent to the server
   std::optional<PhysicsMessage> physics_;

@@ -4,15 +4,19 @@ namespace scree {
 
 void Whereabouts::step(Camera& camera, const FlyInput& input, float elapsed_s, ViewerSession& session,
                        double now_s) {
-  if (session.mirror() == nullptr) feet_.stop();
+  if (session.mirror() == nullptr || session.persons_walk()) feet_.stop();
+  if (session.mirror() == nullptr || !session.persons_walk()) served_feet_.stop();
   if (input.move != glm::vec3(0.0F)) eye_.end();
   if (eye_.follows()) return eye_.step(camera, session.figures(now_s), now_s);
+  if (served_feet_.walks()) return served_feet_.step(camera, input, elapsed_s, session, now_s);
   if (!feet_.walks()) return fly(camera, input, elapsed_s);
   feet_.step(camera, input, elapsed_s, session.scene(now_s));
 }
 
-void Whereabouts::walk_or_fly(const Camera& camera, ViewerSession& session) {
-  if (session.mirror() != nullptr) feet_.change(camera);
+void Whereabouts::walk_or_fly(const Camera& camera, ViewerSession& session, double now_s) {
+  if (session.mirror() == nullptr) return;
+  if (session.persons_walk()) return served_feet_.change(session, now_s);
+  feet_.change(camera);
 }
 
 bool Whereabouts::follow_next_eye(ViewerSession& session, double now_s) {

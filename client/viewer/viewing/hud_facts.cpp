@@ -5,6 +5,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "client/viewer/base/limits.h"
+#include "shared/field/mass.h"
 
 namespace scree {
 namespace {
@@ -16,6 +17,18 @@ std::string place_of(const Camera& camera) {
                 static_cast<double>(camera.eye_m.x), static_cast<double>(camera.eye_m.y),
                 static_cast<double>(camera.eye_m.z), std::remainder(degrees(camera.yaw), 360.0),
                 degrees(camera.pitch));
+  return text;
+}
+
+std::string carried_text(const Mirror& mirror, const Palette& palette) {
+  std::string text;
+  const double voxel_m = mirror.terrain().voxel_size_m;
+  for (const MaterialMass& one : mirror.carried()) {
+    char volume[32];
+    std::snprintf(volume, sizeof volume, "%.2f m³ ",
+                  static_cast<double>(one.mass) / units_per_voxel * voxel_m * voxel_m * voxel_m);
+    text += (text.empty() ? "" : ", ") + (volume + palette.row_or_first(one.material).name);
+  }
   return text;
 }
 
@@ -47,6 +60,7 @@ HudFacts FactFinder::find(Visit& visit, double now_s) {
     facts.pieces_near = mirror->pieces().size();
     facts.props_near = mirror->props().size();
     facts.kept_near = mirror->kept().size();
+    facts.carried = carried_text(*mirror, session.palette());
     facts.status = mirror->status();
     facts.mismatches = mirror->mismatches();
   }

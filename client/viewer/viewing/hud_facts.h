@@ -33,6 +33,7 @@ struct HudFacts {
   size_t pieces_near = 0;  ///< that the server shows to this viewer
   size_t props_near = 0;   ///< likewise
   size_t kept_near = 0;    ///< pieces of these that never become terrain
+  std::string carried;     ///< "1.25 m³ rock, 0.50 m³ soil", of the own store; empty: nothing
   std::optional<Preparing> preparing;
   std::optional<StatusMessage> status;  ///< the server's last
   double bytes_per_s = 0.0;

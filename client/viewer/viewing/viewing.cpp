@@ -6,6 +6,7 @@
 #include "client/cache/join_server.h"
 #include "client/viewer/pictures/picture_difference.h"
 #include "client/viewer/pictures/png.h"
+#include "client/viewer/session/region_lines.h"
 #include "client/viewer/session/sight.h"
 #include "content/model/glb.h"
 
@@ -111,6 +112,7 @@ Result<Image> Viewing::picture(double now_s, int width, int height) {
   add_joints_of(session, lines, camera.eye_m, now_s);
   if (options.overlay.shown) {
     add_overlay(lines, options.overlay, now_s);
+    add_regions_of(session, lines, camera.eye_m);
     session.figures(now_s).add_to(lines, camera.eye_m);
   }
   return view->renderer().draw_image(*view->methods().shown(), camera, width, height, lines);

@@ -4,6 +4,8 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "client/viewer/session/region_lines.h"
+
 namespace scree {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr LineColour beyond_reach_colour{140, 140, 140, 80};
 /// The colour of the shape in the person's hand.
 LineColour preview_colour(const Tool& tool, const Palette& palette) {
   constexpr uint8_t opacity = 150;
-  if (tool.use == ToolUse::carve) return {255, 236, 170, opacity};
+  if (!traits_of(tool.use).has_material) return {255, 236, 170, opacity};
   const std::optional<Material> material = material_of(tool, palette);
   if (!material) return {170, 255, 190, opacity};
   const auto& [r, g, b] = palette.row(*material).look.colour;
@@ -128,11 +130,12 @@ LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optio
   const auto hit_m = session.aim(camera.eye_m, direction);
   if (hit_m && !session.is_replay()) {
     const Shape shape = shape_of(tool, *hit_m, direction);
-    const bool is_far = session.is_beyond_reach(shape, camera.eye_m);
+    const bool is_far = session.is_beyond_reach(shape, camera.eye_m) || is_in_closed_region(session, shape);
     lines.shape(shape, is_far ? beyond_reach_colour : preview_colour(tool, session.palette()));
   }
   session.figures(now_s).add_to(lines, camera.eye_m, looked_through);
   add_joints_of(session, lines, camera.eye_m, now_s);
+  add_regions_of(session, lines, camera.eye_m);
   add_overlay(lines, overlay, now_s);
   return lines;
 }

@@ -39,9 +39,10 @@ void show_ledger(const HudFacts& facts, const StatusMessage& status) {
   row("terrain", status.ledger_terrain);
   row("pieces", status.ledger_pieces);
   row("dust", status.ledger_dust);
+  if (status.ledger_stored != 0) row("stored", status.ledger_stored);
   row("poured", status.ledger_poured);
-  const int64_t error =
-      status.ledger_terrain + status.ledger_pieces + status.ledger_dust - status.ledger_poured;
+  const int64_t error = status.ledger_terrain + status.ledger_pieces + status.ledger_dust +
+                        status.ledger_stored - status.ledger_poured;
   ImGui::Text("error    %14" PRId64 " units", error);
 }
 
@@ -155,6 +156,7 @@ void Hud::figures(const HudFacts& facts, bool all) {
   ImGui::Text("tick %" PRIu64 ",", facts.tick);
   ImGui::SameLine();
   show_pace(facts);
+  if (!facts.carried.empty()) ImGui::Text("you carry %s", facts.carried.c_str());
   if (facts.mismatches > 0) ImGui::Text("%" PRIu64 " frames differed", facts.mismatches);
   if (facts.status) show_pieces(*facts.status);
   if (facts.props_near > 0) ImGui::Text("props: %zu here", facts.props_near);

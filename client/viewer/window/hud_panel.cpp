@@ -89,7 +89,7 @@ void choose_material(Tool& tool, const Palette& palette) {
   const std::optional<Material> chosen = material_of(tool, palette);
   const std::string shown = chosen ? palette.row(*chosen).name : as_the_ground;
   if (!ImGui::BeginCombo("material", shown.c_str())) return;
-  if (tool.use == ToolUse::fill && ImGui::Selectable(as_the_ground, !chosen)) tool.material.clear();
+  if (traits_of(tool.use).as_ground && ImGui::Selectable(as_the_ground, !chosen)) tool.material.clear();
   for (size_t i = 0; i < palette.rows.size(); ++i)
     if (material_line(palette.rows[i], chosen == static_cast<Material>(i)))
       tool.material = palette.rows[i].name;
@@ -98,7 +98,7 @@ void choose_material(Tool& tool, const Palette& palette) {
 
 /// What a carve breaks into, or what is filled or painted with.
 void choose_use(Tool& tool, const Palette& palette) {
-  if (tool.use != ToolUse::carve) choose_material(tool, palette);
+  if (traits_of(tool.use).has_material) choose_material(tool, palette);
   if (tool.use != ToolUse::carve) return;
   ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
   choose(tool.pattern, tool_patterns);

@@ -57,6 +57,18 @@ ImVec4 colour_of(EventKind kind) {
       return {0.60F, 0.80F, 0.30F, 1.0F};
     case EventKind::prop_removed:
       return {0.45F, 0.55F, 0.25F, 1.0F};
+    case EventKind::region_enter:
+      return {0.35F, 0.65F, 0.95F, 1.0F};
+    case EventKind::region_leave:
+      return {0.25F, 0.40F, 0.70F, 1.0F};
+    case EventKind::hurt:
+      return {1.00F, 0.20F, 0.20F, 1.0F};
+    case EventKind::buried:
+      return {0.60F, 0.25F, 0.20F, 1.0F};
+    case EventKind::dig:
+      return {0.65F, 0.50F, 0.90F, 1.0F};
+    case EventKind::place:
+      return {0.45F, 0.75F, 0.90F, 1.0F};
   }
   return {};
 }

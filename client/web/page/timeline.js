@@ -9,6 +9,9 @@ const COLOURS = {
   carve: '#ffb340', fill: '#73e680', paint: '#f299e6', dent: '#bfa680', crush: '#d9734d', break: '#ff665a', fall: '#faeb66',
   merge: '#66bfff', setting: '#b399ff', rebuild: '#d9d9d9', join: '#5ae6d9', leave: '#4d9999', slow: '#ff4da6',
   contact: '#e6d9bf', joint_ended: '#cc8c33', prop_added: '#99cc4d', prop_removed: '#738c40',
+  region_enter: '#59a6f2', region_leave: '#4066b3',
+  hurt: '#ff3333', buried: '#994033',
+  dig: '#a680e6', place: '#73bfe6',
 };
 
 export class Timeline {

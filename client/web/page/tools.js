@@ -50,7 +50,7 @@ export class Tools {
   }
 }
 
-/** What a tool may fill or paint with, and which of it is chosen: a world may lack what was kept. */
+/** What a tool may fill, paint or place with, and which of it is chosen: a world may lack what was kept. */
 export function materials_for(tool, materials) {
   const fills = tool.use === 'fill';
   const list = fills ? [{ name: '', colour: '' }, ...materials] : materials;
@@ -79,7 +79,7 @@ export function tool_page(client, catalogue) {
       use.show(tool.use);
       const { list, chosen } = materials_for(tool, materials);
       material.show(list, chosen);
-      material.element.hidden = tool.use === 'carve';
+      material.element.hidden = tool.use === 'carve' || tool.use === 'dig';
       for (const one of [blast, seeds, pattern]) one.element.hidden = tool.use !== 'carve';
       by_volume = tool.seeds_now;
       radius.show(tool.radius_m);

@@ -157,6 +157,7 @@ inline Request any_body_request(FuzzInput& input, const KnownBodies& known) {
       return input.flag() ? Request(RemoveJointRequest{any_joint_id(input, known)})
                           : Request(RemovePropRequest{any_body(input, known)});
     default:
+      if (input.below(3) == 2) return any_store_request(input, any_body(input, known));
       return input.flag() ? Request(any_carve(input))
                           : Request(FillRequest{any_shape(input), any_fill(input)});
   }

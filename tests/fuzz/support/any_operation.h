@@ -107,6 +107,15 @@ inline Operation any_operation(FuzzInput& input) {
     }
     case 5:
       return PaintOperation{known(any_shape(input)), any_material(input), input.flag()};
+    case 7:
+      switch (input.below(3)) {
+        case 0:
+          return DigOperation{known(any_shape(input)), input.flag() ? any_piece(input) : 0};
+        case 1:
+          return PlaceOperation{known(any_shape(input)), any_material(input)};
+        default:
+          return any_carve_operation(input);
+      }
     case 8: {
       const VoxelCoord lo = any_voxel(input);
       const auto cell = static_cast<uint8_t>(input.below(9));

@@ -12,6 +12,7 @@
 #include "server/world/settings.h"
 #include "shared/base/limits.h"
 #include "shared/operation/request.h"
+#include "shared/region/limits.h"
 #include "tests/fuzz/support/fuzz_input.h"
 #include "tests/support/given_voxels.h"
 #include "tests/support/materials.h"
@@ -140,8 +141,67 @@ inline AddPieceRequest any_added_piece(FuzzInput& input) {
   return add;
 }
 
+/// A region about where things happen, sane or not; its name is one of a few.
+inline Region any_region(FuzzInput& input) {
+  Region region;
+  region.name = std::string(1, static_cast<char>('a' + input.below(4)));
+  if (input.below(16) == 15) region.name = input.text(limits::region_name_bytes_max + 4);
+  region.form = input.below(16) == 15 ? static_cast<RegionForm>(input.byte())
+                                      : static_cast<RegionForm>(input.below(kind_count<RegionForm>));
+  region.centre_m = any_place(input);
+  region.half_m = glm::abs(input.place(input.flag() ? 8.0F : 600.0F));
+  region.forbids = static_cast<uint8_t>(input.below(20));
+  region.editors = static_cast<RegionEditors>(input.below(kind_count<RegionEditors> + 1));
+  region.role = static_cast<Role>(input.below(6));
+  region.tells = input.flag();
+  return region;
+}
+
+inline Request any_region_request(FuzzInput& input) {
+  if (input.below(4) == 3)
+    return RemoveRegionRequest{std::string(1, static_cast<char>('a' + input.below(4)))};
+  return SetRegionRequest{any_region(input), input.flag() ? 0.0F : input.coordinate(10.0F)};
+}
+
+inline StandRequest any_stand(FuzzInput& input) {
+  StandRequest stand;
+  if (input.flag()) stand.place_m = input.place(20.0F);
+  stand.away = input.below(4) == 3;
+  return stand;
+}
+
+inline WalkRequest any_walk(FuzzInput& input) {
+  WalkRequest walk;
+  walk.input = {input.place(1.2F), input.flag(), input.flag()};
+  if (input.below(8) == 7) walk.look = input.place(1.0F);
+  return walk;
+}
+
+inline StoreName any_store(FuzzInput& input) {
+  StoreName store{any_number_as<StoreKind>(input), input.below(3)};
+  if (store.kind == StoreKind::named) store = named_store(input.text(limits::store_name_bytes_max));
+  if (store.kind == StoreKind::own || store.kind == StoreKind::world) store.number = input.below(32) / 31;
+  return store;
+}
+
+/// A transfer, or a dig or place of terrain or of a piece.
+inline Request any_store_request(FuzzInput& input, PieceId piece) {
+  switch (input.below(4)) {
+    case 0: {
+      TransferRequest transfer{any_store(input), any_store(input)};
+      if (input.flag()) transfer.material = any_number_of_material(input);
+      if (input.flag()) transfer.mass = input.flag() ? input.below(256) : input.number<int64_t>();
+      return transfer;
+    }
+    case 1:
+      return PlaceRequest{any_shape(input), any_number_of_material(input), input.flag(), any_store(input)};
+    default:
+      return DigRequest{any_shape(input), input.below(4) == 3 ? piece : 0, any_store(input)};
+  }
+}
+
 inline Request any_request(FuzzInput& input) {
-  switch (input.below(10)) {
+  switch (input.below(12)) {
     case 0:
       return FillRequest{any_shape(input), any_fill(input)};
     case 1:
@@ -161,6 +221,14 @@ inline Request any_request(FuzzInput& input) {
     }
     case 7:
       return any_added_piece(input);
+    case 8:
+      return any_region_request(input);
+    case 9:
+      if (input.below(4) == 0) return any_stand(input);
+      return any_walk(input);
+    case 10:
+      if (input.flag()) return any_store_request(input, input.byte());
+      return any_carve(input);
     default:
       return any_carve(input);
   }

@@ -87,7 +87,9 @@ class Ids {
                             shatter.first_piece = fresh(shatter.seeds + limits::cut_rests_max);
                           },
                           [&](IslandOperation& island) { island.piece = fresh(1); }, [](PaintOperation&) {},
-                          [](SlideOperation&) {}},
+                          [](SlideOperation&) {},
+                          [&](DigOperation& dig) { dig.piece = dig.piece == 0 ? 0 : known(dig.piece); },
+                          [](PlaceOperation&) {}},
                operation);
   }
 

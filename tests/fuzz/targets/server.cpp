@@ -114,6 +114,12 @@ AdminMessage any_admin(FuzzInput& input) {
     case 5:
       admin.act = ControlReplayRequest{ReplayPlay::play, 2.0F, ReplayMove::by_ticks, input.byte()};
       break;
+    case 6:
+      if (input.flag()) {
+        admin.act = ListStoresRequest{};
+        break;
+      }
+      [[fallthrough]];
     default:
       admin.act = SettingsRequest{any_settings(input)};
   }
@@ -129,6 +135,19 @@ QueryMessage any_query(FuzzInput& input, uint32_t number) {
     query.questions.push_back(question);
   }
   return query;
+}
+
+ClientMessage any_store_message(FuzzInput& input, uint32_t number) {
+  const PieceId piece = input.byte();
+  Request asked = any_store_request(input, piece);
+  if (const auto* transfer = std::get_if<TransferRequest>(&asked)) return TransferMessage{*transfer, number};
+  if (auto* place = std::get_if<PlaceRequest>(&asked)) {
+    place->shape = known(place->shape);
+    return PlaceMessage{*place, number};
+  }
+  auto& dig = std::get<DigRequest>(asked);
+  dig.shape = known(dig.shape);
+  return DigMessage{dig, number};
 }
 
 ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
@@ -182,6 +201,10 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       if (kind == 3) return CutOutMessage{{known(any_shape(input))}, number};
       if (kind == 4) return ReleaseMessage{{input.byte()}, number};
       if (kind == 6) return AddPieceMessage{any_added_piece(input), number};
+      if (kind == 7 && input.flag()) return SetRegionMessage{{any_region(input), 1.0F}, number};
+      if (kind == 7 && input.below(4) == 0) return StandMessage{any_stand(input), number};
+      if (kind == 7) return WalkMessage{any_walk(input), number};
+      if (kind == 7 && input.flag()) return any_store_message(input, number);
       CarveMessage carve{known(any_carve(input)), number};
       if (kind == 5) carve.piece = input.byte();
       return carve;

@@ -66,7 +66,8 @@ class MeshSolid final : public Solid {
       touched += count_chunks(box);
       if (touched > limits::solid_surface_max)
         return fail(
-            fmt::format("it is too large for voxels of {:.6g} m (limits.solid_surface_max); larger ones "
+            fmt::format("it is too large, or has too many triangles, for voxels of {:.6g} m "
+                        "(limits.solid_surface_max); larger ones "
                         "(--voxel-size) or a smaller --scale fit",
                         voxel_m_));
       for_each_chunk(box, [&](ChunkCoord chunk) { near_[chunk].push_back(i); });

@@ -1,11 +1,10 @@
-#include "client/viewer/input/walker.h"
+#include "shared/person/walker.h"
 
 #include <algorithm>
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "client/viewer/base/limits.h"
+#include "shared/base/limits.h"
 
 namespace scree {
 namespace {
@@ -36,6 +35,12 @@ glm::vec3 level(glm::vec3 v) {
 }
 
 constexpr glm::vec3 up(0.0F, 1.0F, 0.0F);
+
+/// The number is not negative, and small.
+int ceil_to_int(float number) {
+  const int whole = static_cast<int>(number);
+  return static_cast<float>(whole) < number ? whole + 1 : whole;
+}
 
 struct Push {
   float depth_m = 0.0F;  ///< over 0: so far into it
@@ -99,68 +104,74 @@ Walker::Settled Walker::settle(glm::vec3 feet_m, WalkGround& ground) {
 }
 
 void Walker::step(const WalkInput& input, float elapsed_s, WalkGround& ground) {
-  time_left_s_ += std::clamp(elapsed_s, 0.0F, frame_max_s);
-  for (; time_left_s_ >= tick_s; time_left_s_ -= tick_s) tick(input, ground);
+  was_held_ = false;
+  state_.time_left_s += std::clamp(elapsed_s, 0.0F, frame_max_s);
+  for (; state_.time_left_s >= tick_s; state_.time_left_s -= tick_s) tick(input, ground);
 }
 
 void Walker::speed_up(const WalkInput& input) {
   glm::vec3 wanted = level(input.go) * (input.fast ? run_m_s : walk_m_s);
   const float part = glm::length(level(input.go));
   if (part > 1.0F) wanted /= part;
-  const glm::vec3 change = wanted - level(speed_m_s_);
-  const float most = (stands_ ? grip_m_s2 : air_grip_m_s2) * tick_s;
+  const glm::vec3 change = wanted - level(state_.speed_m_s);
+  const float most = (state_.stands ? grip_m_s2 : air_grip_m_s2) * tick_s;
   const float size = glm::length(change);
-  speed_m_s_ += size <= most ? change : change * (most / size);
-  if (stands_ && input.jump) {
-    speed_m_s_.y = jump_m_s;
-    stands_ = false;
-    still_ticks_ = 0;
+  state_.speed_m_s += size <= most ? change : change * (most / size);
+  if (state_.stands && input.jump) {
+    state_.speed_m_s.y = jump_m_s;
+    state_.stands = false;
+    state_.still_ticks = 0;
   }
-  speed_m_s_.y = std::max(speed_m_s_.y - fall_m_s2 * tick_s, -fall_max_m_s);
+  state_.speed_m_s.y = std::max(state_.speed_m_s.y - fall_m_s2 * tick_s, -fall_max_m_s);
+}
+
+void Walker::leave_rock(WalkGround& ground) {
+  was_held_ = false;
+  if (!is_free(state_.feet_m, ground)) come_out(ground);
 }
 
 void Walker::tick(const WalkInput& input, WalkGround& ground) {
-  if (!is_free(feet_m_, ground)) come_out(ground);
+  if (!is_free(state_.feet_m, ground)) come_out(ground);
   speed_up(input);
-  const bool stood = stands_;
-  const glm::vec3 before_m = feet_m_;
-  const glm::vec3 way_m = speed_m_s_ * tick_s;
-  const int parts = std::max(static_cast<int>(std::ceil(glm::length(way_m) / move_max_m)), 1);
+  const bool stood = state_.stands;
+  const glm::vec3 before_m = state_.feet_m;
+  const glm::vec3 way_m = state_.speed_m_s * tick_s;
+  const int parts = std::max(ceil_to_int(glm::length(way_m) / move_max_m), 1);
   bool carried = false;
   for (int i = 0; i < parts; ++i) carried = move(way_m / static_cast<float>(parts), ground) || carried;
-  stands_ = carried && speed_m_s_.y <= 0.0F;
-  if (stood && !stands_ && speed_m_s_.y <= 0.0F) follow_down(ground);
-  if (stands_) speed_m_s_.y = 0.0F;
+  state_.stands = carried && state_.speed_m_s.y <= 0.0F;
+  if (stood && !state_.stands && state_.speed_m_s.y <= 0.0F) follow_down(ground);
+  if (state_.stands) state_.speed_m_s.y = 0.0F;
   note_wedged(before_m);
   const glm::vec3 half(limits::world_half_width_m, limits::world_half_height_m, limits::world_half_width_m);
-  feet_m_ = glm::clamp(feet_m_, -half, half);
+  state_.feet_m = glm::clamp(state_.feet_m, -half, half);
 }
 
 /// One part of a tick's way. Whether ground carries the body.
 bool Walker::move(glm::vec3 by_m, WalkGround& ground) {
-  Settled to = settle(feet_m_ + by_m, ground);
+  Settled to = settle(state_.feet_m + by_m, ground);
   const glm::vec3 over_m = level(by_m);
   const float wanted_m = glm::length(over_m);
   const auto progress_m = [&] {
-    return glm::dot(level(to.feet_m - feet_m_), over_m) / std::max(wanted_m, 1e-6F);
+    return glm::dot(level(to.feet_m - state_.feet_m), over_m) / std::max(wanted_m, 1e-6F);
   };
   const bool blocked = !is_free(to.feet_m, ground) || (to.wall && progress_m() < 0.5F * wanted_m);
-  if (blocked && stands_ && wanted_m > 1e-4F && step_up(over_m, ground)) return true;
+  if (blocked && state_.stands && wanted_m > 1e-4F && step_up(over_m, ground)) return true;
   if (to.wall) {
-    const float into = glm::dot(speed_m_s_, *to.wall);
+    const float into = glm::dot(state_.speed_m_s, *to.wall);
     if (into < 0.0F) {
-      const float fall_m_s = speed_m_s_.y;
-      speed_m_s_ -= *to.wall * into;
+      const float fall_m_s = state_.speed_m_s.y;
+      state_.speed_m_s -= *to.wall * into;
       // A wall takes no fall away, a ceiling takes the rise.
-      speed_m_s_.y = to.wall->y >= 0.0F ? fall_m_s : std::min(speed_m_s_.y, 0.0F);
+      state_.speed_m_s.y = to.wall->y >= 0.0F ? fall_m_s : std::min(state_.speed_m_s.y, 0.0F);
     }
   }
   if (!is_free(to.feet_m, ground)) {
-    speed_m_s_ = {0.0F, std::min(speed_m_s_.y, 0.0F), 0.0F};
-    to = settle(feet_m_ + glm::vec3(0.0F, by_m.y, 0.0F), ground);
+    state_.speed_m_s = {0.0F, std::min(state_.speed_m_s.y, 0.0F), 0.0F};
+    to = settle(state_.feet_m + glm::vec3(0.0F, by_m.y, 0.0F), ground);
     if (!is_free(to.feet_m, ground)) return to.carried;
   }
-  feet_m_ = to.feet_m;
+  state_.feet_m = to.feet_m;
   return to.carried;
 }
 
@@ -171,13 +182,13 @@ bool Walker::step_up(glm::vec3 over_m, WalkGround& ground) {
   float height_m = 0.0F;
   while (height_m < step_m) {
     height_m += rise_m;
-    if (!is_free(feet_m_ + up * height_m, ground)) return false;
-    if (!is_free(feet_m_ + up * height_m + over_m, ground) ||
-        !is_free(feet_m_ + up * height_m + ahead_m, ground))
+    if (!is_free(state_.feet_m + up * height_m, ground)) return false;
+    if (!is_free(state_.feet_m + up * height_m + over_m, ground) ||
+        !is_free(state_.feet_m + up * height_m + ahead_m, ground))
       continue;
-    const Settled landing = settle(feet_m_ + up * (height_m - rise_m) + ahead_m, ground);
-    if (!landing.carried || landing.feet_m.y - feet_m_.y > step_m) return false;
-    feet_m_ += up * height_m + over_m;
+    const Settled landing = settle(state_.feet_m + up * (height_m - rise_m) + ahead_m, ground);
+    if (!landing.carried || landing.feet_m.y - state_.feet_m.y > step_m) return false;
+    state_.feet_m += up * height_m + over_m;
     return true;
   }
   return false;
@@ -187,11 +198,11 @@ bool Walker::step_up(glm::vec3 over_m, WalkGround& ground) {
 void Walker::follow_down(WalkGround& ground) {
   constexpr float part_m = 0.05F;
   for (float down_m = part_m; down_m <= step_m * 0.6F; down_m += part_m) {
-    const Settled to = settle(feet_m_ - up * down_m, ground);
+    const Settled to = settle(state_.feet_m - up * down_m, ground);
     if (!to.carried) continue;
     if (!is_free(to.feet_m, ground)) return;
-    feet_m_ = to.feet_m;
-    stands_ = true;
+    state_.feet_m = to.feet_m;
+    state_.stands = true;
     return;
   }
 }
@@ -199,19 +210,42 @@ void Walker::follow_down(WalkGround& ground) {
 /// Rock came to where the body is.
 void Walker::come_out(WalkGround& ground) {
   constexpr float rise_m = 0.05F;
-  const Settled to = settle(feet_m_, ground);
-  const bool near = glm::distance(to.feet_m, feet_m_) < 2.0F * radius_m;
-  feet_m_ = near && is_free(to.feet_m, ground) ? to.feet_m : feet_m_ + up * rise_m;
-  speed_m_s_ = glm::vec3(0.0F);
+  const Settled to = settle(state_.feet_m, ground);
+  const bool near = glm::distance(to.feet_m, state_.feet_m) < 2.0F * radius_m;
+  const bool is_out = near && is_free(to.feet_m, ground);
+  was_held_ = was_held_ || !is_out;
+  state_.feet_m = is_out ? to.feet_m : state_.feet_m + up * rise_m;
+  state_.speed_m_s = glm::vec3(0.0F);
 }
 
 /// Between steep walls that hold the body, one can jump, too.
 void Walker::note_wedged(glm::vec3 before_m) {
-  const bool still = !stands_ && glm::distance(before_m, feet_m_) < 1e-3F;
-  still_ticks_ = still ? still_ticks_ + 1 : 0;
-  if (still_ticks_ < wedged_ticks) return;
-  stands_ = true;
-  speed_m_s_.y = 0.0F;
+  const bool still = !state_.stands && glm::distance(before_m, state_.feet_m) < 1e-3F;
+  state_.still_ticks = still ? state_.still_ticks + 1 : 0;
+  if (state_.still_ticks < wedged_ticks) return;
+  state_.stands = true;
+  state_.speed_m_s.y = 0.0F;
+}
+
+namespace {
+
+constexpr bool is_within(glm::vec3 v, float most) {
+  return v.x >= -most && v.x <= most && v.y >= -most && v.y <= most && v.z >= -most && v.z <= most;
+}
+
+}  // namespace
+
+bool is_walker_state(const WalkerState& state) {
+  constexpr float speed_max_m_s = 2.0F * fall_max_m_s;
+  return is_within(state.feet_m, limits::world_half_width_m) &&
+         state.feet_m.y >= -limits::world_half_height_m && state.feet_m.y <= limits::world_half_height_m &&
+         is_within(state.speed_m_s, speed_max_m_s) && state.time_left_s >= 0.0F &&
+         state.time_left_s < tick_s && state.still_ticks >= 0;
+}
+
+bool is_walk_input(const WalkInput& input) {
+  constexpr float rounding = 1.001F;
+  return is_within(input.go, rounding);
 }
 
 }  // namespace scree

@@ -1,5 +1,6 @@
-// A person on foot: falls, is stopped by rock, walks up slopes and steps, jumps. No window. The same input
-// gives the same walk, however it is divided into frames but for a tick.
+// A person on foot: falls, is stopped by rock, walks up slopes and steps, jumps. One kernel for the server
+// and its clients, of + − × ÷ and sqrt alone: the same state, input and ground give the same bits. The same
+// input gives the same walk, however it is divided into frames but for a tick.
 //
 // The body is an upright capsule, as spheres; places are of its feet. It never enters rock; where rock comes
 // to the body (a fill, a merge), the body is pushed out, or rises. Loose pieces push, too, but give way to
@@ -8,6 +9,8 @@
 
 #include <glm/vec3.hpp>
 #include <optional>
+
+#include "shared/base/walking.h"
 
 namespace scree {
 
@@ -26,12 +29,6 @@ class WalkGround {
   virtual Touch loose(glm::vec3 place_m) = 0;
 };
 
-struct WalkInput {
-  glm::vec3 go{0.0F};  ///< direction over the ground, as part of the full speed; its height does not count
-  bool fast = false;
-  bool jump = false;
-};
-
 class Walker {
  public:
   static constexpr float radius_m = 0.3F;
@@ -41,13 +38,21 @@ class Walker {
   static constexpr float slope_cosine = 0.6F;  ///< 53 degrees: steeper ground does not carry
   static constexpr float skin_m = 0.02F;       ///< by which the body may overlap rock
 
-  explicit Walker(glm::vec3 feet_m) : feet_m_(feet_m) {}
+  explicit Walker(glm::vec3 feet_m) { state_.feet_m = feet_m; }
+  /// Goes on from there. Untrusted states pass is_walker_state() first.
+  explicit Walker(const WalkerState& state) : state_(state) {}
 
   void step(const WalkInput& input, float elapsed_s, WalkGround& ground);
 
-  glm::vec3 feet_m() const { return feet_m_; }
-  glm::vec3 eye_m() const { return feet_m_ + glm::vec3(0.0F, eye_above_m, 0.0F); }
-  bool stands() const { return stands_; }
+  /// As a step does first: where rock came to the body, it is pushed out, or rises.
+  void leave_rock(WalkGround& ground);
+
+  const WalkerState& state() const { return state_; }
+  glm::vec3 feet_m() const { return state_.feet_m; }
+  glm::vec3 eye_m() const { return state_.feet_m + glm::vec3(0.0F, eye_above_m, 0.0F); }
+  bool stands() const { return state_.stands; }
+  /// Whether rock held the body in the last step, so that it could not be pushed out and rose.
+  bool was_held() const { return was_held_; }
   /// How deep a body there would be in rock, metres: 0 or less, none of it is.
   static float depth_m(glm::vec3 feet_m, WalkGround& ground);
 
@@ -68,11 +73,13 @@ class Walker {
   static bool is_free(glm::vec3 feet_m, WalkGround& ground);
   static Settled settle(glm::vec3 feet_m, WalkGround& ground);
 
-  glm::vec3 feet_m_;
-  glm::vec3 speed_m_s_{0.0F};
-  float time_left_s_ = 0.0F;  ///< less than a tick
-  bool stands_ = false;
-  int still_ticks_ = 0;  ///< in which it should have fallen and did not
+  WalkerState state_;
+  bool was_held_ = false;
 };
+
+/// Whether a walker can be in that state: its numbers are finite, and it is within the world.
+bool is_walker_state(const WalkerState& state);
+/// Whether a walker can be asked that: its numbers are finite, and it asks for no more than the full speed.
+bool is_walk_input(const WalkInput& input);
 
 }  // namespace scree

@@ -1,0 +1,15 @@
+// The regions of a world, as clients get them.
+#pragma once
+
+#include <vector>
+
+#include "shared/region/region.h"
+
+namespace scree {
+
+/// All regions of the world, ordered by id.
+struct RegionsMessage {
+  std::vector<Region> regions;  ///< at most limits::regions_max
+};
+
+}  // namespace scree
