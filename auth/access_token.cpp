@@ -34,6 +34,7 @@ Result<void> check_text(const std::string& text, size_t bytes_max, const char* w
 Result<void> check(const AccessToken& token) {
   if (token.id == 0) return fail("a token's id is not 0");
   TRY(check_text(token.name, limits::person_name_bytes_max, "the name"));
+  TRY(check_text(token.team, limits::person_name_bytes_max, "the team's name"));
   return check_text(token.world, limits::world_name_bytes_max, "the world's name");
 }
 
@@ -56,6 +57,7 @@ Result<AccessToken> read_payload(std::span<const uint8_t> payload) {
   token.expires_s = reader.varint("time of expiry");
   token.name = read_text(reader, "name");
   token.world = read_text(reader, "world");
+  if (!reader.at_end()) token.team = read_text(reader, "team");
   reader.finish();
   if (reader.failed()) return tl::unexpected(reader.error());
   TRY(check(token));
@@ -74,6 +76,7 @@ Result<std::string> sign(const AccessToken& token, const SigningKey& key) {
   writer.varint(token.expires_s);
   write_text(writer, token.name);
   write_text(writer, token.world);
+  if (!token.team.empty()) write_text(writer, token.team);
   const Signature signature = key.sign(bytes);
   bytes.insert(bytes.end(), signature.begin(), signature.end());
   return std::string(prefix) + to_base64url(std::span(bytes).subspan(prefix.size()));

@@ -8,6 +8,7 @@
 #include "proto/limits.h"
 #include "proto/store_codec.h"
 #include "shared/base/text.h"
+#include "shared/region/limits.h"
 
 namespace scree {
 
@@ -43,6 +44,9 @@ struct WritingAct {
   void operator()(const ListBodiesRequest& from) const { write(*to.mutable_list_bodies(), from); }
   void operator()(const ListJointsRequest& from) const { write(*to.mutable_list_joints(), from); }
   void operator()(const ListStoresRequest&) const { to.mutable_list_stores(); }
+  void operator()(const ListRegionMassesRequest& from) const {
+    to.mutable_list_region_masses()->set_region(showable(from.region, limits::region_name_bytes_max));
+  }
 };
 
 static_assert(wire::ReplayPlay_ARRAYSIZE == kind_count<ReplayPlay>);
@@ -89,6 +93,9 @@ AdminRequest read_act(const wire::Admin& from, FieldChecker& check) {
       return read(from.list_joints(), check);
     case wire::Admin::kListStores:
       return ListStoresRequest{};
+    case wire::Admin::kListRegionMasses:
+      return ListRegionMassesRequest{
+          check.text(from.list_region_masses().region(), limits::region_name_bytes_max, "name of a region")};
     case wire::Admin::ACT_NOT_SET:
       break;
   }
@@ -149,14 +156,17 @@ void write(wire::AdminList& to, const AdminListMessage& from) {
   write_bodies(to, from);
   const size_t stores = std::min(from.stores.size(), limits::stores_a_message);
   for (size_t i = 0; i < stores; ++i) write(*to.add_stores(), from.stores[i]);
-  to.set_left_out(to.left_out() + static_cast<uint32_t>(from.stores.size() - stores));
+  const size_t masses = std::min(from.region_masses.size(), limits::admin_rows_max);
+  for (size_t i = 0; i < masses; ++i) write(*to.add_region_masses(), from.region_masses[i]);
+  to.set_left_out(to.left_out() +
+                  static_cast<uint32_t>(from.stores.size() - stores + from.region_masses.size() - masses));
 }
 
 AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& check) {
   AdminListMessage list;
   list.request = from.request();
-  const auto rows = static_cast<size_t>(
-      std::max({from.sessions_size(), from.bans_size(), from.bodies_size(), from.joints_size()}));
+  const auto rows = static_cast<size_t>(std::max({from.sessions_size(), from.bans_size(), from.bodies_size(),
+                                                  from.joints_size(), from.region_masses_size()}));
   if (rows > limits::admin_rows_max) {
     check.refuse(fmt::format("{} rows are over the limit of {}", rows, limits::admin_rows_max));
     return list;
@@ -168,6 +178,7 @@ AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& chec
                          check.text(row.reason(), limits::admin_reason_bytes_max, "reason of a ban")});
   read_bodies(from, list, check);
   list.stores = read_stores(from.stores(), limits::stores_a_message, check);
+  for (const wire::RegionMass& mass : from.region_masses()) list.region_masses.push_back(read(mass, check));
   return list;
 }
 

@@ -157,7 +157,8 @@ size_t memory_bytes(const ServerMessage& message) {
           [](const HealthMessage& m) { return bytes_of(m.faults); },
           [](const SaidMessage& m) { return m.name.size() + m.text.size(); },
           [](const AdminListMessage& m) {
-            return bytes_of(m.sessions) + bytes_of(m.bans) + bytes_of(m.bodies) + bytes_of(m.joints);
+            return bytes_of(m.sessions) + bytes_of(m.bans) + bytes_of(m.bodies) + bytes_of(m.joints) +
+                   bytes_of(m.region_masses);
           },
           [](const PhysicsMessage& m) {
             return bytes_of(m.bodies) + bytes_of(m.contacts) + bytes_of(m.searched);

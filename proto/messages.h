@@ -132,8 +132,8 @@ struct AckMessage {
   Tick tick = 0;
 };
 
-/// Requests of an administrator; a director may list bodies, joints and stores, too. SettingsRequest changes
-/// all its settings, or none.
+/// Requests of an administrator; a director may list bodies, joints, stores and masses, too. SettingsRequest
+/// changes all its settings, or none.
 struct ListSessionsRequest {};
 struct KickRequest {
   uint64_t session = 0;
@@ -151,9 +151,12 @@ struct LiftBanRequest {
   std::string address;
 };
 struct ListStoresRequest {};
+struct ListRegionMassesRequest {
+  std::string region;  ///< the name of one; empty: all
+};
 using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
                                   ListBansRequest, LiftBanRequest, ControlReplayRequest, ListBodiesRequest,
-                                  ListJointsRequest, ListStoresRequest>;
+                                  ListJointsRequest, ListStoresRequest, ListRegionMassesRequest>;
 
 /// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {
@@ -371,10 +374,11 @@ struct AdminListMessage {
   uint32_t request = 0;
   std::vector<SessionRow> sessions{};
   std::vector<BanRow> bans{};
-  std::vector<BodyRow> bodies{};       ///< ordered by id, at most limits::admin_rows_max
-  std::vector<KnownJoint> joints{};    ///< likewise
-  uint32_t left_out = 0;               ///< bodies, joints or stores that would be more
-  std::vector<StoreContent> stores{};  ///< in order, at most limits::stores_a_message
+  std::vector<BodyRow> bodies{};            ///< ordered by id, at most limits::admin_rows_max
+  std::vector<KnownJoint> joints{};         ///< likewise
+  uint32_t left_out = 0;                    ///< rows of the lists before and after this that would be more
+  std::vector<StoreContent> stores{};       ///< in order, at most limits::stores_a_message
+  std::vector<RegionMass> region_masses{};  ///< by origin and material, at most limits::admin_rows_max
 };
 
 /// The bodies, contacts and searches of a tick, for display. Lengths are rounded to 1/256 m on the wire.

@@ -25,7 +25,9 @@ void write_region(wire::Region& to, const Region& from) {
   to.set_editors(static_cast<wire::RegionEditors>(from.editors));
   to.set_role(static_cast<wire::Role>(from.role));
   for (const std::string& person : from.persons) to.add_persons(person);
+  for (const std::string& team : from.teams) to.add_teams(team);
   to.set_tells(from.tells);
+  to.set_counts(from.counts);
   to.set_until(from.until);
 }
 
@@ -43,7 +45,10 @@ Region read_region(const wire::Region& from, FieldChecker& check) {
   for (const std::string& person : from.persons())
     region.persons.push_back(
         check.bytes(person, limits::client_message_bytes_max, "name of a region's person"));
+  for (const std::string& team : from.teams())
+    region.teams.push_back(check.bytes(team, limits::client_message_bytes_max, "name of a region's team"));
   region.tells = from.tells();
+  region.counts = from.counts();
   region.until = from.until();
   return region;
 }

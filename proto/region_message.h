@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "shared/region/region.h"
+#include "shared/region/region_mass.h"
 
 namespace scree {
 

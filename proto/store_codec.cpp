@@ -141,4 +141,32 @@ StoresMessage read(const wire::Stores& from, FieldChecker& check) {
   return {read_stores(from.stores(), limits::stores_a_message, check)};
 }
 
+void write(wire::RegionMass& to, const RegionMass& from) {
+  to.set_region(from.origin.region);
+  to.set_party(from.origin.party);
+  to.set_material(static_cast<uint32_t>(row_number(from.material)));
+  to.set_cut(from.cut);
+  to.set_pieces(from.pieces);
+  to.set_dust(from.dust);
+  to.set_carried(from.carried);
+  to.set_back(from.back);
+  to.set_away(from.away);
+}
+
+RegionMass read(const wire::RegionMass& from, FieldChecker& check) {
+  RegionMass mass;
+  mass.origin = {from.region(), from.party()};
+  mass.material = static_cast<Material>(check.within(from.material(), 0, UINT8_MAX, "material"));
+  mass.cut = ledger_mass(from.cut(), check);
+  mass.pieces = ledger_mass(from.pieces(), check);
+  mass.dust = ledger_mass(from.dust(), check);
+  mass.carried = ledger_mass(from.carried(), check);
+  mass.back = ledger_mass(from.back(), check);
+  mass.away = ledger_mass(from.away(), check);
+  for (const MassUnits part : {mass.cut, mass.pieces, mass.dust, mass.carried, mass.back, mass.away})
+    if (part < 0) check.refuse("less than nothing came out of a region");
+  if (mass.error() != 0) check.refuse("what became of a region's rock is not what was cut out of it");
+  return mass;
+}
+
 }  // namespace scree

@@ -28,4 +28,8 @@ PlaceMessage read(const wire::Place& from, FieldChecker& check);
 TransferMessage read(const wire::Transfer& from, FieldChecker& check);
 StoresMessage read(const wire::Stores& from, FieldChecker& check);
 
+void write(wire::RegionMass& to, const RegionMass& from);
+/// Refuses one that does not add up.
+RegionMass read(const wire::RegionMass& from, FieldChecker& check);
+
 }  // namespace scree

@@ -18,6 +18,7 @@ struct Options {
   std::string role{scree::name_of(scree::Role::viewer)};
   std::string name;
   std::string world;
+  std::string team;
   std::string expires;
   std::string token;
 };
@@ -55,6 +56,7 @@ int make_token(const Options& options) {
   }
   token.name = options.name;
   token.world = options.world;
+  token.team = options.team;
   const auto text = scree::sign(token, *key);
   if (!text) return complain(text.error(), exit_usage);
   std::printf("%s\n", text->c_str());
@@ -86,6 +88,7 @@ int show(const Options& options) {
                                     {"role", std::string(scree::name_of(token.role))},
                                     {"name", token.name},
                                     {"world", token.world},
+                                    {"team", token.team},
                                     {"issued", time_text(token.issued_s)},
                                     {"expires", token.expires_s == 0 ? "never" : time_text(token.expires_s)},
                                     {"expired", expired},
@@ -117,6 +120,7 @@ int main(int argc, char** argv) {
                    "time until it expires: 30d, 12h, 45m or 90s; default: never");
   made->add_option("--world", options.world,
                    "the only world in which it is valid (the server's --world-name); default: every world");
+  made->add_option("--team", options.team, "the person's team, by which regions may let it edit");
   CLI::App* shown = app.add_subcommand("show", "prints the contents of a token as JSON");
   shown->add_option("TOKEN", options.token, "the token")->required();
   shown->add_option("--key", options.key, "a public key that checks the signature");

@@ -64,6 +64,8 @@ std::vector<Bench> benches_from_l() {
        run_model_bench,
        {"slab_at_1_m", "slab_at_5_m", "crowd", "crowd_of_small", "heap", "hundred_carves", "carves_2_m",
         "carves_4_m", "carves_8_m", "large_pieces", "slice", "conform", "large_slice", "large_conform"}},
+      {"persons", "64 persons who walk on rubble that moves, beside the same world without them",
+       run_persons_bench},
       {"prices",
        "bytes out and processor time for each byte in, by kinds of message, of 60 sessions of one address",
        run_prices_bench,
@@ -81,6 +83,8 @@ std::vector<Bench> benches_from_l() {
        true},
       {"recombine", "merging by stamp, slices and sphere, against OpenVDB's meshToVolume and csgUnion",
        run_recombine_bench},
+      {"regions", "the same blows with 256 regions far away, in each other, and with one that counts",
+       run_regions_bench},
       {"replay",
        "recording: ticks with and without, bytes, keyframes of a large world; seeking and verifying a "
        "session of "

@@ -297,6 +297,11 @@ Result<AdminListMessage> list_stores(const AdminServer& server) {
   return std::move(asked.first);
 }
 
+Result<AdminListMessage> list_region_masses(const AdminServer& server, const std::string& region) {
+  auto asked = TRY(ask<AdminListMessage>(server, ListRegionMassesRequest{region}));
+  return std::move(asked.first);
+}
+
 Result<SpaceAnswer> ask_space(const AdminServer& server, const Question& question, int64_t as_of) {
   const SpaceBox bounds = bounds_of(question);
   const glm::dvec3 middle_m = 0.5 * (bounds.lo + bounds.hi);

@@ -121,6 +121,14 @@ Result<AdminListMessage> list_stores(const AdminServer& server);
 std::string stores_json(const AdminListMessage& list, const WorldFacts& world);
 std::string stores_lines(const AdminListMessage& list, const WorldFacts& world);
 
+/// What became of the rock of a region that counts, or of all (empty). Takes a director's token, too.
+Result<AdminListMessage> list_region_masses(const AdminServer& server, const std::string& region);
+/// As of stores. `regions`: for their names.
+std::string region_masses_json(const AdminListMessage& list, const std::vector<Region>& regions,
+                               const WorldFacts& world);
+std::string region_masses_lines(const AdminListMessage& list, const std::vector<Region>& regions,
+                                const WorldFacts& world);
+
 /// An answer, and the tick that it is of.
 struct SpaceAnswer {
   Tick tick = 0;

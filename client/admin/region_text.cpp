@@ -31,8 +31,12 @@ RegionJson json_of_region(const Region& region) {
                   {"forbids", forbidden_by(region)},
                   {"editors", name_of(region.editors)}};
   if (region.editors == RegionEditors::role) json["role"] = name_of(region.role);
-  if (region.editors == RegionEditors::persons) json["persons"] = region.persons;
+  if (region.editors == RegionEditors::persons) {
+    json["persons"] = region.persons;
+    json["teams"] = region.teams;
+  }
   json["tells"] = region.tells;
+  json["counts"] = region.counts;
   if (region.until != 0) json["until"] = region.until;
   return json;
 }
@@ -55,7 +59,9 @@ std::string form_of(const Region& region) {
 std::string editors_of(const Region& region) {
   if (region.editors == RegionEditors::role) return fmt::format("role {} and above", name_of(region.role));
   if (region.editors != RegionEditors::persons) return std::string(name_of(region.editors));
-  return region.persons.empty() ? "nobody" : fmt::format("{}", fmt::join(region.persons, ", "));
+  std::vector<std::string> who = region.persons;
+  for (const std::string& team : region.teams) who.push_back("team " + team);
+  return who.empty() ? "nobody" : fmt::format("{}", fmt::join(who, ", "));
 }
 
 std::string words_of_region(const Region& region) {
@@ -65,6 +71,7 @@ std::string words_of_region(const Region& region) {
                   forbidden.empty() ? "nothing" : fmt::format("{}", fmt::join(forbidden, ", ")));
   if (region.forbids_any(forbids::edits)) line += "; may edit: " + editors_of(region);
   if (region.tells) line += "; tells who enters and leaves";
+  if (region.counts) line += "; counts its rock";
   if (region.until != 0) line += fmt::format("; until tick {}", region.until);
   return line;
 }

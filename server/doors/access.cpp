@@ -91,7 +91,11 @@ tl::expected<Grant, Refused> Access::grant_to(const ReadToken& read, uint64_t no
     return refuse(Refusal::token_world,
                   fmt::format("the token is for the world '{}', and this one is {}", token.world,
                               world_.empty() ? "without a name" : "'" + world_ + "'"));
-  const Grant grant{token.role, token.id, token.expires_s, token.name};
+  const Grant grant{.role = token.role,
+                    .token_id = token.id,
+                    .expires_s = token.expires_s,
+                    .name = token.name,
+                    .team = token.team};
   TRY(still_holds(grant, now_s));
   return grant;
 }

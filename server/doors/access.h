@@ -34,6 +34,7 @@ struct Grant {
   uint64_t expires_s = 0;     ///< 0: never
   std::string name{};         ///< the person's, by its token; empty: as the person says
   bool vouches_name = false;  ///< the name is the token's, and not only what the person says
+  std::string team{};         ///< the person's, by its token; empty: none
 };
 
 class Access {

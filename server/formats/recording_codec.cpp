@@ -252,12 +252,15 @@ std::vector<uint8_t> encode(std::span<const Command> commands) {
   const bool parties = std::ranges::any_of(commands, [](const auto& command) { return command.party != 0; });
   const auto has_role = [](const Command& command) { return command.asker.role != Role{}; };
   const auto has_name = [](const Command& command) { return !command.asker.name.empty(); };
+  const auto has_team = [](const Command& command) { return !command.asker.team.empty(); };
+  const bool teams = std::ranges::any_of(commands, has_team);
   const bool roles = std::ranges::any_of(commands, has_role), names = std::ranges::any_of(commands, has_name);
   for (const Command& command : commands) {
     to.add_sessions(command.session);
     if (parties) to.add_parties(command.party);
     if (roles) to.add_roles(static_cast<uint32_t>(command.asker.role));
     if (names) to.add_names(showable(command.asker.name, limits::person_name_bytes_max));
+    if (teams) to.add_teams(showable(command.asker.team, limits::person_name_bytes_max));
     if (command.eye_m) {
       to.add_seen(static_cast<uint32_t>(to.requests_size()));
       for (const float number : {command.eye_m->x, command.eye_m->y, command.eye_m->z}) to.add_eyes(number);
@@ -273,7 +276,7 @@ Result<std::vector<Command>> decode_recorded_commands(std::span<const uint8_t> b
   if (from.sessions_size() != from.requests_size()) check.refuse("sessions and requests differ in number");
   if (from.parties_size() != 0 && from.parties_size() != from.requests_size())
     check.refuse("parties and requests differ in number");
-  for (const int askers : {from.roles_size(), from.names_size()})
+  for (const int askers : {from.roles_size(), from.names_size(), from.teams_size()})
     if (askers != 0 && askers != from.requests_size()) check.refuse("requests and askers differ in number");
   std::vector<Command> commands;
   for (int i = 0; i < from.requests_size() && !check.failed(); ++i) {
@@ -285,6 +288,9 @@ Result<std::vector<Command>> decode_recorded_commands(std::span<const uint8_t> b
       commands.back().asker.name =
           check.text(from.names(i), limits::person_name_bytes_max, "name of who asked");
   }
+  for (int i = 0; i < from.teams_size() && !check.failed(); ++i)
+    commands[static_cast<size_t>(i)].asker.team =
+        check.text(from.teams(i), limits::person_name_bytes_max, "team of who asked");
   read_eyes(from, commands, check);
   return checked(std::move(commands), check);
 }

@@ -7,6 +7,7 @@
 #include "server/formats/joint_lists.h"
 #include "server/formats/recording_codec.h"
 #include "server/formats/region_list.h"
+#include "server/formats/world_provenance.h"
 #include "server/formats/world_stores.h"
 
 namespace scree {
@@ -126,6 +127,7 @@ void write_world_props(kept::Moment& to, const WorldMoment& from) {
   write_region_records(to, from);
   for (const PersonRecord& person : from.persons) write_person(*to.add_persons(), person);
   write_world_stores(to, from);
+  if (!from.provenance.empty()) to.set_provenance(write_provenance(from.provenance));
 }
 
 void read_world_props(const kept::Moment& from, WorldMoment& to, FieldChecker& check) {
@@ -141,6 +143,7 @@ void read_world_props(const kept::Moment& from, WorldMoment& to, FieldChecker& c
     to.persons.push_back(read_person(person, check));
   }
   read_world_stores(from, to, check);
+  to.provenance = read_provenance(from.provenance(), check);
 }
 
 }  // namespace scree

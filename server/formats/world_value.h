@@ -21,6 +21,7 @@
 
 #include "proto/messages.h"
 #include "server/formats/recording_codec.h"
+#include "server/provenance/provenance.h"
 #include "shared/base/walking.h"
 #include "shared/field/piece.h"
 #include "shared/prop/joint.h"
@@ -296,13 +297,14 @@ struct WorldMoment {
   std::vector<VoxelBox> gained;              ///< around terrain that gained rock
   std::vector<PieceId> buried;               ///< ordered, as `sunk`; may be gone
   std::vector<PieceId> sunk;
-  MaterialLedger materials;           ///< empty in worlds that keep none
-  std::vector<StruckPlace> struck;    ///< ordered by cell
-  std::vector<Region> regions;        ///< ordered by id
-  std::vector<HungTerrain> hung;      ///< ordered by region; none is empty
-  std::vector<ChunkCoord> released;   ///< ordered: await the search for what hung in them
-  std::vector<PersonRecord> persons;  ///< ordered by session
-  std::vector<StoreRecord> stores;    ///< ordered by owner
+  MaterialLedger materials;            ///< empty in worlds that keep none
+  std::vector<StruckPlace> struck;     ///< ordered by cell
+  std::vector<Region> regions;         ///< ordered by id
+  std::vector<HungTerrain> hung;       ///< ordered by region; none is empty
+  std::vector<ChunkCoord> released;    ///< ordered: await the search for what hung in them
+  std::vector<PersonRecord> persons;   ///< ordered by session
+  std::vector<StoreRecord> stores;     ///< ordered by owner
+  std::vector<PlacedMass> provenance;  ///< ordered by place and origin
 };
 
 struct WorldSnapshot {

@@ -22,7 +22,8 @@ constexpr uint64_t ms_per_second = 1000;
 
 bool is_for_directors(const AdminRequest& act) {
   return std::holds_alternative<ListBodiesRequest>(act) || std::holds_alternative<ListJointsRequest>(act) ||
-         std::holds_alternative<ListStoresRequest>(act);
+         std::holds_alternative<ListStoresRequest>(act) ||
+         std::holds_alternative<ListRegionMassesRequest>(act);
 }
 
 }  // namespace
@@ -132,6 +133,7 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
                  [&](const ListBodiesRequest& bodies) { list(publisher_.list(bodies)); },
                  [&](const ListJointsRequest& joints) { list(publisher_.list(joints)); },
                  [&](const ListStoresRequest& stores) { list(publisher_.list(stores)); },
+                 [&](const ListRegionMassesRequest& masses) { list(publisher_.list(masses)); },
                  [&](const KickRequest& kick) { reply(this->kick(kick, author_of(session))); },
                  [&](const BanRequest& ban) { reply(this->ban(ban, author_of(session))); },
                  [&](const LiftBanRequest& lift) { reply(this->lift(lift, author_of(session))); },

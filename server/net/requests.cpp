@@ -39,7 +39,8 @@ tl::expected<void, Refused> check_reach(const SessionEntry& session, const Reque
 
 /// A name that only the person says counts for nothing: anybody may say it.
 Asker asker_of(const SessionEntry& session) {
-  return {session.grant.role, session.grant.vouches_name ? session.grant.name : std::string()};
+  const Grant& grant = session.grant;
+  return {grant.role, grant.vouches_name ? grant.name : std::string(), grant.team};
 }
 
 /// Refuses a request beyond the session's role, or beyond its reach.

@@ -190,6 +190,19 @@ AdminListMessage Publisher::list(const ListStoresRequest&) const {
   return list;
 }
 
+AdminListMessage Publisher::list(const ListRegionMassesRequest& request) const {
+  AdminListMessage list;
+  if (state_.region_masses() == nullptr) return list;
+  const std::vector<Region>& regions = *state_.regions();
+  for (const RegionMass& mass : *state_.region_masses()) {
+    const bool asked = request.region.empty() || std::ranges::any_of(regions, [&](const Region& region) {
+                         return region.id == mass.origin.region && region.name == request.region;
+                       });
+    if (asked) list.region_masses.push_back(mass);
+  }
+  return list;
+}
+
 /// Settings say which numbers of the palette stand. Clients are told after the tick's frames.
 void Publisher::take_palette(const TickDelta& delta) {
   if (delta.settings.empty() || !content_.take_settings(delta.settings)) return;

@@ -87,6 +87,7 @@ class Publisher {
   AdminListMessage list(const ListBodiesRequest& request) const;
   AdminListMessage list(const ListJointsRequest& request) const;
   AdminListMessage list(const ListStoresRequest& request) const;
+  AdminListMessage list(const ListRegionMassesRequest& request) const;
   /// WelcomeMessage::palette.
   const std::optional<Digest>& palette() const { return content_.palette(); }
 

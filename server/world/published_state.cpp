@@ -106,6 +106,7 @@ void PublishedState::apply(const TickDelta& delta) {
   for (const AddedJoint& joint : delta.joints_added) joints_[joint.id] = joint.joint;
   for (const EndedJoint& joint : delta.joints_removed) joints_.erase(joint.id);
   if (delta.regions != nullptr) regions_ = delta.regions;
+  if (delta.region_masses != nullptr) region_masses_ = delta.region_masses;
   for (const StoreContent& one : delta.stores)
     if (one.masses.empty())
       stores_.erase(one.store);
@@ -203,6 +204,7 @@ TickDelta PublishedState::without_bricks() const {
   if (!regions_->empty()) delta.regions = regions_;
   delta.persons = persons_;
   for (const auto& [store, masses] : stores_) delta.stores.push_back({store, masses});
+  delta.region_masses = region_masses_;
   delta.ledger = ledger_;
   delta.materials = materials_;
   delta.settings = settings_;

@@ -99,6 +99,8 @@ class PublishedState {
   const std::shared_ptr<const std::vector<Region>>& regions() const { return regions_; }
   /// Those that hold something, by owner.
   const PublishedStores& stores() const { return stores_; }
+  /// Null: nothing was broken out of a region that counts.
+  const std::shared_ptr<const std::vector<RegionMass>>& region_masses() const { return region_masses_; }
   const Ledger& ledger() const { return ledger_; }
   const MaterialLedger& materials() const { return materials_; }
   const SettingValues& settings() const { return settings_; }
@@ -136,6 +138,7 @@ class PublishedState {
   std::vector<PersonPlace> persons_;
   uint64_t persons_version_ = 0;
   PublishedStores stores_;
+  std::shared_ptr<const std::vector<RegionMass>> region_masses_;
   Ledger ledger_;
   MaterialLedger materials_;
   SettingValues settings_;

@@ -7,6 +7,7 @@
 
 #include "server/world/limits.h"
 #include "server/world/region_bodies.h"
+#include "server/world/region_masses.h"
 #include "server/world/slide_stage.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -98,11 +99,13 @@ void search_again(World::State& state) {
 
 void end(World::State& state, const Region& region) {
   const RegionId id = region.id;
+  const RegionZones before = state.regions.zones();
   const bool held = region.forbids_any(forbids::falls);
   state.regions.remove(id);
   state.regions.inside.erase(id);
   release_hung(state, id);
   if (held) search_again(state);
+  recount(state, before);
 }
 
 }  // namespace
@@ -149,7 +152,9 @@ uint32_t perform(World::State& state, const SetRegionRequest& request, uint64_t 
   const bool holds_now = region.forbids_any(forbids::falls);
   const RegionId id = region.id;
   const bool tells = region.tells;
+  const RegionZones counted = state.regions.zones();
   state.regions.set(std::move(region));
+  recount(state, counted);
   state.regions.inside.erase(id);
   if (tells) note_inside(state, id);
   if (held || holds_now) search_again(state);

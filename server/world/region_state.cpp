@@ -73,6 +73,7 @@ void WorldRegions::changed(std::vector<Region> regions) {
     if (region.forbids_any(forbids::falls)) holding.push_back(region);
   }
   holding_->set(std::move(holding));
+  zones_ = RegionZones(regions, voxel_size_m_);
   all_ = std::make_shared<const std::vector<Region>>(std::move(regions));
 }
 

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "server/formats/world_value.h"
+#include "server/provenance/region_zones.h"
 #include "shared/falling/holding.h"
 #include "shared/region/region.h"
 
@@ -53,7 +54,9 @@ class RegionHolding final : public Holding {
 class WorldRegions {
  public:
   explicit WorldRegions(float voxel_size_m)
-      : voxel_size_m_(voxel_size_m), holding_(std::make_unique<RegionHolding>(voxel_size_m)) {}
+      : voxel_size_m_(voxel_size_m),
+        zones_({}, voxel_size_m),
+        holding_(std::make_unique<RegionHolding>(voxel_size_m)) {}
 
   const std::vector<Region>& all() const { return *all_; }
   /// The same, to be shared: it never changes.
@@ -64,6 +67,8 @@ class WorldRegions {
   /// Whether one forbids any of these.
   bool forbid_any(uint8_t what) const { return (forbidden_ & what) != 0; }
   bool tell() const { return tells_; }
+  /// Those that count.
+  const RegionZones& zones() const { return zones_; }
   const Region* named(std::string_view name) const;
 
   /// Adds a region, whose id is new and the highest, or takes the place of the one with its id.
@@ -98,6 +103,7 @@ class WorldRegions {
   uint64_t hash_ = 0;
   uint8_t forbidden_ = 0;
   bool tells_ = false;
+  RegionZones zones_;
   std::unique_ptr<RegionHolding> holding_;  ///< searches that go on point to it
 };
 

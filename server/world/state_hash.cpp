@@ -20,7 +20,7 @@ uint64_t state_hash(const HashedState& state) {
                                          static_cast<uint64_t>(ledger.moved)};
   uint64_t hash = XXH3_64bits(words.data(), sizeof(words));
   for (const uint64_t sum :
-       {state.props, state.joints, state.kept, state.regions, state.persons, state.stores})
+       {state.props, state.joints, state.kept, state.regions, state.persons, state.stores, state.provenance})
     if (sum != 0) hash = XXH3_64bits_withSeed(&sum, sizeof sum, hash);
   return hash;
 }
@@ -78,6 +78,9 @@ uint64_t hash_of(const Region& region) {
   for (const std::string& person : region.persons) put_text(person);
   put(region.tells);
   put(region.until);
+  // What regions could not have before counts where they have it.
+  if (region.counts) put(region.counts);
+  for (const std::string& team : region.teams) put_text(team);
   return XXH3_64bits(put.bytes.data(), put.bytes.size());
 }
 

@@ -18,12 +18,13 @@ struct HashedState {
   uint64_t bodies = 0;  ///< Bodies::state_hash()
   PieceId next_piece = 0;
   Ledger ledger;
-  uint64_t props = 0;    ///< sum of hash_of() of the props; 0: there are none
-  uint64_t joints = 0;   ///< the same of the joints
-  uint64_t kept = 0;     ///< the same of the pieces that are kept
-  uint64_t regions = 0;  ///< the same of the regions
-  uint64_t persons = 0;  ///< the same of the persons on foot
-  uint64_t stores = 0;   ///< the same of the stores
+  uint64_t props = 0;       ///< sum of hash_of() of the props; 0: there are none
+  uint64_t joints = 0;      ///< the same of the joints
+  uint64_t kept = 0;        ///< the same of the pieces that are kept
+  uint64_t regions = 0;     ///< the same of the regions
+  uint64_t persons = 0;     ///< the same of the persons on foot
+  uint64_t stores = 0;      ///< the same of the stores
+  uint64_t provenance = 0;  ///< the same of mass that has an origin
 };
 
 /// The hash of what a prop is, and whose. Its motion is the bodies'.

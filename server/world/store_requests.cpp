@@ -9,6 +9,7 @@
 #include "server/world/buried_stage.h"
 #include "server/world/fill_joints.h"
 #include "server/world/limits.h"
+#include "server/world/region_masses.h"
 #include "shared/base/check.h"
 #include "shared/base/plain_number.h"
 #include "shared/field/edit.h"
@@ -206,7 +207,7 @@ Performed perform(World::State& state, const DigRequest& request, uint64_t party
   const MassUnits room = room_in(state, request.store);
   if (const MassUnits mass = mass_for(state, operation, room); mass > room)
     return is_full(state, request.store, mass);
-  const Applied applied = state.apply_and_record(operation, party, delta);
+  const Applied applied = state.apply_and_record(operation, party, delta, nullptr, &request.store);
   if (request.piece != 0) {
     state.bodies.remove(request.piece);
     state.ledger.pieces -= applied.stored;
@@ -235,7 +236,7 @@ Performed perform(World::State& state, const PlaceRequest& request, uint64_t par
     const MassUnits has = state.stores.mass_of(request.store, material);
     // What a joint has filled is not needed any more; only rounding could have made it more.
     if (most_in(state, shape) > has && mass_needed(state, operation) > has) break;
-    const Applied applied = state.apply_and_record(operation, party, delta);
+    const Applied applied = state.apply_and_record(operation, party, delta, nullptr, &request.store);
     state.ledger.stored += applied.stored;
     placed -= applied.stored;
     if (applied.stored <= 0)
@@ -261,6 +262,9 @@ Performed perform(World::State& state, const TransferRequest& request, uint64_t 
       return lacks(state, request.from, *request.material, std::max<MassUnits>(mass, 1));
   }
   if (mass > room_in(state, request.to)) return is_full(state, request.to, mass);
+  carry_origins(
+      state, request.from, request.to,
+      request.material ? MaterialMasses{{*request.material, mass}} : state.stores.find(request.from)->masses);
   if (request.material) {
     state.stores.take(request.from, *request.material, mass);
     state.stores.put(request.to, MaterialMasses{{*request.material, mass}});
@@ -275,6 +279,7 @@ Performed perform(World::State& state, const TransferRequest& request, uint64_t 
 void give_up_store(World::State& state, uint64_t session) {
   const StoreName store{StoreKind::session, session};
   if (!state.stores.contains(store)) return;
+  carry_origins(state, store, worlds_store(), state.stores.find(store)->masses);
   state.stores.move_all(store, worlds_store());
   state.stores.drop(store);
 }

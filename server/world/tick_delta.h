@@ -21,6 +21,7 @@
 #include "shared/operation/operation.h"
 #include "shared/prop/joint.h"
 #include "shared/region/region.h"
+#include "shared/region/region_mass.h"
 
 namespace scree {
 
@@ -87,6 +88,8 @@ struct TickDelta {
   std::shared_ptr<const std::vector<Region>> regions;  ///< all of them, by id, when one changed; else null
   std::vector<PersonPlace> persons;  ///< every person on foot after the tick, by session; none in a replay
   std::vector<StoreContent> stores;  ///< that changed, as they stand; ordered by owner
+  /// What became of the rock of regions that count, all rows, when one changed; else null, and in a replay.
+  std::shared_ptr<const std::vector<RegionMass>> region_masses;
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
   uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay

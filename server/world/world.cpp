@@ -88,6 +88,7 @@ void publish(World::State& state, TickDelta& delta) {
   publish_poses(state, delta);
   publish_persons(state, delta);
   delta.stores = state.stores.take_changed();
+  delta.region_masses = state.provenance.take_changed();
   delta.ledger = state.ledger;
   delta.materials = state.materials;
   state.work.report(delta.work);

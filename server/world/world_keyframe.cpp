@@ -37,6 +37,8 @@ TickDelta World::outline() {
   publish_poses(s, delta);
   publish_persons(s, delta);
   delta.stores = s.stores.contents();
+  if (!s.provenance.empty())
+    delta.region_masses = std::make_shared<const std::vector<RegionMass>>(s.provenance.masses());
   delta.ledger = s.ledger;
   delta.materials = s.materials;
   publish_settings(s, delta);

@@ -36,6 +36,7 @@ WorldMoment World::moment() const {
   m.next_piece = s.next_piece;
   m.ledger = s.ledger;
   m.stores = s.stores.value();
+  m.provenance = s.provenance.value();
   m.materials = s.materials;
   m.field_hash = s.field.hash();
   m.state_hash = s.hash();
@@ -85,6 +86,7 @@ uint64_t first_free_session(const WorldMoment& moment) {
   for (const PropRecord& prop : moment.props) last = std::max(last, prop.owner);
   for (const JointRecord& joint : moment.joints) last = std::max(last, joint.owner);
   for (const PersonRecord& person : moment.persons) last = std::max(last, person.session);
+  for (const PlacedMass& placed : moment.provenance) last = std::max(last, placed.share.origin.party);
   for (const StoreRecord& store : moment.stores)
     if (store.content.store.kind == StoreKind::session) last = std::max(last, store.content.store.number);
   for (const PartyValue& party : moment.requests.parties) {

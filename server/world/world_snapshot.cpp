@@ -9,6 +9,7 @@
 #include "server/world/person_requests.h"
 #include "server/world/recorded_values.h"
 #include "server/world/refracture_stage.h"
+#include "server/world/region_masses.h"
 #include "server/world/region_requests.h"
 #include "server/world/request_stage.h"
 #include "server/world/store_requests.h"
@@ -40,9 +41,10 @@ class Restoring {
 
   Result<void> run() {
     using Step = Result<void> (Restoring::*)();
-    for (const Step step : {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::props,
-                            &Restoring::bodies, &Restoring::regions, &Restoring::persons, &Restoring::ledger,
-                            &Restoring::places, &Restoring::waiting, &Restoring::refractures})
+    for (const Step step :
+         {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::props, &Restoring::bodies,
+          &Restoring::regions, &Restoring::persons, &Restoring::ledger, &Restoring::provenance,
+          &Restoring::places, &Restoring::waiting, &Restoring::refractures})
       TRY((this->*step)());
     s_.rest.restore(m_.rest);
     s_.islands.restore(m_.islands);
@@ -177,6 +179,16 @@ class Restoring {
   Result<void> regions() { return restore_regions(s_, m_); }
 
   Result<void> persons() { return restore_persons(s_, m_); }
+
+  /// Who measures anew does not know it.
+  Result<void> provenance() {
+    if (measure_) return {};
+    for (const PlacedMass& placed : m_.provenance)
+      if (const auto* const at = std::get_if<TerrainPlace>(&placed.place.at);
+          at != nullptr && !in_world(at->brick))
+        return fail("mass with an origin lies outside the world");
+    return restore_provenance(s_, m_.provenance);
+  }
 
   /// Worlds of older programs have none, and who measures anew knows the whole alone.
   Result<void> materials() {

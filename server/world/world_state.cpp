@@ -8,6 +8,7 @@
 #include "server/work/memory.h"
 #include "server/world/applied_operation.h"
 #include "server/world/limits.h"
+#include "server/world/region_masses.h"
 #include "server/world/settings.h"
 #include "server/world/shared_brick.h"
 #include "server/world/slide_stage.h"
@@ -119,8 +120,9 @@ void add(BricksByParty& to, uint64_t party, const std::vector<BrickCoord>& brick
 }  // namespace
 
 Applied World::State::apply_and_record(const Operation& operation, uint64_t party, TickDelta& delta,
-                                       const PreparedStamp* prepared) {
+                                       const PreparedStamp* prepared, const StoreName* store) {
   const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);
+  const auto trace = begin_trace(*this, operation, reads, store);
   Applied applied = apply(operation, field, pieces, prepared);
   const bool slid = std::holds_alternative<SlideOperation>(operation);
   if (slid && applied.changed.empty()) return applied;  // nothing happened, so there is nothing to tell
@@ -142,6 +144,7 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
   if (applied.terrain_gain > 0 || slid) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;
   CHECK(materials.enter(applied.flows));
+  finish_trace(*this, trace, operation, applied, delta.operations.back().party);
   for (const PieceId ended : pieces_ended_by(operation)) {
     CHECK(!pieces.contains(ended));
     shares.remove(traits.at(ended).owner);
@@ -183,7 +186,7 @@ uint64_t World::State::hash() const {
   uint64_t sum_of_persons = 0;
   for (const auto& [session, person] : persons) sum_of_persons += hash_of(person);
   return state_hash({tick, field.hash(), bodies.state_hash(), next_piece, ledger, sum_of_props, sum_of_joints,
-                     sum_of_kept, regions.hash(), sum_of_persons, stores.hash()});
+                     sum_of_kept, regions.hash(), sum_of_persons, stores.hash(), provenance.hash()});
 }
 
 BodyShape World::State::enter_prop(PieceId id, std::shared_ptr<const Prop> prop, const PropMeasure& measure,

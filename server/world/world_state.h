@@ -15,6 +15,7 @@
 #include "server/bodies/bodies.h"
 #include "server/field/vdb_field.h"
 #include "server/formats/world_value.h"
+#include "server/provenance/provenance.h"
 #include "server/recombine/rest.h"
 #include "server/work/piece_shares.h"
 #include "server/work/request_queue.h"
@@ -80,9 +81,10 @@ struct World::State {
   State(const WorldConfig& world_config, size_t threads);
 
   /// Applies a valid operation, which a party (command.h) caused: falls and breaks that follow from it are
-  /// that party's. Enters the terrain's gain in the ledger; the caller enters the other side.
+  /// that party's. Enters the terrain's gain in the ledger; the caller enters the other side. `store`: whose
+  /// an operation deals with, which the caller changes afterwards.
   Applied apply_and_record(const Operation& operation, uint64_t party, TickDelta& delta,
-                           const PreparedStamp* prepared = nullptr);
+                           const PreparedStamp* prepared = nullptr, const StoreName* store = nullptr);
   /// A search for islands begins around these bricks, as the party's.
   void loosen(uint64_t party, const std::vector<BrickCoord>& bricks);
   /// The party in whose turn work is done: by rules::as_they_come always 0, the world itself.
@@ -141,6 +143,7 @@ struct World::State {
   Tick island_at = 0;       ///< tick in which an island fell last
   WorkBudget work;
   Stores stores;                          ///< the ledger has the sum of their masses
+  Provenance provenance;                  ///< of mass that was broken out of regions that count
   std::optional<MassUnits> request_mass;  ///< of the request that is carried out: for its reply
   float cut_later_us = 0.0F;     ///< part of a request's price that the ticks pay in which its pieces are cut
   RequestQueue requests;         ///< that wait for a tick with room for them

@@ -89,8 +89,20 @@ Result<void> validate(const Region& region) {
   if (region.persons.size() > limits::region_persons_max)
     return fail("a region names " + std::to_string(limits::region_persons_max) + " persons at most");
   for (const std::string& person : region.persons) TRY(check_name(person, "the name of a region's person"));
+  if (region.teams.size() > limits::region_persons_max)
+    return fail("a region names " + std::to_string(limits::region_persons_max) + " teams at most");
+  for (const std::string& team : region.teams) TRY(check_name(team, "the name of a region's team"));
   return {};
 }
+
+namespace {
+
+/// A name that no token states is none.
+bool lists(const std::vector<std::string>& names, const std::string& name) {
+  return !name.empty() && std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
 
 bool may_edit(const Region& region, const Asker& asker) {
   switch (region.editors) {
@@ -99,8 +111,7 @@ bool may_edit(const Region& region, const Asker& asker) {
     case RegionEditors::role:
       return may_act_as(asker.role, region.role);
     case RegionEditors::persons:
-      return !asker.name.empty() &&
-             std::find(region.persons.begin(), region.persons.end(), asker.name) != region.persons.end();
+      return lists(region.persons, asker.name) || lists(region.teams, asker.team);
     case RegionEditors::all:
       return true;
   }

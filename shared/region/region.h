@@ -54,7 +54,7 @@ constexpr RegionEditorsRow row_of(RegionEditors editors) {
       return {"nobody"};
     case RegionEditors::role:  // Region::role, and those above it
       return {"role"};
-    case RegionEditors::persons:  // Region::persons
+    case RegionEditors::persons:  // Region::persons and Region::teams
       return {"persons"};
     case RegionEditors::all:
       return {"all"};
@@ -92,7 +92,9 @@ struct Region {
   RegionEditors editors = RegionEditors::nobody;
   Role role = Role::viewer;            ///< of RegionEditors::role
   std::vector<std::string> persons{};  ///< of RegionEditors::persons: names that access tokens state
+  std::vector<std::string> teams{};    ///< likewise: teams that access tokens state
   bool tells = false;                  ///< bodies that enter and leave it are told as events
+  bool counts = false;                 ///< what becomes of its rock is counted (region_mass.h)
   Tick until = 0;                      ///< the last tick in which it holds; 0: until it is removed
 
   bool forbids_any(uint8_t what) const { return (forbids & what) != 0; }
@@ -103,10 +105,12 @@ struct Region {
 /// the world.
 Result<void> validate(const Region& region);
 
-/// Who asks for something: his role, and his name where an access token states it; else it is empty.
+/// Who asks for something: his role, and his name and team where an access token states them; else they are
+/// empty.
 struct Asker {
   Role role = Role::viewer;
   std::string name{};
+  std::string team{};
 
   bool operator==(const Asker&) const = default;
 };

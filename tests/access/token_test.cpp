@@ -167,6 +167,9 @@ TEST_F(Grants, are_what_a_good_token_says) {
   EXPECT_EQ(granted->role, Role::carver);
   EXPECT_EQ(granted->name, "Ann");
   EXPECT_EQ(granted->token_id, a_token().id);
+  EXPECT_EQ(granted->team, "");
+  EXPECT_EQ(grant(signed_by(key, [](AccessToken& token) { token.team = "red"; }))->team, "red");
+  EXPECT_EQ(signed_by(key), signed_by(key, [](AccessToken& token) { token.team = ""; })) << "as before teams";
   const auto anywhere = grant(signed_by(key, [](AccessToken& token) { token.world = ""; }));
   EXPECT_TRUE(anywhere);
   const auto for_ever = grant(signed_by(key, [](AccessToken& token) { token.expires_s = 0; }));

@@ -175,6 +175,7 @@ inline Lines words(const AdminRequest& act) {
                    return Lines{fmt::format("list joints: {}", words(list.within))};
                  },
                  [](const ListStoresRequest&) { return Lines{"list stores"}; },
+                 [](const ListRegionMassesRequest& list) { return Lines{"list masses of " + list.region}; },
                  [](const ControlReplayRequest& control) {
                    return Lines{fmt::format("control replay: {}, speed {}, {} {}", name_of(control.play),
                                             control.speed, name_of(control.move), control.value)};

@@ -166,6 +166,11 @@ inline Lines describe(const AdminListMessage& m) {
   }
   for (const KnownJoint& one : m.joints) append(lines, words(one));
   append(lines, words(m.stores));
+  for (const RegionMass& mass : m.region_masses)
+    lines.push_back(fmt::format(
+        "region {}, party {}: {} of material {}: pieces {}, dust {}, carried {}, back {}, away {}",
+        mass.origin.region, mass.origin.party, mass.cut, row_number(mass.material), mass.pieces, mass.dust,
+        mass.carried, mass.back, mass.away));
   if (m.left_out > 0) lines.push_back(fmt::format("{} more are left out", m.left_out));
   return lines;
 }

@@ -11,6 +11,8 @@ inline std::string words(const Region& region) {
                                 words(region.half_m), region.forbids, name_of(region.editors));
   if (region.editors == RegionEditors::role) all += fmt::format(" {}", name_of(region.role));
   for (const std::string& person : region.persons) all += fmt::format(" '{}'", person);
+  for (const std::string& team : region.teams) all += fmt::format(" team '{}'", team);
+  if (region.counts) all += ", counts";
   return all + fmt::format(", {}, until {}", region.tells ? "tells" : "silent", region.until);
 }
 inline Lines describe(const SetRegionMessage& m) {

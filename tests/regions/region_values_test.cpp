@@ -109,6 +109,10 @@ TEST(RegionValues, who_may_edit_is_by_role_or_by_name) {
   EXPECT_TRUE(may_edit(region, {Role::carver, "Bo"}));
   EXPECT_FALSE(may_edit(region, {Role::admin, "bo"}));
   EXPECT_FALSE(may_edit(region, {Role::admin, ""}));
+  region.teams = {"red"};
+  EXPECT_TRUE(may_edit(region, {Role::carver, "", "red"}));
+  EXPECT_FALSE(may_edit(region, {Role::carver, "red", "blue"})) << "a name is no team";
+  EXPECT_FALSE(may_edit(region, {Role::carver, "", ""}));
 }
 
 TEST(RegionValues, what_no_world_can_take_is_refused) {
@@ -121,6 +125,8 @@ TEST(RegionValues, what_no_world_can_take_is_refused) {
     return !validate(region).has_value();
   };
   EXPECT_TRUE(is_refused([](Region& r) { r.name = ""; }));
+  EXPECT_TRUE(is_refused([](Region& r) { r.teams = {""}; }));
+  EXPECT_TRUE(is_refused([](Region& r) { r.teams = std::vector<std::string>(9, "red"); }));
   EXPECT_TRUE(is_refused([](Region& r) { r.name = std::string(33, 'x'); }));
   EXPECT_TRUE(is_refused([](Region& r) { r.name = "a\nb"; }));
   EXPECT_TRUE(is_refused([](Region& r) { r.form = static_cast<RegionForm>(9); }));

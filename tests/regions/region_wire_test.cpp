@@ -112,5 +112,25 @@ TEST_F(RegionCommands, add_list_show_and_remove_regions_that_refuse_edits) {
   EXPECT_EQ(run("region add bad box 1 2 3 --at 0 0 0 --editors Ann").first, misused);
 }
 
+TEST_F(RegionCommands, mass_says_what_became_of_a_regions_rock) {
+  constexpr int refused = 1;
+  ASSERT_EQ(
+      run("region add tower box 8 8 8 --at 0 0 0 --counts --editors team:red,name:Ann --forbid edits").first,
+      0);
+  ASSERT_EQ(run("region add yard box 8 8 8 --at 40 0 0").first, 0);
+  EXPECT_TRUE(holds(run("region show tower").second, "may edit: Ann, team red; counts its rock"));
+  EXPECT_EQ(run("region mass").second, "nothing was broken out of a region that counts\n");
+  EXPECT_EQ(run("region mass yard").first, refused) << "it does not count";
+  EXPECT_EQ(run("region mass mill").first, refused);
+  ASSERT_EQ(run("region add tower box 8 8 8 --at 0 0 0 --counts").first, 0);
+  ASSERT_EQ(run("dig --at 0 0 0 --radius 1 --store red").first, 0);
+  const auto masses = nlohmann::json::parse(run("region mass tower --json").second, nullptr, false);
+  ASSERT_EQ(masses.size(), 1U);
+  EXPECT_EQ(masses[0]["region"], "tower");
+  EXPECT_GT(masses[0]["carried"], 0);
+  EXPECT_EQ(masses[0]["carried"], masses[0]["cut"]);
+  EXPECT_TRUE(holds(run("region mass").second, "m³ of rock"));
+}
+
 }  // namespace
 }  // namespace scree

@@ -19,7 +19,9 @@ inline std::vector<StoreContent> stores() {
 }
 
 inline std::vector<ServerMessage> store_server_messages() {
+  const RegionMass mass{{36, 1ULL << 40U}, material::ice, 1LL << 41, 5, 0, 1LL << 40, (1LL << 40) - 12, 7};
   return {StoresMessage{stores()}, AdminListMessage{.request = 5, .left_out = 2, .stores = stores()},
+          AdminListMessage{.request = 6, .region_masses = {mass}},
           ReplyMessage{.request = 10, .refusal = {}, .mass = 1LL << 40}};
 }
 
@@ -31,7 +33,8 @@ inline std::vector<ClientMessage> store_client_messages() {
           PlaceMessage{{slab, material::ice, true, worlds_store()}, 37},
           TransferMessage{{{}, worlds_store()}, 38},
           TransferMessage{{session, token, material::soil, 1LL << 40}, 39},
-          AdminMessage{18, "", ListStoresRequest{}}};
+          AdminMessage{18, "", ListStoresRequest{}},
+          AdminMessage{19, "", ListRegionMassesRequest{"tower"}}};
 }
 
 }  // namespace scree::samples

@@ -172,7 +172,8 @@ inline Region region() {
   region.forbids = forbids::edits | forbids::falls;
   region.editors = RegionEditors::persons;
   region.persons = {"Ann", "Bo"};
-  region.tells = true;
+  region.teams = {"red"};
+  region.tells = region.counts = true;
   region.until = 1ULL << 40U;
   return region;
 }

@@ -17,7 +17,7 @@ struct RegionWords {
   std::vector<float> size_m;
   Place at_m{};
   std::vector<std::string> forbid, editors;
-  bool tells = false;
+  bool tells = false, counts = false;
   float lasts_s = 0.0F;
 };
 
@@ -60,10 +60,14 @@ Result<void> enter_editors(Region& region, const std::vector<std::string>& edito
   }
   region.editors = RegionEditors::persons;
   for (const std::string& person : editors) {
-    constexpr std::string_view mark = "name:";
-    if (!person.starts_with(mark))
-      return fail("'" + person + "' is none of: nobody, all, a role, name:NAME of each person");
-    region.persons.push_back(person.substr(mark.size()));
+    constexpr std::string_view name = "name:", team = "team:";
+    if (person.starts_with(name))
+      region.persons.push_back(person.substr(name.size()));
+    else if (person.starts_with(team))
+      region.teams.push_back(person.substr(team.size()));
+    else
+      return fail("'" + person +
+                  "' is none of: nobody, all, a role, name:NAME of a person, team:NAME of a team");
   }
   return {};
 }
@@ -73,6 +77,7 @@ Made addition_of(const RegionWords& words) {
   set.region.name = words.name;
   set.region.centre_m = vector_of(words.at_m);
   set.region.tells = words.tells;
+  set.region.counts = words.counts;
   set.lasts_s = words.lasts_s;
   for (const std::string& name : words.forbid) {
     const auto rule = std::ranges::find(region_rules, name, &RegionRule::name);
@@ -99,9 +104,11 @@ void add_words_of_region(CLI::App* add, RegionWords& words) {
                   "edits, dents, falls or pieces, with commas between: what must not happen in it")
       ->delimiter(',');
   add->add_option("--editors", words.editors,
-                  "who may edit where edits are forbidden: nobody, all, a role, or name:NAME of each person")
+                  "who may edit where edits are forbidden: nobody, all, a role, or name:NAME of each person "
+                  "and team:NAME of each team, as access tokens state them")
       ->delimiter(',');
   add->add_flag("--tells", words.tells, "bodies that enter and leave it are events");
+  add->add_flag("--counts", words.counts, "what becomes of its rock is counted (region mass)");
   bounded(add->add_option("--for", words.lasts_s, "seconds that it lasts; 0: until it is removed"),
           {0.0, limits::region_lasts_max_s})
       ->capture_default_str();
@@ -120,6 +127,20 @@ Printed show(const AdminServer& server, const std::string& name, bool as_json) {
   return as_json ? regions_json(regions) : regions_lines(regions);
 }
 
+Printed masses(const AdminServer& server, const std::string& name, bool as_json) {
+  const auto regions = TRY(list_regions(server));
+  if (!name.empty()) {
+    const auto region = std::ranges::find(regions, name, &Region::name);
+    if (region == regions.end()) return tl::unexpected(Failed(Error{"there is no region '" + name + "'"}));
+    if (!region->counts)
+      return tl::unexpected(
+          Failed(Error{"the region '" + name + "' does not count its rock: add it with --counts"}));
+  }
+  const auto list = TRY(list_region_masses(server, name));
+  const auto world = TRY(read_world(server));
+  return as_json ? region_masses_json(list, regions, world) : region_masses_lines(list, regions, world);
+}
+
 }  // namespace
 
 void add_region_commands(CLI::App& app, WorldCommands& table) {
@@ -131,6 +152,8 @@ void add_region_commands(CLI::App& app, WorldCommands& table) {
   CLI::App* const add = all->add_subcommand("add", "adds a region, or replaces the one of its name");
   CLI::App* const listed = all->add_subcommand("list", "lists all regions");
   CLI::App* const shown = all->add_subcommand("show", "prints one region");
+  CLI::App* const mass = all->add_subcommand("mass", "prints what became of the rock of regions that count");
+  mass->add_option("NAME", words->name, "the region's name; none: all of them");
   CLI::App* const remove = all->add_subcommand("remove", "removes a region");
   add_words_of_region(add, *words);
   add_place(listed, "--at", words->at_m, "X Y Z: only those in which this place lies");
@@ -146,6 +169,9 @@ void add_region_commands(CLI::App& app, WorldCommands& table) {
                    }});
   table.push_back({shown, [words](const AdminServer& server, bool as_json) {
                      return show(server, words->name, as_json);
+                   }});
+  table.push_back({mass, [words](const AdminServer& server, bool as_json) {
+                     return masses(server, words->name, as_json);
                    }});
   table.push_back({remove, [words](const AdminServer& server, bool as_json) {
                      return run_request(server, Request(RemoveRegionRequest{words->name}), as_json);
