@@ -208,11 +208,19 @@ struct Flow {
     }
     for (size_t i = 0; i < after.size(); ++i) {
       const MassUnits mass = row(before, i).converted - after[i].converted;
-      if (mass > 0) converted.pour(mass, pools[static_cast<Material>(i)].draw(mass));
+      if (mass <= 0) continue;
+      const auto material = static_cast<Material>(i);
+      const OriginShares shares = pools[material].draw(mass);
+      world.provenance.leave_material(shares, material);
+      converted.pour(mass, shares);
     }
     for (size_t i = 0; i < after.size(); ++i) {
       const MassUnits mass = after[i].converted - row(before, i).converted;
-      if (mass > 0) pools[static_cast<Material>(i)].pour(mass, converted.draw(mass));
+      if (mass <= 0) continue;
+      const auto material = static_cast<Material>(i);
+      const OriginShares shares = converted.draw(mass);
+      world.provenance.enter_material(shares, material);
+      pools[material].pour(mass, shares);
     }
   }
 };

@@ -92,6 +92,14 @@ void Provenance::cut(const MassOrigin& origin, Material material, MassUnits mass
   row(origin, material).cut += mass;
 }
 
+void Provenance::leave_material(const OriginShares& shares, Material material) {
+  for (const OriginShare& share : shares) row(share.origin, material).cut -= share.mass;
+}
+
+void Provenance::enter_material(const OriginShares& shares, Material material) {
+  for (const OriginShare& share : shares) row(share.origin, material).cut += share.mass;
+}
+
 void Provenance::change(const MassPlace& place, const OriginShare& share, int sign) {
   hash_ += static_cast<uint64_t>(static_cast<int64_t>(sign)) * hash_of(place, share);
   row(share.origin, place.material).*member_of(place, share.origin) += sign * share.mass;
@@ -172,7 +180,7 @@ std::vector<RegionMass> Provenance::masses() const {
   std::vector<RegionMass> masses;
   for (const auto& [key, row] : rows_) {
     CHECK_EQ(row.error(), 0);
-    masses.push_back(row);
+    if (row.cut > 0) masses.push_back(row);
   }
   return masses;
 }

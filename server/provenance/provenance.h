@@ -88,6 +88,9 @@ class Provenance {
 
   /// The origin of what a party breaks in a region now.
   MassOrigin origin_of(RegionId region, uint64_t party) const;
+  /// Mass that lies nowhere counts for another material from now on: as the ledger's `converted`.
+  void leave_material(const OriginShares& shares, Material material);
+  void enter_material(const OriginShares& shares, Material material);
   /// New mass of an origin, which the caller puts into places.
   void cut(const MassOrigin& origin, Material material, MassUnits mass);
   void put(const MassPlace& place, const OriginShares& shares);

@@ -192,6 +192,18 @@ void World::want_physics(bool wanted) {
 Tick World::tick() const {
   return state_->tick;
 }
+const std::vector<Region>& World::regions() const {
+  return state_->regions.all();
+}
+
+std::vector<RegionMass> World::region_masses() const {
+  return state_->provenance.masses();
+}
+
+std::vector<StoreContent> World::stores() const {
+  return state_->stores.contents();
+}
+
 const Field& World::field() const {
   return state_->field;
 }

@@ -71,6 +71,11 @@ class World {
   /// As it stands: what settings changed is changed here.
   const WorldConfig& config() const;
   Tick tick() const;
+  /// What a host's rules ask for, between steps: the regions, by id; what became of the rock of those that
+  /// count, by origin and material; the stores, by owner.
+  const std::vector<Region>& regions() const;
+  std::vector<RegionMass> region_masses() const;
+  std::vector<StoreContent> stores() const;
   /// The terrain's gain since the start, measured from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();
   /// Switches TickDelta::physics, in every ticks_per_physics-th delta, on or off. Changes nothing else.

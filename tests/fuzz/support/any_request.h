@@ -154,6 +154,8 @@ inline Region any_region(FuzzInput& input) {
   region.editors = static_cast<RegionEditors>(input.below(kind_count<RegionEditors> + 1));
   region.role = static_cast<Role>(input.below(6));
   region.tells = input.flag();
+  region.counts = input.flag();
+  if (input.below(8) == 7) region.teams = {"red"};
   return region;
 }
 

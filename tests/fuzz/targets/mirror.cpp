@@ -14,6 +14,7 @@
 #include "shared/base/overloaded.h"
 #include "shared/operation/limits.h"
 #include "tests/fuzz/support/any_operation.h"
+#include "tests/fuzz/support/any_request.h"
 #include "tests/fuzz/support/target.h"
 
 namespace scree {
@@ -162,6 +163,49 @@ UnchangedChunksMessage any_unchanged(FuzzInput& input) {
   return unchanged;
 }
 
+/// Regions, of which ids and names may be wrong.
+RegionsMessage any_regions(FuzzInput& input) {
+  RegionsMessage message;
+  RegionId id = 0;
+  for (uint32_t count = input.below(4); count > 0; --count) {
+    Region region = any_region(input);
+    region.id = id += input.below(16) == 15 ? 0 : 1;
+    message.regions.push_back(std::move(region));
+  }
+  return message;
+}
+
+PersonPlacesMessage any_persons(FuzzInput& input) {
+  PersonPlacesMessage message{.tick = input.byte()};
+  if (input.flag()) message.persons.emplace();
+  for (uint32_t count = input.below(4); count > 0 && message.persons; --count)
+    message.persons->push_back({input.below(8), any_piece(input)});
+  if (!input.flag()) return message;
+  message.own.emplace();
+  message.own->taken = input.byte();
+  message.own->walker.feet_m = input.place(50.0F);
+  message.own->walker.speed_m_s = input.place(20.0F);
+  message.own->walker.stands = input.flag();
+  return message;
+}
+
+ServerMessage any_about_persons(FuzzInput& input) {
+  switch (input.below(3)) {
+    case 0:
+      return any_regions(input);
+    case 1:
+      return any_persons(input);
+    default: {
+      StoresMessage message;
+      for (uint32_t count = input.below(3); count > 0; --count)
+        message.stores.push_back(
+            {any_store(input),
+             {{static_cast<Material>(input.byte()), static_cast<MassUnits>(input.byte())}}});
+      return message;
+    }
+  }
+}
+
 ServerMessage any_message(FuzzInput& input, Ids& ids, Tick tick) {
   switch (input.below(9)) {
     case 0:
@@ -175,7 +219,7 @@ ServerMessage any_message(FuzzInput& input, Ids& ids, Tick tick) {
       return piece;
     }
     case 8:
-      return any_unchanged(input);
+      return input.flag() ? ServerMessage(any_unchanged(input)) : any_about_persons(input);
     case 3:
       return input.below(8) == 7 ? ServerMessage(ResetMessage{}) : ServerMessage(any_frame(input, ids, tick));
     default:
