@@ -180,7 +180,7 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   hud_.note(facts, parts);
   const MethodEntry* picked = nullptr;
   if (!hidden_) {
-    hud_.crosshair();
+    hud_.crosshair(!facts.notice.empty());
     const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
     const Camera& camera = viewing_.camera;
     hud_.names(viewing_.session.figures(now_s),

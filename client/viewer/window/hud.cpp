@@ -62,9 +62,15 @@ void Hud::begin(bool mouse_is_free) {
   panels_.begin_frame(screen_size(), mouse_is_free);
 }
 
-void Hud::crosshair() {
+void Hud::crosshair(bool refused) {
   const glm::vec2 c = screen_size() * 0.5F;
   ImDrawList* list = ImGui::GetBackgroundDrawList();
+  if (refused) {
+    const ImU32 warning = ImGui::GetColorU32(warning_colour);
+    list->AddLine(ImVec2(c.x - 8, c.y - 8), ImVec2(c.x + 8, c.y + 8), warning, 2.5F);
+    list->AddLine(ImVec2(c.x - 8, c.y + 8), ImVec2(c.x + 8, c.y - 8), warning, 2.5F);
+    return;
+  }
   const ImU32 colour = IM_COL32(255, 255, 255, 190);
   list->AddLine(ImVec2(c.x - 9, c.y), ImVec2(c.x - 3, c.y), colour, 1.5F);
   list->AddLine(ImVec2(c.x + 3, c.y), ImVec2(c.x + 9, c.y), colour, 1.5F);

@@ -56,7 +56,8 @@ class Hud {
   /// The persons' names, over their figures in the picture, but for one through whose eye one looks.
   void names(const Figures& figures, const glm::mat4& view_projection,
              std::optional<uint64_t> looked_through = {});
-  void crosshair();
+  /// `refused`: something was, and its words stand in the messages.
+  void crosshair(bool refused);
 
   const HudPanels& panels() const { return panels_; }
   /// Height of the next frame's text, pixels, at the person's scale, or less where panels need it.

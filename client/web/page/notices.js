@@ -26,5 +26,6 @@ export class Notices {
     write(line, text);
     line.hidden = text === '';
     line.toggleAttribute('data-grave', lost || notice !== '');
+    $('cross').toggleAttribute('data-refused', notice !== '');
   }
 }

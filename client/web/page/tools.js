@@ -28,7 +28,7 @@ export class Tools {
       row.append(one);
     }
     const line = () => make('span', { className: 'between', role: 'separator' });
-    this.#use = make('button', { type: 'button', title: 'Carve, fill or paint (F)' });
+    this.#use = make('button', { type: 'button', title: 'Carve, fill, paint, dig or place (F)' });
     this.#use.addEventListener('click', () => client.act('next_use'));
     this.#walk = button('walk', 'Walk, or fly (Q)', () => client.act('walk'));
     row.append(line(), button('less', 'Smaller', () => this.#grow(-1)), this.#size, button('more', 'Larger', () => this.#grow(1)), line(),
