@@ -88,6 +88,7 @@ std::string stores_json(const AdminListMessage& list, const WorldFacts& world) {
     for (const MaterialMass& mass : masses) one["units"][name_of_row(world, mass.material)] = mass.mass;
     all.push_back(std::move(one));
   }
+  if (list.left_out > 0) all.push_back({{"left_out", list.left_out}});
   return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 

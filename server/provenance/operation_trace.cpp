@@ -6,6 +6,7 @@
 #include <map>
 #include <tuple>
 
+#include "server/provenance/no_origin.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -163,6 +164,8 @@ struct Flow {
   std::vector<PlaceMass> gains;
   std::map<Material, MixedMass> pools;
   std::map<std::pair<PieceId, Material>, MassUnits> wanted;  ///< by new pieces
+  std::map<MassOrigin, MassUnits> cut;                       ///< of regions' own rock, and not given back yet
+  bool builds = false;                                       ///< what is poured into a region is its own rock
 
   void lose(BrickCoord brick, RegionId region, Material material, MassUnits mass,
             const OriginShares& shares) {
@@ -174,6 +177,23 @@ struct Flow {
 
   void give(const MassPlace& place, MassUnits mass, Provenance& provenance) {
     if (mass != 0) provenance.put(place, pools[place.material].draw(mass));
+  }
+  /// Terrain that a region loses and gets in the same operation was not cut; what it gets besides is not its
+  /// own.
+  void give_terrain(const PlaceMass& gain, Provenance& provenance) {
+    const RegionId region = std::get<TerrainPlace>(gain.place.at).region;
+    OriginShares shares = pools[gain.place.material].draw(gain.mass);
+    const MassUnits foreign = gain.mass - sum_of(shares);
+    for (OriginShare& share : shares) {
+      if (share.origin.region != region) continue;
+      const MassUnits own = std::min(share.mass, cut[share.origin]);
+      provenance.leave_material({{share.origin, own}}, gain.place.material);
+      cut[share.origin] -= own;
+      share.mass -= own;
+    }
+    std::erase_if(shares, [](const OriginShare& share) { return share.mass == 0; });
+    if (region != 0 && !builds) add(shares, no_origin, foreign);
+    provenance.put(gain.place, shares);
   }
 
   /// New pieces get of what they were cut out of.
@@ -241,9 +261,11 @@ void take_brick(const TracedWorld& world, const BrickBefore& before, uint64_t pa
     OriginShares shares = provenance.take(place, had - has, had);
     const RegionId region = change.terrain().region;
     const MassUnits own = had - has - sum_of(shares);
+    drop_foreign(shares);
     if (region != 0 && own > 0) {
       const MassOrigin origin = provenance.origin_of(region, party);
       provenance.cut(origin, place.material, own);
+      flow.cut[origin] += own;
       add(shares, origin, own);
     }
     flow.lose(before.coord, region, place.material, had - has, shares);
@@ -278,6 +300,7 @@ void OperationTrace::finish(const TracedWorld& world, const Operation& operation
                             uint64_t party) const {
   Provenance& provenance = world.provenance;
   Flow flow;
+  flow.builds = std::holds_alternative<FillOperation>(operation);
   for (const BrickCoord coord : applied.changed) {
     const auto before = std::ranges::lower_bound(bricks_, coord, {}, &BrickBefore::coord);
     CHECK(before != bricks_.end() && before->coord == coord);
@@ -302,7 +325,7 @@ void OperationTrace::finish(const TracedWorld& world, const Operation& operation
   flow.level(world, rows_);
   for (const auto& [whose, mass] : flow.wanted)
     flow.give({PiecePlace{whose.first}, whose.second}, mass, provenance);
-  for (const PlaceMass& gain : flow.gains) flow.give(gain.place, gain.mass, provenance);
+  for (const PlaceMass& gain : flow.gains) flow.give_terrain(gain, provenance);
   for (const MaterialFlow& one : applied.flows) {
     CHECK(one.stored == 0 || store_);
     if (one.stored > 0) flow.give({StorePlace{store_->store}, one.material}, one.stored, provenance);
@@ -330,8 +353,15 @@ void rezone(const TracedWorld& world, const RegionZones& before) {
     };
     for (const PlaceMass& one : masses) mixed[whose(one.place)].total += one.mass;
     for (const auto& [place, shares] : provenance.take_brick(brick)) add(mixed[whose(place)].shares, shares);
-    for (const PlaceMass& one : masses) provenance.put(one.place, mixed[whose(one.place)].draw(one.mass));
-    for (const auto& [of, rest] : mixed) provenance.put({NoPlace{}, of.first}, rest.shares);
+    for (const PlaceMass& one : masses) {
+      OriginShares shares = mixed[whose(one.place)].draw(one.mass);
+      if (std::get<TerrainPlace>(one.place.at).region == 0) drop_foreign(shares);
+      provenance.put(one.place, shares);
+    }
+    for (auto& [of, rest] : mixed) {
+      drop_foreign(rest.shares);
+      provenance.put({NoPlace{}, of.first}, rest.shares);
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 #define XXH_INLINE_ALL
 #include <xxhash.h>
 
+#include "server/provenance/no_origin.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
 
@@ -102,6 +103,7 @@ void Provenance::enter_material(const OriginShares& shares, Material material) {
 
 void Provenance::change(const MassPlace& place, const OriginShare& share, int sign) {
   hash_ += static_cast<uint64_t>(static_cast<int64_t>(sign)) * hash_of(place, share);
+  if (share.origin == no_origin) return;
   row(share.origin, place.material).*member_of(place, share.origin) += sign * share.mass;
   changed_ = true;
 }
@@ -200,7 +202,7 @@ std::vector<PlacedMass> Provenance::value() const {
 void Provenance::restore(const std::vector<PlacedMass>& placed) {
   *this = Provenance();
   for (const auto& [place, share] : placed) {
-    cut(share.origin, place.material, share.mass);
+    if (share.origin != no_origin) cut(share.origin, place.material, share.mass);
     put(place, {share});
   }
   changed_ = true;
@@ -212,7 +214,10 @@ Result<void> validate(const std::vector<PlacedMass>& placed) {
   std::set<MassOrigin> origins;
   for (size_t i = 0; i < placed.size(); ++i) {
     const auto& [place, share] = placed[i];
-    if (share.origin.region == 0 || share.mass <= 0 || share.mass > limits::ledger_mass_max - sum)
+    const auto* const terrain_at = std::get_if<TerrainPlace>(&place.at);
+    const bool may_be = share.origin.region != 0 ||
+                        (share.origin == no_origin && terrain_at != nullptr && terrain_at->region != 0);
+    if (!may_be || share.mass <= 0 || share.mass > limits::ledger_mass_max - sum)
       return fail("mass of an origin is of no region, less than nothing, or more than there is");
     sum += share.mass;
     origins.insert(share.origin);

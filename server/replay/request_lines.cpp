@@ -22,8 +22,17 @@ struct Asked {
   std::string text{};
 };
 
-Asked of_region(std::string_view what, const std::string& name) {
-  return {what, {}, name};
+Asked asked_of(const Region& region) {
+  std::string forbidden;
+  for (const RegionRule& rule : region_rules)
+    if (region.forbids_any(rule.bit)) forbidden += (forbidden.empty() ? "" : ",") + std::string(rule.name);
+  const glm::vec3 at = region.centre_m, half = region.half_m;
+  return {"set_region",
+          {},
+          fmt::format("{}: {} at {:g} {:g} {:g}, half {:g} {:g} {:g}, forbids {}{}{}", region.name,
+                      name_of(region.form), at.x, at.y, at.z, half.x, half.y, half.z,
+                      forbidden.empty() ? "nothing" : forbidden, region.tells ? ", tells" : "",
+                      region.counts ? ", counts" : "")};
 }
 
 Asked asked_of(const DigRequest& dig) {
@@ -38,7 +47,8 @@ Asked asked_of(const PlaceRequest& place, const Palette& palette) {
 }
 
 Asked asked_of(const TransferRequest& transfer, const Palette& palette) {
-  const std::string of = transfer.material ? palette.row_or_first(*transfer.material).name : "all";
+  std::string of = transfer.material ? std::string(palette.row_or_first(*transfer.material).name) : "all";
+  if (transfer.mass != 0) of = fmt::format("{} units of {}", transfer.mass, of);
   return {"transfer", {}, fmt::format("{} from {} to {}", of, text_of(transfer.from), text_of(transfer.to))};
 }
 
@@ -120,8 +130,10 @@ Asked asked_by(const Request& request, const Palette& palette) {
                        {},
                        add.volume ? fmt::format("{} voxels", add.volume->window.codes.size()) : "no voxels"};
                  },
-                 [](const SetRegionRequest& set) { return of_region("set_region", set.region.name); },
-                 [](const RemoveRegionRequest& remove) { return of_region("remove_region", remove.name); }},
+                 [](const SetRegionRequest& set) { return asked_of(set.region); },
+                 [](const RemoveRegionRequest& remove) {
+                   return Asked{"remove_region", {}, remove.name};
+                 }},
       request);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "server/provenance/no_origin.h"
 #include "shared/base/overloaded.h"
 
 namespace scree {
@@ -76,7 +77,8 @@ Result<void> restore_provenance(World::State& state, const std::vector<PlacedMas
   for (size_t i = 0; i < placed.size(); ++i) {
     const auto& [place, share] = placed[i];
     at_place = i > 0 && placed[i - 1].place == place ? at_place + share.mass : share.mass;
-    if (!state.palette->has(place.material) || !state.regions.zones().counts(share.origin.region) ||
+    if (!state.palette->has(place.material) ||
+        !(share.origin == no_origin || state.regions.zones().counts(share.origin.region)) ||
         at_place > most_at(state, place))
       return fail("mass has an origin that is none, or lies where there is less");
   }

@@ -24,9 +24,11 @@ std::string quoted(const std::string& name) {
   return "'" + name + "'";
 }
 
-std::string names_of(const std::vector<std::string>& persons) {
+/// "Ann, Bo, the team red"; empty: nobody.
+std::string editors_of(const Region& region) {
   std::string names;
-  for (const std::string& person : persons) names += (names.empty() ? "" : ", ") + person;
+  for (const std::string& person : region.persons) names += (names.empty() ? "" : ", ") + person;
+  for (const std::string& team : region.teams) names += (names.empty() ? "the team " : ", the team ") + team;
   return names;
 }
 
@@ -38,8 +40,8 @@ std::string who_may(const Region& region) {
     case RegionEditors::role:
       return "only the role " + std::string(name_of(region.role)) + ", and those above it, may edit there";
     case RegionEditors::persons:
-      return region.persons.empty() ? "nobody may edit there"
-                                    : "only " + names_of(region.persons) + " may edit there";
+      return editors_of(region).empty() ? "nobody may edit there"
+                                        : "only " + editors_of(region) + " may edit there";
     case RegionEditors::all:
       return "all may edit there";
   }

@@ -71,6 +71,7 @@ CheckedRequest check_new(const World::State& state, const StoreName& store) {
 }
 
 CheckedRequest check_rate(const World::State& state, const StoreName& store) {
+  if (!traits_of(store.kind).is_persons) return {};
   const Stores::Rate rate = dig_rate(state);
   const MassUnits counts = state.stores.counting(store, state.tick, rate);
   if (rate.units == 0 || counts <= rate.units) return {};
@@ -105,8 +106,8 @@ CheckedRequest check_piece(const World::State& state, const DigRequest& request)
   return refuse(Refusal::shape_misses, "the shape is not at " + piece + ", which is elsewhere by now");
 }
 
-/// The props that a shape meets: for a capsule, those that its bounds meet.
-std::vector<PieceId> props_within(World::State& state, const Shape& shape) {
+/// The props and kept pieces that a shape meets: for a capsule, those that its bounds meet.
+std::vector<PieceId> bodies_within(World::State& state, const Shape& shape) {
   const float dx = state.config.terrain.voxel_size_m;
   const glm::vec3 middle_m = centre_of(shape);
   const float touch_m = touch_voxels * dx;
@@ -115,18 +116,21 @@ std::vector<PieceId> props_within(World::State& state, const Shape& shape) {
   if (shape.kind == ShapeKind::capsule) half_m = 0.5F * glm::abs(shape.b - shape.a) + shape.radius_m;
   half_m = glm::max(half_m - touch_m, glm::vec3(touch_m));
   SceneMaker maker;
-  maker.begin(state.props.size());
+  maker.begin(state.bodies.size());
+  const auto pose_of = [&](PieceId id) { return dequantise(quantise(state.bodies.state(id).pose)); };
   for (const PieceId id : state.bodies.near(middle_m - half_m, middle_m + half_m)) {
     const auto prop = state.props.find(id);
-    if (prop == state.props.end()) continue;
-    maker.add_prop(id, dequantise(quantise(state.bodies.state(id).pose)), prop->second.prop);
+    if (prop != state.props.end())
+      maker.add_prop(id, pose_of(id), prop->second.prop);
+    else if (state.traits_of(id).kept)
+      maker.add_piece(id, pose_of(id), *state.pieces.at(id));
   }
   const HeldScene scene = maker.make_apart(state.field);
   if (scene.scene().solids().empty()) return {};
-  const QueryMask props{.terrain = false, .pieces = false};
+  const QueryMask bodies{.terrain = false};
   const bool is_round = shape.kind == ShapeKind::sphere || shape.kind == ShapeKind::crater;
-  const auto found = is_round ? overlap_sphere(scene, middle_m, half_m.x, props)
-                              : overlap_box(scene, middle_m - half_m, middle_m + half_m, props);
+  const auto found = is_round ? overlap_sphere(scene, middle_m, half_m.x, bodies)
+                              : overlap_box(scene, middle_m - half_m, middle_m + half_m, bodies);
   return found ? found->answer.ids : std::vector<PieceId>{scene.scene().solids().front().id};
 }
 
@@ -179,6 +183,9 @@ PlaceOperation operation_of(const World::State& state, const PlaceRequest& reque
 CheckedRequest check(const World::State& state, const DigRequest& request) {
   TRY(check_name(request.store, Refusal::dig_invalid));
   if (request.piece == 0 || state.pieces.contains(request.piece)) return {};
+  if (state.props.contains(request.piece))
+    return refuse(Refusal::body_missing,
+                  "body " + std::to_string(request.piece) + " is a prop, and no piece of rock");
   return refuse(Refusal::body_missing,
                 "there is no piece " + std::to_string(request.piece) + ": it may have become terrain");
 }
@@ -224,9 +231,12 @@ Performed perform(World::State& state, const DigRequest& request, uint64_t party
 Performed perform(World::State& state, const PlaceRequest& request, uint64_t party, TickDelta& delta) {
   PlaceOperation operation = operation_of(state, request);
   const Material material = state.field.rubble().stones[row_number(operation.material)];
-  if (const std::vector<PieceId> props = props_within(state, request.shape); !props.empty())
-    return refuse(Refusal::in_the_way,
-                  "prop " + std::to_string(props.front()) + " is in the way: move it, or place elsewhere");
+  if (const std::vector<PieceId> bodies = bodies_within(state, request.shape); !bodies.empty()) {
+    const bool is_prop = state.props.contains(bodies.front());
+    return refuse(Refusal::in_the_way, (is_prop ? "prop " : "the kept piece ") +
+                                           std::to_string(bodies.front()) +
+                                           " is in the way: move it, or place elsewhere");
+  }
   TRY(check_shapes(state, request, material));
   const uint32_t enclosed = merge_enclosed(state, request.shape, delta);
   if (enclosed > 0) TRY(check_shapes(state, request, material));

@@ -1,8 +1,10 @@
 #include "shared/person/solid_ground.h"
 
+#include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <optional>
 
 #include "shared/field/voxel_vector.h"
 #include "shared/field/window_sample.h"
@@ -18,6 +20,38 @@ constexpr float near_m = 6.0F;
 WalkGround::Touch touch_of(const FieldSample& sample, float voxel_m) {
   const float slope = glm::length(sample.gradient);
   return {sample.distance_voxels * voxel_m, slope > 1e-4F ? sample.gradient / slope : glm::vec3(0.0F)};
+}
+
+/// A surface that lies where the field says has at most that distance there, voxels.
+constexpr float surface_voxels = 0.5F;
+
+/// Along the axes and between them: unit.
+constexpr float third = 0.57735027F;  // 1 / sqrt(3)
+constexpr std::array<glm::vec3, 14> directions = {{{0.0F, -1.0F, 0.0F},
+                                                   {0.0F, 1.0F, 0.0F},
+                                                   {1.0F, 0.0F, 0.0F},
+                                                   {-1.0F, 0.0F, 0.0F},
+                                                   {0.0F, 0.0F, 1.0F},
+                                                   {0.0F, 0.0F, -1.0F},
+                                                   {third, third, third},
+                                                   {third, third, -third},
+                                                   {third, -third, third},
+                                                   {third, -third, -third},
+                                                   {-third, third, third},
+                                                   {-third, third, -third},
+                                                   {-third, -third, third},
+                                                   {-third, -third, -third}}};
+
+/// The nearest rock within a body's radius, as far as rays meet it.
+WalkGround::Touch nearest_rock(const Field& field, glm::vec3 place_m, float voxel_m) {
+  WalkGround::Touch nearest{Walker::radius_m, glm::vec3(0.0F)};
+  const glm::vec3 from = place_m / voxel_m;
+  for (const glm::vec3& direction : directions) {
+    const std::optional<float> along = trace(field, from, direction, nearest.distance_m / voxel_m);
+    if (!along || *along * voxel_m >= nearest.distance_m) continue;
+    nearest = {*along * voxel_m, touch_of(sample(field, from + direction * *along), voxel_m).away};
+  }
+  return nearest;
 }
 
 }  // namespace
@@ -46,7 +80,12 @@ void SolidGround::add(const Prop& prop, const Pose& pose) {
 }
 
 WalkGround::Touch SolidGround::rock(glm::vec3 place_m) {
-  return touch_of(sample(field_, place_m / voxel_m_), voxel_m_);
+  const Touch touch = touch_of(sample(field_, place_m / voxel_m_), voxel_m_);
+  if (touch.distance_m <= 0.0F || touch.distance_m >= Walker::radius_m) return touch;
+  // Above a surface that was taken away, the field may still say how far it was: no more than what is true.
+  const glm::vec3 surface_m = place_m - touch.away * touch.distance_m;
+  if (sample(field_, surface_m / voxel_m_).distance_voxels <= surface_voxels) return touch;
+  return nearest_rock(field_, place_m, voxel_m_);
 }
 
 WalkGround::Touch SolidGround::touch_of_part(const NearPart& part, glm::vec3 place_m) const {

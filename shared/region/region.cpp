@@ -22,6 +22,7 @@ bool is_number(glm::vec3 v) {
 Result<void> check_name(const std::string& name, const std::string& whose) {
   if (name.empty() || name.size() > limits::region_name_bytes_max)
     return fail(whose + " has 1 to " + std::to_string(limits::region_name_bytes_max) + " bytes");
+  if (name.find_first_not_of(' ') == std::string::npos) return fail(whose + " is blank");
   if (const auto fault = fault_of_text(name)) return fail(whose + " " + std::string(*fault));
   return {};
 }

@@ -169,5 +169,25 @@ TEST(Sight, refuses_what_terrain_hides_from_the_eye) {
   EXPECT_EQ(world.last().replies[0].refusal, "");
 }
 
+TEST(PersonDigs, who_stands_on_ground_that_is_taken_away_falls) {
+  // The deeper the middle, the less the field above the hole tells of it.
+  for (const float y_m : {-0.5F, -1.0F, -1.2F}) {
+    PersonWorld world;
+    world.stand(7, {0.0F, 0.5F, 0.0F});
+    world.steps(60);
+    ASSERT_NEAR(world.feet_m(7).y, 0.0F, 0.02F);
+    DigRequest dig{sphere({0.0F, y_m, 0.0F}, 1.5F)};
+    dig.store = worlds_store();
+    ASSERT_EQ(world.ask(dig).refusal, "");
+    world.steps(90);
+    EXPECT_NEAR(world.feet_m(7).y, y_m - 1.5F, 0.3F) << y_m;
+    EXPECT_TRUE(world.person(7).walker.stands) << y_m;
+    // A wall of the hole stops who walks against it.
+    world.walk(7, {{1.0F, 0.0F, 0.0F}}, 60);
+    EXPECT_LT(world.feet_m(7).x, 1.4F) << y_m;
+    EXPECT_LT(world.feet_m(7).y, -0.3F) << y_m;
+  }
+}
+
 }  // namespace
 }  // namespace scree

@@ -295,6 +295,74 @@ TEST(RegionMass, follows_a_region_that_moves_and_is_forgotten_with_it) {
   EXPECT_TRUE(world.world().snapshot().moment.provenance.empty());
 }
 
+/// The rows' sum of one member.
+MassUnits sum_of_rows(const PropWorld& world, MassUnits RegionMass::*member) {
+  MassUnits sum = 0;
+  for (const RegionMass& row : const_cast<PropWorld&>(world).world().region_masses()) sum += row.*member;
+  return sum;
+}
+
+TEST(RegionMass, rock_from_elsewhere_is_not_the_regions_however_it_moves_there) {
+  PropWorld world(rock_world());
+  SetRegionRequest set = set_box(glm::vec3(0.0F), glm::vec3(10.0F), 0);
+  set.region.counts = true;
+  ASSERT_EQ(world.ask(set).refusal, "");
+  ASSERT_EQ(world.ask(DigRequest{sphere({60.0F, -4.0F, 0.0F}, 3.0F), 0, worlds_store()}).refusal, "");
+  // Rubble that slides, and rock in the air that falls and merges.
+  ASSERT_EQ(world
+                .ask(PlaceRequest{box({0.0F, 1.9F, -6.0F}, {0.5F, 2.0F, 0.5F}), material::rock, false,
+                                  worlds_store()})
+                .refusal,
+            "");
+  ASSERT_EQ(
+      world.ask(PlaceRequest{box({6.0F, 6.0F, 6.0F}, glm::vec3(0.7F)), material::rock, true, worlds_store()})
+          .refusal,
+      "");
+  world.steps(400);
+  EXPECT_TRUE(world.last().pieces.empty());
+  // What lay there before may have gone a little, where the block struck it.
+  EXPECT_LT(sum_of_rows(world, &RegionMass::cut), 254 * 20);
+  // Dug up again, it is still not the region's.
+  ASSERT_EQ(
+      world.ask(DigRequest{box({0.0F, 1.6F, -6.0F}, {1.5F, 1.2F, 1.5F}), 0, named_store("red")}).refusal, "");
+  EXPECT_LT(sum_of_rows(world, &RegionMass::cut), 254 * 20);
+}
+
+TEST(RegionMass, paint_cuts_nothing_and_fills_are_the_regions_own) {
+  PropWorld world(rock_world());
+  SetRegionRequest set = set_box(glm::vec3(0.0F), glm::vec3(10.0F), 0);
+  set.region.counts = true;
+  ASSERT_EQ(world.ask(set).refusal, "");
+  ASSERT_EQ(world.ask(FillRequest{box({0.0F, 2.0F, 0.0F}, glm::vec3(1.0F))}).refusal, "");
+  ASSERT_EQ(world.ask(PaintRequest{sphere({0.0F, 2.0F, 0.0F}, 2.0F), material::ice}).refusal, "");
+  EXPECT_EQ(sum_of_rows(world, &RegionMass::cut), 0);
+  ASSERT_EQ(world.ask(DigRequest{box({0.0F, 2.5F, 0.0F}, glm::vec3(2.0F)), 0, worlds_store()}).refusal, "");
+  EXPECT_EQ(sum_of_rows(world, &RegionMass::cut), world.last().ledger.stored);
+  // Rubble of the region's own rock that was painted is the region's still.
+  ASSERT_EQ(
+      world.ask(PlaceRequest{box({0.0F, 2.0F, 0.0F}, glm::vec3(0.8F)), material::ice, false, worlds_store()})
+          .refusal,
+      "");
+  const MassUnits back = sum_of_rows(world, &RegionMass::back);
+  EXPECT_GT(back, 0);
+  ASSERT_EQ(world.ask(PaintRequest{sphere({0.0F, 2.0F, 0.0F}, 2.5F), material::rock}).refusal, "");
+  EXPECT_EQ(sum_of_rows(world, &RegionMass::back), back);
+}
+
+TEST(RegionMass, adds_up_under_blasts_with_every_method_of_merging) {
+  for (const Recombination method : all_kinds<Recombination>) {
+    WorldConfig config = flat_world();
+    config.methods.recombine = method;
+    PropWorld world(config);
+    SetRegionRequest set = set_box({40.0F, 0.0F, 0.0F}, glm::vec3(10.0F), 0);
+    set.region.counts = true;
+    ASSERT_EQ(world.ask(set).refusal, "");
+    ASSERT_EQ(world.ask(BlastRequest{{40.0F, 0.0F, 0.0F}, 4e6F, 1}).refusal, "");
+    world.steps(200);
+    EXPECT_GT(sum_of_rows(world, &RegionMass::cut), 0) << name_of(method);
+  }
+}
+
 TEST(RegionMass, counts_nothing_where_no_region_asks_for_it) {
   PropWorld world(rock_world());
   ASSERT_EQ(world.ask(set_box({0.0F, 0.0F, 0.0F}, glm::vec3(9.0F), 0)).refusal, "");

@@ -3,10 +3,16 @@
 
 #include "client/admin/programs/world_commands.h"
 #include "shared/base/option_check.h"
+#include "shared/field/mass.h"
 
 namespace scree {
 
 namespace {
+
+Printed mass_text(const AdminServer& server, MassUnits mass) {
+  const auto world = TRY(read_world(server));
+  return fmt::format("done, {:.3f} m³\n", m3_of(mass, world));
+}
 
 std::string answer_text(const ReplyMessage& reply, bool as_json) {
   if (as_json) {
@@ -17,7 +23,6 @@ std::string answer_text(const ReplyMessage& reply, bool as_json) {
     return json.dump(2) + "\n";
   }
   if (reply.joint) return fmt::format("joint {} is added\n", *reply.joint);
-  if (reply.mass) return fmt::format("done, {} units of mass\n", *reply.mass);
   if (reply.prop && reply.pieces > 0)
     return fmt::format("piece {} is kept, the first of {}\n", *reply.prop, reply.pieces);
   if (reply.prop) return fmt::format("prop {} is added\n", *reply.prop);
@@ -26,12 +31,20 @@ std::string answer_text(const ReplyMessage& reply, bool as_json) {
 
 }  // namespace
 
+double m3_of(MassUnits mass, const WorldFacts& world) {
+  const double voxel_m = world.voxel_size_m;
+  return static_cast<double>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m;
+}
+
 glm::vec3 vector_of(const Place& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
 CLI::Option* add_place(CLI::App* command, const std::string& name, Place& to, const std::string& what) {
-  return command->add_option(name, to, what)->delimiter(',');
+  return command->add_option(name, to, what)->delimiter(',')->check([](const std::string& text) {
+    const bool is_number = text.find_first_not_of("0123456789+-.eE,") == std::string::npos;
+    return is_number ? std::string() : "'" + text + "' is no number";
+  });
 }
 
 CLI::Option* add_id(CLI::App* command, const std::string& name, PieceId& to, const std::string& what,
@@ -51,7 +64,7 @@ CLI::Option* add_id(CLI::App* command, const std::string& name, PieceId& to, con
 Printed run_request(const AdminServer& server, const Made& request, bool as_json) {
   if (!request) return tl::unexpected(request.error());
   const auto reply = TRY(ask_world(server, *request));
-  return answer_text(reply, as_json);
+  return reply.mass && !as_json ? mass_text(server, *reply.mass) : answer_text(reply, as_json);
 }
 
 }  // namespace scree

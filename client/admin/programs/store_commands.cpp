@@ -4,7 +4,6 @@
 #include <memory>
 
 #include "client/admin/programs/world_commands.h"
-#include "shared/field/mass.h"
 
 namespace scree {
 
@@ -67,23 +66,28 @@ Made transfer_of(const StoreWords& words, const WorldFacts& world) {
   if (!to) return misused(to.error());
   transfer.from = *from;
   transfer.to = *to;
+  if (words.material.empty() && words.volume_m3 != 0.0)
+    return misused({"a volume is of one material: say --material, too"});
   if (words.material.empty()) return transfer;
   const auto material = material_named(world.palette, words.material);
   if (!material) return misused(material.error());
   transfer.material = *material;
-  const double voxel_m = world.voxel_size_m;
-  const double units = words.volume_m3 / (voxel_m * voxel_m * voxel_m) * units_per_voxel;
+  const double units = words.volume_m3 / m3_of(1, world);
   if (!(units >= 0.0 && units < 1e15)) return misused({"a volume is a number of cubic metres, 0 for all"});
   transfer.mass = std::llround(units);
+  if (transfer.mass == 0 && words.volume_m3 > 0.0)
+    return misused({"the volume is less than a unit of mass, and none is all: say more"});
   return transfer;
 }
 
 void add_shape(CLI::App* command, StoreWords& words) {
   add_place(command, "--at", words.at_m, "X Y Z of the shape's middle, metres")->required();
-  command->add_option("--radius", words.radius_m, "the radius of a ball, metres")->capture_default_str();
+  CLI::Option* const radius =
+      command->add_option("--radius", words.radius_m, "the radius of a ball, metres")->capture_default_str();
   command->add_option("--half", words.half_m, "X Y Z: half the sides of a box instead, metres")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->excludes(radius);
   command
       ->add_option("--store", words.store,
                    "own, world, session:NUMBER, token:ID, or a name of the game's; a director's but for own")
