@@ -20,7 +20,7 @@ struct AccessToken {
   uint64_t expires_s = 0;  ///< 0: never
   std::string name;        ///< the person's; empty: as the person says
   std::string world;       ///< name of the only world that it is for; empty: any
-  std::string team;        ///< the person's; empty: none
+  std::string team{};      ///< the person's; empty: none
 
   bool operator==(const AccessToken&) const = default;
 };

@@ -93,7 +93,7 @@ class NamedPersons : public NetServerTest {
     return client;
   }
   std::string token_of(const std::string& name, uint64_t id) const {
-    return *sign({id, Role::builder, 0, 0, name, "", ""}, key);
+    return *sign({id, Role::builder, 0, 0, name, ""}, key);
   }
   /// The name under which others hear the speaker. Who spoke before hears the own line, too.
   std::string heard(RawClient& speaker, RawClient& listener) {
