@@ -30,6 +30,14 @@ std::string names_of(const std::vector<std::string>& persons) {
   return names;
 }
 
+/// "Ann, Bob, the teams red, blue".
+std::string persons_and_teams(const Region& region) {
+  std::string names = names_of(region.persons);
+  if (region.teams.empty()) return names;
+  if (!names.empty()) names += ", ";
+  return names + (region.teams.size() > 1 ? "the teams " : "the team ") + names_of(region.teams);
+}
+
 /// "only a director and roles above may edit there".
 std::string who_may(const Region& region) {
   switch (region.editors) {
@@ -38,8 +46,9 @@ std::string who_may(const Region& region) {
     case RegionEditors::role:
       return "only the role " + std::string(name_of(region.role)) + ", and those above it, may edit there";
     case RegionEditors::persons:
-      return region.persons.empty() ? "nobody may edit there"
-                                    : "only " + names_of(region.persons) + " may edit there";
+      return region.persons.empty() && region.teams.empty()
+                 ? "nobody may edit there"
+                 : "only " + persons_and_teams(region) + " may edit there";
     case RegionEditors::all:
       return "all may edit there";
   }
