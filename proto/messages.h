@@ -151,9 +151,6 @@ struct LiftBanRequest {
   std::string address;
 };
 struct ListStoresRequest {};
-struct ListRegionMassesRequest {
-  std::string region;  ///< the name of one; empty: all
-};
 using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
                                   ListBansRequest, LiftBanRequest, ControlReplayRequest, ListBodiesRequest,
                                   ListJointsRequest, ListStoresRequest, ListRegionMassesRequest>;

@@ -9,7 +9,6 @@
 #include "client/bot/tally.h"
 #include "client/cache/join_server.h"
 #include "client/connection/come_again.h"
-#include "client/session/edit_reach.h"
 #include "client/session/join_and_wait.h"
 #include "proto/spawn_direction.h"
 #include "shared/base/near_name.h"
@@ -88,7 +87,8 @@ void Bot::stand_on_ground() {
 void Bot::count_connection() {
   report_.seen += client_.mirror()->counters();
   report_.bytes_sent += client_.counters().sent_bytes;
-  report_.carves_lost += static_cast<uint32_t>(requests_.size());
+  for (const auto& [number, request] : requests_)
+    ++(request.kind == Kind::carve ? report_.carves_lost : moves(request.kind).lost);
   requests_.clear();
   unseen_.clear();
   foot_.reset();
@@ -191,23 +191,16 @@ void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
   for (size_t i = 0; i < latency_stages.size(); ++i)
     report_.server_latencies_ms[i].push_back(static_cast<double>(latency.server.*latency_stages[i].us) /
                                              1000.0);
-  if (reply.refusal.empty()) {
-    ++report_.carves_accepted;
-    unsaved_.push_back(reply.tick);
-  } else {
-    ++report_.carves_refused;
-    ++report_.refusals[reply.refusal_name];
-    unseen_.erase(request->second.random_seed);
-    log("refused",
-        fmt::format("carve {} was refused ({}): {}", reply.request, reply.refusal_name, reply.refusal));
-  }
+  if (!reply.refusal.empty()) unseen_.erase(request->second.random_seed);
+  count(request->second.kind, reply);
   requests_.erase(request);
-  if (report_.carves_asked == config_.carves && requests_.empty()) log("answered", "all carves are answered");
+  if (all_asked() && requests_.empty()) log("answered", "all requests are answered");
 }
 
 void Bot::receive_status(const StatusMessage& status) {
   report_.carves_saved +=
       static_cast<uint32_t>(std::erase_if(unsaved_, [&](Tick tick) { return tick <= status.saved_tick; }));
+  knows_store_ = report_.digs.asked == config_.digs && report_.digs.waiting() == 0;
   const Mirror& mirror = *client_.mirror();
   if (status.tick == mirror.tick()) {
     HashComparison& hash = report_.hash;
@@ -216,7 +209,7 @@ void Bot::receive_status(const StatusMessage& status) {
   }
   const bool at_rest = status.pieces == 0 && mirror.pieces().empty();
   const bool was_settled = report_.settled;
-  report_.settled = at_rest && rest_hash_ == status.field_hash;
+  report_.settled = all_done() && at_rest && rest_hash_ == status.field_hash;
   rest_hash_ = at_rest ? std::optional(status.field_hash) : std::nullopt;
   if (report_.settled && !was_settled) log("settled", fmt::format("settled at tick {}", status.tick));
   if (!scripted_work_done()) return;
@@ -224,40 +217,9 @@ void Bot::receive_status(const StatusMessage& status) {
   compared_ = report_.hash.equal || final_statuses_ >= limits::bot_final_statuses_max;
 }
 
-void Bot::ask(Clock::time_point now) {
-  stand_on_ground();
-  if (first_frame_ == 0 || !client_.rejoin().has_near_ground()) return;
-  while (report_.carves_asked < config_.carves && requests_.size() < limits::bot_requests_waiting_max) {
-    const double due_ms = config_.rate_hz > 0.0 ? 1000.0 * report_.carves_asked / config_.rate_hz : 0.0;
-    if (ms_between(first_frame_at_, now) < due_ms) return;
-    const CarveMessage carve = carver_.next(client_.mirror()->field(), ++report_.carves_asked);
-    const Clock::time_point sent = Clock::now();
-    requests_[carve.request] = {sent, carve.random_seed};
-    unseen_[carve.random_seed] = sent;
-    go_near(carve.impact_m);
-    if (const auto paint = client_.mirror()->palette()->named(config_.paint))
-      client_.send(PaintMessage{{carve.shape, *paint}, 0});
-    client_.send(carve);
-  }
-}
-
-/// Servers refuse edits far from the eye. What is not known yet is as servers have it by default.
-void Bot::go_near(glm::vec3 place_m) {
-  const auto told_m = edit_reach_m(client_.mirror()->status(), report_.welcome.role);
-  const float reach_m = std::min(limits::bot_reach_m, told_m.value_or(limits::bot_reach_m));
-  if (glm::distance(eye_m_, place_m) <= reach_m) return;
-  const float ground_m = ground_height_m(client_.mirror()->terrain(), place_m.x, place_m.z);
-  set_interest({place_m.x, ground_m, place_m.z}, config_.interest_radius_m);
-}
-
-bool Bot::scripted_work_done() const {
-  return first_frame_ != 0 && walked() && report_.carves_asked == config_.carves && requests_.empty() &&
-         (!config_.linger || report_.settled);
-}
-
 bool Bot::finished() const {
-  const bool handshake_only =
-      config_.carves == 0 && config_.walks == 0 && !config_.linger && !config_.check_hash;
+  const bool handshake_only = config_.carves + config_.digs + config_.places + config_.walks == 0 &&
+                              !config_.linger && !config_.check_hash;
   return scripted_work_done() && (handshake_only || compared_);
 }
 
@@ -273,7 +235,7 @@ BotReport Bot::run() {
     going = step(step_wait);
     if (going && ms_between(started_, Clock::now()) > config_.timeout_s * 1000.0) {
       report_.failure =
-          fmt::format("not finished within {} s (--timeout): {} carves unanswered, {} pieces alive",
+          fmt::format("not finished within {} s (--timeout): {} requests unanswered, {} pieces alive",
                       config_.timeout_s, requests_.size(), report_.status.pieces);
       break;
     }
@@ -293,6 +255,8 @@ BotReport Bot::report() const {
   report.bytes_sent += client_.counters().sent_bytes;
   report.pieces_alive = mirror.pieces().size();
   report.chunks_held = mirror.held_chunks().size();
+  for (const MaterialMass& one : mirror.carried())
+    report.carried[mirror.palette()->row_or_first(one.material).name] += one.mass;
   const double seconds = ms_between(first_frame_at_, last_frame_at_) / 1000.0;
   if (seconds > 0.0) report.ticks_per_s = static_cast<double>(mirror.tick() - first_frame_) / seconds;
   return report;

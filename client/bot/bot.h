@@ -1,4 +1,5 @@
-// A client without a window: carves by script, follows the results, and reports.
+// A client without a window: carves, digs and places by script, on foot or not, follows the results, and
+// reports.
 //
 // step() does all work on the caller's thread; only the socket has another thread. After a lost connection
 // the bot connects again, a bounded number of times, with a new mirror, unless the server refused it for a
@@ -14,6 +15,7 @@
 #include <unordered_map>
 
 #include "client/bot/carver.h"
+#include "client/bot/place_plan.h"
 #include "client/bot/random_walk.h"
 #include "client/bot/report.h"
 #include "client/connection/connection.h"
@@ -25,9 +27,11 @@ namespace scree {
 
 struct BotConfig : ServerEndpoint {
   uint32_t carves = 20;  ///< 0: the bot ends after the handshake and one frame
-  uint32_t walks = 0;    ///< on foot, beside the carves; 0: the bot flies
+  uint32_t digs = 0;     ///< after the carves
+  uint32_t places = 0;   ///< after the digs, out of what the bot carries
+  uint32_t walks = 0;    ///< on foot, beside all of these; 0: the bot flies
   uint64_t random_seed = 1;
-  double rate_hz = 2.0;  ///< carves a second; 0: as fast as replies come
+  double rate_hz = 2.0;  ///< carves, digs and places a second; 0: as fast as replies come
   CarverConfig carver;
   bool at_spawn = false;  ///< carve before the eyes of who begins in the world, not around carver.centre_m
   std::string paint;      ///< material with which the rock of each carve is painted first; empty: none
@@ -66,9 +70,11 @@ class Bot {
 
  private:
   using Clock = std::chrono::steady_clock;
+  enum class Kind : uint8_t { carve, dig, place };
   struct Request {
     Clock::time_point sent;
-    uint32_t random_seed = 0;
+    Kind kind = Kind::carve;
+    uint32_t random_seed = 0;  ///< of a carve
   };
 
   tl::expected<void, ConnectionEnd> connect();
@@ -82,10 +88,23 @@ class Bot {
   void receive_status(const StatusMessage& status);
   Result<bool> knows_paint() const;
   void ask(Clock::time_point now);
+  std::optional<Kind> next_kind() const;
+  bool may_edit() const;
+  bool all_asked() const;
+  void carve(Clock::time_point now);
+  void dig(Clock::time_point now);
+  void place(Clock::time_point now);
+  uint32_t number_of(Kind kind);
+  MoveReport& moves(Kind kind);
+  void count(Kind kind, const ReplyMessage& reply);
+  Carver::Target aim();
+  Carver::Target aim_apart(float apart_m);
+  float reach_m() const;
   void go_near(glm::vec3 place_m);
   void walk(Clock::time_point now);
   bool walked() const { return config_.walks == 0 || (walk_ && walk_->is_over()); }
-  bool scripted_work_done() const;
+  bool all_done() const { return first_frame_ != 0 && walked() && all_asked() && requests_.empty(); }
+  bool scripted_work_done() const { return all_done() && (!config_.linger || report_.settled); }
   void log(std::string_view kind, const std::string& line);
 
   BotConfig config_;
@@ -102,6 +121,8 @@ class Bot {
   Clock::time_point first_frame_at_;
   Clock::time_point last_frame_at_;
   Tick first_frame_ = 0;
+  bool knows_store_ = false;           ///< a status has come since all digs were answered
+  std::optional<PlacePlan> places_;    ///< since the first place
   std::optional<uint64_t> rest_hash_;  ///< of the field when no piece was left, at the last status
   std::optional<RandomWalk> walk_;
   std::optional<WalkPrediction> foot_;  ///< of this connection

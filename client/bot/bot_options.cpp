@@ -43,6 +43,21 @@ void add_interest(CLI::App& app, BotConfig& bot) {
       ->capture_default_str();
 }
 
+void add_moving(CLI::App& app, BotConfig& bot) {
+  bounded(app.add_option("--digs", bot.digs,
+                         "number of digs, after the carves: what is dug goes into the bot's store"),
+          whole_within(0, 1e6))
+      ->envname("SCREE_DIGS")
+      ->capture_default_str();
+  bounded(
+      app.add_option(
+          "--places", bot.places,
+          "number of places, after the digs: each puts down its share of what the bot carries, as rubble"),
+      whole_within(0, 1e6))
+      ->envname("SCREE_PLACES")
+      ->capture_default_str();
+}
+
 void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
   bounded(app.add_option("--carves", bot.carves, "number of carves; 0 only checks that the server answers"),
           whole_within(0, 1e6))
@@ -57,13 +72,14 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
           whole_within(0, whole_most))
       ->envname("SCREE_SEED")
       ->capture_default_str();
-  bounded(app.add_option("--rate", bot.rate_hz, "carves a second; 0: one after each reply"), {0.0, 1000.0})
+  bounded(app.add_option("--rate", bot.rate_hz, "carves, digs and places a second; 0: one after each reply"),
+          {0.0, 1000.0})
       ->envname("SCREE_RATE")
       ->capture_default_str();
   // A radius over the server's limit is allowed, to show the server's refusal; so are too many seeds.
-  bounded(
-      app.add_option("--radius", bot.carver.radius_m, "radius of a carve, metres; servers allow 8 at most"),
-      {0.0, 1e6})
+  bounded(app.add_option("--radius", bot.carver.radius_m,
+                         "radius of a carve or a dig, metres; servers allow 8 at most"),
+          {0.0, 1e6})
       ->envname("SCREE_RADIUS")
       ->capture_default_str();
   bounded(app.add_option("--seeds", bot.carver.seeds, "largest number of pieces of a carve"),
@@ -73,7 +89,7 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
   std::vector<std::string> shapes;
   for (const ShapeKind kind : bot_shapes) shapes.emplace_back(name_of(kind));
   app.add_option("--shape", words.shape,
-                 "shape of a carve: sphere, or crater, a ball with a wall of rough rock")
+                 "shape of a carve or a dig: sphere, or crater, a ball with a wall of rough rock")
       ->envname("SCREE_SHAPE")
       ->check(CLI::IsMember(shapes))
       ->capture_default_str();
@@ -141,6 +157,7 @@ std::variant<BotOptions, int> parse_bot_options(int argc, char** argv) {
   CacheOptions cache(app, options.bot.cache, 0);
   add_interest(app, options.bot);
   add_carving(app, options.bot, words);
+  add_moving(app, options.bot);
   add_ending(app, options);
   try {
     app.parse(argc, argv);

@@ -1,6 +1,7 @@
 #include "client/bot/bot_program.h"
 
 #include <cstdio>
+#include <fmt/format.h>
 #include <fstream>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
@@ -23,6 +24,18 @@ bool write_report(const std::string& path, const std::string& json) {
   return file.good();
 }
 
+std::string counted(const MoveReport& moves, const char* kind) {
+  return fmt::format("{} {} asked, {} accepted, {} refused, {} lost", moves.asked, kind, moves.accepted,
+                     moves.refused, moves.lost);
+}
+
+std::string carried_in_words(const BotReport& report) {
+  std::string words;
+  for (const auto& [material, mass] : report.carried)
+    words += fmt::format("{}{:.2f} m³ {}", words.empty() ? "carries " : ", ", m3_of(mass, report), material);
+  return words.empty() ? "carries nothing" : words;
+}
+
 int run(const BotOptions& options) {
   Bot bot(options.bot, [](const std::string& line) { spdlog::info(line); });
   const BotReport report = bot.run();
@@ -32,6 +45,10 @@ int run(const BotOptions& options) {
   spdlog::info("{} carves asked, {} accepted, {} refused, {} lost; {} pieces made, {} merged, {} alive",
                report.carves_asked, report.carves_accepted, report.carves_refused, report.carves_lost,
                report.seen.pieces_made, report.seen.pieces_merged, report.pieces_alive);
+  if (options.bot.digs > 0 || options.bot.places > 0)
+    spdlog::info("{}, {:.2f} m³ dug; {}, {:.2f} m³ placed; {}", counted(report.digs, "digs"),
+                 m3_of(report.digs.mass, report), counted(report.places, "places"),
+                 m3_of(report.places.mass, report), carried_in_words(report));
   if (options.bot.walks > 0)
     spdlog::info(
         "{} walks, {} inputs, {} refused; {} corrections, of {:.3f} m at most; {:.3f} m deep in rock at "

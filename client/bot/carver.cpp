@@ -32,19 +32,19 @@ std::vector<glm::vec3> masonry(glm::vec3 centre_m, float radius_m, uint32_t coun
   return places;
 }
 
-}  // namespace
-
-bool Carver::is_within(glm::vec3 place_m) const {
+bool is_within_square(glm::vec3 place_m, glm::vec3 centre_m, float half_m) {
   constexpr float rounding_m = 0.01F;
-  const glm::vec3 off_m = glm::abs(place_m - config_.centre_m);
-  return std::max(off_m.x, off_m.z) <= config_.area_m + rounding_m;
+  const glm::vec3 off_m = glm::abs(place_m - centre_m);
+  return std::max(off_m.x, off_m.z) <= half_m + rounding_m;
 }
 
-Carver::Hit Carver::find_target(Field& field) {
+}  // namespace
+
+Carver::Target Carver::aim_near(Field& field, glm::vec3 centre_m, float half_m) {
   const TerrainSource& terrain = field.source();
   const auto around = [&](float half) { return (random_.unit() * 2.0F - 1.0F) * half; };
-  const float x_m = config_.centre_m.x + around(config_.area_m);
-  const float z_m = config_.centre_m.z + around(config_.area_m);
+  const float x_m = centre_m.x + around(half_m);
+  const float z_m = centre_m.z + around(half_m);
   const float ground_m = ground_height_m(terrain, x_m, z_m);
   const glm::vec3 aim_m(x_m, ground_m, z_m);
   // Every second ray is slanted: it finds cliffs, overhangs and arches, which a vertical one would miss.
@@ -56,17 +56,20 @@ Carver::Hit Carver::find_target(Field& field) {
     const glm::vec3 eye_m = aim_m + direction_tried * (eye_height_m / direction_tried.y);
     const auto distance = trace(field, eye_m / dx, direction_tried, limits::bot_sight_m / dx);
     const glm::vec3 hit_m = eye_m + direction_tried * (distance.value_or(0.0F) * dx);
-    if (distance && is_within(hit_m)) return {hit_m, direction_tried};
+    if (distance && is_within_square(hit_m, centre_m, half_m)) return {hit_m, direction_tried};
   }
   return {aim_m, glm::vec3(0.0F, -1.0F, 0.0F)};
 }
 
-CarveMessage Carver::next(Field& field, uint32_t request) {
-  const Hit hit = find_target(field);
+Shape Carver::shape_at(const Target& target) const {
+  return {config_.shape, target.point_m + target.direction * (config_.radius_m * carve_depth_in_radii),
+          glm::vec3(0.0F), config_.radius_m};
+}
+
+CarveMessage Carver::carve(const Target& target, uint32_t request) {
   CarveMessage carve;
   carve.request = request;
-  carve.shape = {config_.shape, hit.point_m + hit.direction * (config_.radius_m * carve_depth_in_radii),
-                 glm::vec3(0.0F), config_.radius_m};
+  carve.shape = shape_at(target);
   const SeedPattern in_turn = request % 2 == 0 ? SeedPattern::uniform : SeedPattern::radial;
   carve.pattern = config_.pattern.value_or(in_turn);
   carve.seeds = config_.seeds;
@@ -76,7 +79,7 @@ CarveMessage Carver::next(Field& field, uint32_t request) {
     carve.seeds = static_cast<uint32_t>(carve.authored_m.size());
   }
   carve.random_seed = random_.next();
-  carve.impact_m = hit.point_m;
+  carve.impact_m = target.point_m;
   carve.blast_speed_m_s = config_.blast_speed_m_s;
   return carve;
 }

@@ -1,5 +1,5 @@
-// Chooses the next place to carve: points on the surface of the bot's current copy of the terrain.
-// The same seed and the same terrain give the same carves.
+// Chooses the next place to carve, dig or place: points on the surface of the bot's current copy of the
+// terrain. The same seed and the same terrain give the same places.
 #pragma once
 
 #include <cstdint>
@@ -34,17 +34,19 @@ class Carver {
  public:
   Carver(const CarverConfig& config, uint64_t random_seed) : config_(config), random_(random_seed) {}
 
-  CarveMessage next(Field& field, uint32_t request);
-
- private:
-  struct Hit {
+  struct Target {
     glm::vec3 point_m{0.0F};
     glm::vec3 direction{0.0F};  ///< of the look that found it
   };
-  Hit find_target(Field& field);
-  /// Whether a place lies in the square.
-  bool is_within(glm::vec3 place_m) const;
+  Target aim(Field& field) { return aim_near(field, config_.centre_m, config_.area_m); }
+  /// In another square, by its middle and half its side.
+  Target aim_near(Field& field, glm::vec3 centre_m, float half_m);
 
+  CarveMessage carve(const Target& target, uint32_t request);
+  /// What a carve or a dig there takes out.
+  Shape shape_at(const Target& target) const;
+
+ private:
   CarverConfig config_;
   Random random_;
 };

@@ -36,6 +36,20 @@ inline constexpr double bot_walk_behind_s = 0.25;
 /// Distance that a bot on foot goes before it says where it is, metres.
 inline constexpr float bot_follow_m = 4.0F;
 
+/// Part of a server's reach within which a bot on foot edits: it cannot go nearer first, and it walks on
+/// until the request is carried out.
+inline constexpr float bot_foot_reach_part = 0.8F;
+
+/// Metres between a bot's own body and the ball of rubble that it puts down: less would be in its way.
+inline constexpr float bot_place_apart_m = 1.5F;
+
+/// Looks for a place that is far enough from the own body. Above: the server may refuse it.
+inline constexpr int bot_looks_max = 16;
+
+/// Radius of a ball of rubble that a bot puts down, metres: a voxel of the usual size. Smaller ones would be
+/// empty.
+inline constexpr float bot_place_min_m = 0.25F;
+
 /// Letters by which the name of a material may differ from the one that is proposed. Above: none is.
 inline constexpr size_t bot_mistyped_max = 2;
 

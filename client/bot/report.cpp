@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "shared/base/quantile.h"
@@ -33,13 +34,34 @@ Json stages(const BotReport& report) {
   return json;
 }
 
+Json counts(const std::map<std::string, uint32_t>& refusals) {
+  Json json = Json::object();
+  for (const auto& [reason, count] : refusals) json[reason] = count;
+  return json;
+}
+
 Json carves(const BotReport& report) {
-  Json refusals = Json::object();
-  for (const auto& [reason, count] : report.refusals) refusals[reason] = count;
-  return {{"asked", report.carves_asked},   {"accepted", report.carves_accepted},
-          {"saved", report.carves_saved},   {"refused", report.carves_refused},
-          {"lost", report.carves_lost},     {"seen", report.seen.operations.of<CarveOperation>()},
-          {"refusals", std::move(refusals)}};
+  return {{"asked", report.carves_asked},       {"accepted", report.carves_accepted},
+          {"saved", report.carves_saved},       {"refused", report.carves_refused},
+          {"lost", report.carves_lost},         {"seen", report.seen.operations.of<CarveOperation>()},
+          {"refusals", counts(report.refusals)}};
+}
+
+Json moves(const MoveReport& moves, const BotReport& report) {
+  return {{"asked", moves.asked},
+          {"accepted", moves.accepted},
+          {"refused", moves.refused},
+          {"lost", moves.lost},
+          {"mass", moves.mass},
+          {"m3", m3_of(moves.mass, report)},
+          {"refusals", counts(moves.refusals)}};
+}
+
+Json carried(const BotReport& report) {
+  Json json = Json::object();
+  for (const auto& [material, mass] : report.carried)
+    json[material] = {{"mass", mass}, {"m3", m3_of(mass, report)}};
+  return json;
 }
 
 Json walks(const WalkReport& walks) {
@@ -108,6 +130,9 @@ std::string to_json(const BotReport& report) {
   json["connections"] = report.connections;
   json["settled"] = report.settled;
   json["carves"] = carves(report);
+  if (report.digs.asked > 0) json["digs"] = moves(report.digs, report);
+  if (report.places.asked > 0) json["places"] = moves(report.places, report);
+  if (report.digs.asked > 0 || report.places.asked > 0) json["carried"] = carried(report);
   if (report.walks.inputs > 0 || report.walks.refused > 0) json["walks"] = walks(report.walks);
   json["pieces"] = {{"made", seen.pieces_made},
                     {"merged", seen.pieces_merged},
@@ -146,12 +171,27 @@ std::string to_json(const BotReport& report) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
+double m3_of(MassUnits mass, const BotReport& report) {
+  const double voxel_m = report.welcome.terrain.voxel_size_m;
+  return static_cast<double>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m;
+}
+
 std::string all_refused(const BotReport& report) {
-  if (report.carves_refused == 0 || report.carves_accepted > 0) return {};
+  if (report.carves_accepted + report.digs.accepted + report.places.accepted > 0) return {};
+  std::vector<std::string> kinds;
+  std::map<std::string, uint32_t> refusals;
+  const auto add = [&](const char* kind, const std::map<std::string, uint32_t>& of_kind) {
+    if (!of_kind.empty()) kinds.emplace_back(kind);
+    for (const auto& [reason, count] : of_kind) refusals[reason] += count;
+  };
+  add("carve", report.refusals);
+  add("dig", report.digs.refusals);
+  add("place", report.places.refusals);
+  if (refusals.empty()) return {};
   std::string why;
-  for (const auto& [reason, count] : report.refusals)
+  for (const auto& [reason, count] : refusals)
     why += fmt::format("{}{} ({})", why.empty() ? "" : ", ", reason, count);
-  return "every carve was refused: " + why;
+  return fmt::format("every {} was refused: {}", fmt::join(kinds, " and every "), why);
 }
 
 }  // namespace scree

@@ -9,6 +9,7 @@
 
 #include "client/mirror/mirror.h"
 #include "proto/messages.h"
+#include "shared/field/mass.h"
 #include "shared/operation/per_operation.h"
 
 namespace scree {
@@ -61,12 +62,25 @@ struct WalkReport {
   float depth_worst_m = -1.0F;  ///< in rock, of the person as the server tells it
 };
 
+/// A bot's digs, or its places.
+struct MoveReport {
+  uint32_t asked = 0;
+  uint32_t accepted = 0;
+  uint32_t refused = 0;
+  uint32_t lost = 0;                         ///< the connection was lost before the reply
+  MassUnits mass = 0;                        ///< that the accepted ones moved
+  std::map<std::string, uint32_t> refusals;  ///< by the name of the reason
+
+  uint32_t waiting() const { return asked - accepted - refused - lost; }
+};
+
 struct BotReport {
   std::string server;
   WelcomeMessage welcome;
   std::string failure;  ///< empty: no failure
   std::string refusal;  ///< the name of the server's reason, if it refused the session in the end
-  bool settled = false;
+  bool settled =
+      false;  ///< everything asked for was answered, the walks are over, and the terrain is at rest
   double duration_s = 0.0;
   uint32_t connections = 0;
 
@@ -77,6 +91,8 @@ struct BotReport {
   uint32_t carves_lost = 0;                  ///< the connection was lost before the reply
   std::map<std::string, uint32_t> refusals;  ///< by the name of the reason
 
+  MoveReport digs, places;
+  std::map<std::string, MassUnits> carried;  ///< in the own store, by material
   WalkReport walks;
   MirrorCounters seen;  ///< over all connections
   uint64_t pieces_alive = 0;
@@ -97,7 +113,9 @@ struct BotReport {
 };
 
 std::string to_json(const BotReport& report);
-/// Where every carve was refused: that, and why; else empty.
+/// The volume of rock without pores.
+double m3_of(MassUnits mass, const BotReport& report);
+/// Where all carves, digs and places were refused: that, and why; else empty.
 std::string all_refused(const BotReport& report);
 
 }  // namespace scree

@@ -246,7 +246,7 @@ struct Flow {
 };
 
 /// A brick has changed: what it lost, and what it gains.
-void take_brick(const TracedWorld& world, const BrickBefore& before, uint64_t party, Flow& flow) {
+void take_brick(const TracedWorld& world, const TracedBrick& before, uint64_t party, Flow& flow) {
   Provenance& provenance = world.provenance;
   const BrickZones zones = world.zones.of(before.coord);
   const BrickMaterials ground = world.field.ground_materials(before.coord);
@@ -302,7 +302,7 @@ void OperationTrace::finish(const TracedWorld& world, const Operation& operation
   Flow flow;
   flow.builds = std::holds_alternative<FillOperation>(operation);
   for (const BrickCoord coord : applied.changed) {
-    const auto before = std::ranges::lower_bound(bricks_, coord, {}, &BrickBefore::coord);
+    const auto before = std::ranges::lower_bound(bricks_, coord, {}, &TracedBrick::coord);
     CHECK(before != bricks_.end() && before->coord == coord);
     take_brick(world, *before, party, flow);
   }

@@ -24,7 +24,7 @@ struct TracedWorld {
 };
 
 /// A brick as it was.
-struct BrickBefore {
+struct TracedBrick {
   BrickCoord coord;
   Brick codes;
   BrickMaterials says;
@@ -48,7 +48,7 @@ class OperationTrace {
     MaterialMasses masses;
   };
 
-  std::vector<BrickBefore> bricks_;  ///< all that the operation may change, in order
+  std::vector<TracedBrick> bricks_;  ///< all that the operation may change, in order
   std::vector<EndedPiece> ended_;
   std::vector<MaterialLedger::Row> rows_;
   std::optional<StoreContent> store_;

@@ -21,7 +21,7 @@ void carry_origins(World::State& state, const StoreName& from, const StoreName& 
 /// Regions have changed. Those that do not count any more are forgotten.
 void recount(World::State& state, const RegionZones& before);
 
-/// Enters what a kept world has, when all else is entered; terrain lies in the world. Refuses more at a place
+/// Enters what a kept world has, when all else is entered. Refuses more at a place
 /// than there is, as far as that is known without reading the terrain.
 Result<void> restore_provenance(World::State& state, const std::vector<PlacedMass>& placed);
 

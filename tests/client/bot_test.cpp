@@ -23,7 +23,7 @@ TEST(Carver, carves_within_its_square) {
   for (const float area_m : {0.0F, 5.0F}) {
     Carver carver({.centre_m = {10.0F, 0.0F, -8.0F}, .area_m = area_m}, 7);
     for (uint32_t i = 0; i < 60; ++i) {
-      const glm::vec3 place_m = carver.next(field, i).impact_m;
+      const glm::vec3 place_m = carver.carve(carver.aim(field), i).impact_m;
       EXPECT_NEAR(place_m.x, 10.0F, area_m + 0.011F);
       EXPECT_NEAR(place_m.z, -8.0F, area_m + 0.011F);
     }

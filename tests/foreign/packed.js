@@ -174,6 +174,19 @@ export function unpackVolume(bytes) {
   return { first, size, mass, centre, masses, codes, materials: isMixed ? materials : null };
 }
 
+/** Store.masses: the mass by row. */
+export function unpackStoreMasses(bytes) {
+  const reader = new Reader(bytes, 'masses of a store');
+  const masses = new Map();
+  for (let last = -1; !reader.atEnd(); ) {
+    const row = reader.u8();
+    if (row <= last) reader.fail('materials out of order');
+    masses.set((last = row), reader.varint());
+    if (masses.get(row) === 0n) reader.fail('a mass of 0');
+  }
+  return masses;
+}
+
 /** Frame.removed_pieces. */
 export function unpackIds(bytes) {
   const reader = new Reader(bytes, 'removed pieces');

@@ -5,20 +5,16 @@
 import { spawn } from 'node:child_process';
 import { createInterface } from 'node:readline';
 
+import { startServer } from './host.js';
+
 const [server, proto] = process.argv.slice(2);
 const LATE_CARVES = 20; // made when the other one joins: chunks and pieces have to come whole
 
-function run(command, args) {
-  const child = spawn(command, args, { stdio: ['ignore', 'pipe', 'inherit'] });
-  const lines = createInterface({ input: child.stdout });
-  const ended = new Promise((resolve) => child.on('close', resolve));
-  return { child, lines, ended };
-}
-
 /** `onCarves(number)`: as the client goes on. Resolves to whether it ended well. */
 async function client(args, onCarves = () => {}) {
-  const { lines, ended } = run(process.execPath, ['client.js', '--proto', proto, ...args]);
-  lines.on('line', (line) => {
+  const child = spawn(process.execPath, ['client.js', '--proto', proto, ...args], { stdio: ['ignore', 'pipe', 'inherit'] });
+  const ended = new Promise((resolve) => child.on('close', resolve));
+  createInterface({ input: child.stdout }).on('line', (line) => {
     const said = JSON.parse(line);
     if ('failure' in said) console.log(line);
     else onCarves(said.carves);
@@ -26,12 +22,8 @@ async function client(args, onCarves = () => {}) {
   return (await ended) === 0;
 }
 
-const host = run(server, ['--port', '0', '--terrain', 'canyon', '--requests-per-second', '100']);
-process.on('exit', () => host.child.kill('SIGKILL'));
-const port = await new Promise((resolve, reject) => {
-  host.lines.once('line', (line) => resolve(String(JSON.parse(line).listening)));
-  host.ended.then(() => reject(new Error('the server did not start')));
-});
+const host = await startServer(server, ['--terrain', 'canyon', '--requests-per-second', '100']);
+const port = String(host.port);
 let late = false;
 const join = (carves) => {
   if (carves !== LATE_CARVES) return;
@@ -39,7 +31,6 @@ const join = (carves) => {
 };
 const carver = await client(['--port', port, '--carves', '50', '--ground', '40', '--spoil', '--seed', '7'], join);
 const good = [carver, await late];
-host.child.kill('SIGTERM');
-const code = await host.ended;
+const code = await host.stop();
 if (code !== 0) console.log(`the server ended with ${code}`);
 process.exitCode = good.every(Boolean) && code === 0 ? 0 : 1;

@@ -119,6 +119,7 @@ TEST_F(RegionCommands, mass_says_what_became_of_a_regions_rock) {
       0);
   ASSERT_EQ(run("region add yard box 8 8 8 --at 40 0 0").first, 0);
   EXPECT_TRUE(holds(run("region show tower").second, "may edit: Ann, team red; counts its rock"));
+  EXPECT_TRUE(holds(run("blast --at 0 0 0 --energy 4e6").second, "only Ann, the team red may edit there"));
   EXPECT_EQ(run("region mass").second, "nothing was broken out of a region that counts\n");
   EXPECT_EQ(run("region mass yard").first, refused) << "it does not count";
   EXPECT_EQ(run("region mass mill").first, refused);

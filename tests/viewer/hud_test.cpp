@@ -118,7 +118,7 @@ class WholeHud {
     screen_.begin(true, hud_.text_px(text_scale));
     hud_.begin(true);
     hud_.note(facts, {16.0F, 2.0F, 3.0F});
-    hud_.crosshair();
+    hud_.crosshair(true);
     hud_.figures(facts, all);
     const PersonsMessage persons{
         {{1, "A person with a long name, so it", Role::builder}, {2, "", Role::viewer}}, 3, true};
