@@ -5,7 +5,7 @@
 
 namespace scree {
 
-/// Of what was placed in a region, or fell into it, and is of no origin: so it is not the region's own rock.
+/// What was placed in a region, or fell into it, and is of no origin: so it is not the region's own rock.
 /// Terrain in regions alone has such shares; elsewhere it is all that has none.
 inline constexpr MassOrigin no_origin{};
 

@@ -1,10 +1,8 @@
 #include "server/world/region_masses.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 #include "server/provenance/no_origin.h"
-#include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
 
 namespace scree {
@@ -21,20 +19,12 @@ MassUnits dust_of(const World::State& state, Material material) {
   return row < rows.size() ? rows[row].dust : 0;
 }
 
-bool is_in_world(const World::State& state, BrickCoord brick) {
-  const VoxelCoord v = first_voxel(brick);
-  const auto most =
-      static_cast<int64_t>(2.0F * limits::world_half_width_m / state.config.terrain.voxel_size_m);
-  return std::max({std::abs(int64_t{v.x}), std::abs(int64_t{v.y}), std::abs(int64_t{v.z})}) <= most;
-}
-
 /// How much there is at a place; a most that is never reached where only the terrain could tell.
 MassUnits most_at(const World::State& state, const MassPlace& place) {
   return std::visit(
       Overloaded{[&](const TerrainPlace& at) -> MassUnits {
                    const bool known = at.region == 0 || state.regions.zones().counts(at.region);
-                   return known && is_in_world(state, at.brick) ? MassUnits{units_per_voxel} * brick_voxels
-                                                                : 0;
+                   return known && state.in_world(at.brick) ? MassUnits{units_per_voxel} * brick_voxels : 0;
                  },
                  [&](const PiecePlace& at) -> MassUnits {
                    const auto piece = state.pieces.find(at.piece);

@@ -69,17 +69,11 @@ class Restoring {
     return {};
   }
 
-  bool in_world(BrickCoord brick) const {
-    const VoxelCoord v = first_voxel(brick);
-    const auto most = static_cast<int>(2.0F * limits::world_half_width_m / s_.config.terrain.voxel_size_m);
-    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most;
-  }
-
   Result<void> enter(std::span<const BrickPatch> bricks) {
     const BrickPatch* last = nullptr;
     for (const BrickPatch& patch : bricks) {
       if (last != nullptr && !(last->coord < patch.coord)) return fail("its bricks are not in order");
-      if (!in_world(patch.coord)) return fail("a brick lies outside the world");
+      if (!s_.in_world(patch.coord)) return fail("a brick lies outside the world");
       s_.field.set_brick(patch.coord, patch.brick, patch.materials);
       last = &patch;
     }
@@ -94,7 +88,7 @@ class Restoring {
       if (s_.field.bricks_in() < from.bricks_max) return enter(bricks);
       const auto left = TRY(paged_of(s_.field.source(), chunk, bricks));
       for (const BrickPatch& patch : bricks)
-        if (!in_world(patch.coord)) return fail("a brick lies outside the world");
+        if (!s_.in_world(patch.coord)) return fail("a brick lies outside the world");
       s_.field.add_out(chunk, left);
       return {};
     });
@@ -238,16 +232,16 @@ class Restoring {
   }
 
   bool is_sane(const VoxelBox& box) const {
-    return !box.empty() && in_world(brick_of(box.lo)) && in_world(brick_of(box.hi));
+    return !box.empty() && s_.in_world(brick_of(box.lo)) && s_.in_world(brick_of(box.hi));
   }
 
   Result<void> places() {
     for (const auto* parties : {&m_.loosened_bricks, &m_.strained, &m_.slopes})
       for (const PartyBricks& one : *parties)
-        if (!std::ranges::all_of(one.bricks, [&](BrickCoord brick) { return in_world(brick); }))
+        if (!std::ranges::all_of(one.bricks, [&](BrickCoord brick) { return s_.in_world(brick); }))
           return fail("a changed brick lies outside the world");
     for (const LooseningEdit& search : m_.islands)
-      if (!std::ranges::all_of(search.bricks, [&](BrickCoord brick) { return in_world(brick); }))
+      if (!std::ranges::all_of(search.bricks, [&](BrickCoord brick) { return s_.in_world(brick); }))
         return fail("a searched brick lies outside the world");
     if (!std::ranges::all_of(m_.gained, [&](const VoxelBox& box) { return is_sane(box); }))
       return fail("terrain gained rock outside the world");
@@ -265,7 +259,7 @@ class Restoring {
     for (size_t i = 0; i < m_.struck.size(); ++i) {
       const StruckPlace& place = m_.struck[i];
       const bool ascends = i == 0 || m_.struck[i - 1].cell < place.cell;
-      if (!ascends || place.at > m_.tick || !in_world(brick_of_place(place.cell)))
+      if (!ascends || place.at > m_.tick || !s_.in_world(brick_of_place(place.cell)))
         return fail("a place that blows struck is out of order, later than now, or outside the world");
     }
     s_.struck.restore(m_.struck);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include "server/bodies/prop_body.h"
 #include "server/work/limits.h"
@@ -14,6 +15,7 @@
 #include "server/world/slide_stage.h"
 #include "server/world/state_hash.h"
 #include "shared/base/check.h"
+#include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
 #include "shared/material/rubble.h"
 
@@ -168,6 +170,12 @@ PieceTraits World::State::traits_of(PieceId id) const {
   if (const auto prop = props.find(id); prop != props.end()) return {.owner = prop->second.owner};
   const auto found = traits.find(id);
   return found == traits.end() ? PieceTraits{} : found->second;
+}
+
+bool World::State::in_world(BrickCoord brick) const {
+  const VoxelCoord v = first_voxel(brick);
+  const auto most = static_cast<int>(2.0F * limits::world_half_width_m / config.terrain.voxel_size_m);
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}) <= most;
 }
 
 MassUnits World::State::mass_of_pieces() const {

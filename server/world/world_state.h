@@ -102,6 +102,8 @@ struct World::State {
   void remove_prop(PieceId id);
   /// Checks the invariants between stages. O(1).
   void check() const;
+  /// Whether bricks can lie there at all: what comes from a file may say others.
+  bool in_world(BrickCoord brick) const;
   /// As published with each tick (state_hash.h).
   uint64_t hash() const;
   /// The brick as it is published.
