@@ -181,6 +181,9 @@ void Bot::receive_reply(const ReplyMessage& reply, Clock::time_point arrived) {
   if (request == requests_.end()) {
     if (reply.refusal.empty()) return;
     ++report_.walks.refused;
+    // What no wait mends; else it asks again.
+    if (reply.refusal_name == "persons_fly" || reply.refusal_name == "role")
+      cannot_stand_ = fmt::format("the bot cannot stand ({}): {}", reply.refusal_name, reply.refusal);
     log("walk refused",
         fmt::format("on foot, {} was refused ({}): {}", reply.request, reply.refusal_name, reply.refusal));
     return;
@@ -233,6 +236,10 @@ BotReport Bot::run() {
   Result<void> going = join();
   while (going && !finished()) {
     going = step(step_wait);
+    if (!cannot_stand_.empty()) {
+      report_.failure = cannot_stand_;
+      break;
+    }
     if (going && ms_between(started_, Clock::now()) > config_.timeout_s * 1000.0) {
       report_.failure =
           fmt::format("not finished within {} s (--timeout): {} requests unanswered, {} pieces alive",

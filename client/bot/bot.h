@@ -126,6 +126,7 @@ class Bot {
   std::optional<uint64_t> rest_hash_;  ///< of the field when no piece was left, at the last status
   std::optional<RandomWalk> walk_;
   std::optional<WalkPrediction> foot_;  ///< of this connection
+  std::string cannot_stand_;            ///< why the server never lets it; empty: it may
   Clock::time_point walked_to_;         ///< of the last tick on foot
   Clock::time_point asked_to_stand_;
   uint64_t repairs_asked_ = 0;   ///< chunks, by this connection

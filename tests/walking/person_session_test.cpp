@@ -163,5 +163,20 @@ TEST(PersonSession, walks_over_a_slow_link_without_corrections_or_rock) {
   }
 }
 
+TEST(PersonSession, a_bot_that_may_never_stand_gives_up_with_the_servers_words) {
+  LiveConfig config = walking_server();
+  config.net.port = 0;
+  config.world.service.persons = Persons::fly;
+  auto server = LiveServer::start(config);
+  ASSERT_TRUE(server.has_value()) << server.error().message;
+  BotConfig bot;
+  bot.port = (*server)->port();
+  bot.carves = 0;
+  bot.walks = 5;
+  const BotReport report = Bot(bot).run();
+  EXPECT_NE(report.failure.find("persons_fly"), std::string::npos) << report.failure;
+  EXPECT_TRUE((*server)->stop().has_value());
+}
+
 }  // namespace
 }  // namespace scree
