@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <vector>
 
 #include "server/replay/recorded_people.h"
 #include "shared/base/overloaded.h"
@@ -23,16 +24,16 @@ struct Asked {
 };
 
 Asked asked_of(const Region& region) {
-  std::string forbidden;
+  std::vector<std::string_view> forbidden;
   for (const RegionRule& rule : region_rules)
-    if (region.forbids_any(rule.bit)) forbidden += (forbidden.empty() ? "" : ",") + std::string(rule.name);
+    if (region.forbids_any(rule.bit)) forbidden.push_back(rule.name);
   const glm::vec3 at = region.centre_m, half = region.half_m;
   return {"set_region",
           {},
           fmt::format("{}: {} at {:g} {:g} {:g}, half {:g} {:g} {:g}, forbids {}{}{}", region.name,
                       name_of(region.form), at.x, at.y, at.z, half.x, half.y, half.z,
-                      forbidden.empty() ? "nothing" : forbidden, region.tells ? ", tells" : "",
-                      region.counts ? ", counts" : "")};
+                      forbidden.empty() ? "nothing" : fmt::format("{}", fmt::join(forbidden, ",")),
+                      region.tells ? ", tells" : "", region.counts ? ", counts" : "")};
 }
 
 Asked asked_of(const DigRequest& dig) {
