@@ -267,19 +267,20 @@ TEST(RegionMass, paint_cuts_nothing_and_fills_are_the_regions_own) {
   SetRegionRequest set = set_box(glm::vec3(0.0F), glm::vec3(10.0F), 0);
   set.region.counts = true;
   ASSERT_EQ(world.ask(set).refusal, "");
-  ASSERT_EQ(world.ask(FillRequest{box({0.0F, 2.0F, 0.0F}, glm::vec3(1.0F))}).refusal, "");
-  ASSERT_EQ(world.ask(PaintRequest{sphere({0.0F, 2.0F, 0.0F}, 2.0F), material::ice}).refusal, "");
+  ASSERT_EQ(world.ask(FillRequest{box({0.0F, 1.0F, 0.0F}, glm::vec3(1.0F))}).refusal, "");
+  ASSERT_EQ(world.ask(PaintRequest{sphere({0.0F, 1.0F, 0.0F}, 2.0F), material::ice}).refusal, "");
   EXPECT_EQ(sum_of_rows(world, &RegionMass::cut), 0);
-  ASSERT_EQ(world.ask(DigRequest{box({0.0F, 2.5F, 0.0F}, glm::vec3(2.0F)), 0, worlds_store()}).refusal, "");
+  ASSERT_EQ(world.ask(DigRequest{box({0.0F, 1.5F, 0.0F}, glm::vec3(2.0F)), 0, worlds_store()}).refusal, "");
   EXPECT_EQ(sum_of_rows(world, &RegionMass::cut), world.last().ledger.stored);
   // Rubble of the region's own rock that was painted is the region's still.
-  ASSERT_EQ(
-      world.ask(PlaceRequest{box({0.0F, 2.0F, 0.0F}, glm::vec3(0.8F)), material::ice, false, worlds_store()})
-          .refusal,
-      "");
+  ASSERT_EQ(world
+                .ask(PlaceRequest{box({0.0F, 0.0F, 0.0F}, {0.8F, 0.5F, 0.8F}), material::ice, false,
+                                  worlds_store()})
+                .refusal,
+            "");
   const MassUnits back = sum_of_rows(world, &RegionMass::back);
   EXPECT_GT(back, 0);
-  ASSERT_EQ(world.ask(PaintRequest{sphere({0.0F, 2.0F, 0.0F}, 2.5F), material::rock}).refusal, "");
+  ASSERT_EQ(world.ask(PaintRequest{sphere({0.0F, 0.0F, 0.0F}, 2.5F), material::rock}).refusal, "");
   EXPECT_EQ(sum_of_rows(world, &RegionMass::back), back);
 }
 
