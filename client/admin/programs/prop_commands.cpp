@@ -247,10 +247,13 @@ void add_piece_commands(PropTable& table) {
     add_id(command, "ID", words.id, "the id of the piece")->required();
   for (CLI::App* command : {cut_out, carve}) {
     add_place(command, "--at", words.at_m, "X Y Z of the shape's middle, metres")->required();
-    command->add_option("--radius", words.radius_m, "the radius of a ball, metres")->capture_default_str();
+    CLI::Option* const radius =
+        command->add_option("--radius", words.radius_m, "the radius of a ball, metres")
+            ->capture_default_str();
     command->add_option("--half", words.half_m, "X Y Z: half the sides of a box instead, metres")
         ->delimiter(',')
-        ->expected(3);
+        ->expected(3)
+        ->excludes(radius);
   }
   carve->add_option("--seeds", words.seeds, "into how many pieces the shape breaks")->capture_default_str();
 }
