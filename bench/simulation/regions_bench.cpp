@@ -33,7 +33,10 @@ struct RegionsCase {
 
   explicit RegionsCase(const char* its_name) : name(its_name) {}
 
-  void set(Region region) { world->step({{0, 1, SetRegionRequest{std::move(region), 0.0F}}}); }
+  void set(Region region) {
+    const Command command{0, 1, SetRegionRequest{std::move(region), 0.0F}};
+    world->step({&command, 1});
+  }
 };
 
 /// As many as a world takes, far from everything.

@@ -8,14 +8,11 @@
 
 namespace scree::samples {
 
-// One by one: of a list in braces, g++ 12 says at -O3 that it may not be initialized.
 inline std::vector<StoreContent> stores() {
-  std::vector<StoreContent> result;
-  result.push_back({worlds_store(), {{material::rock, 1LL << 40}, {material::ice, 1}}});
-  result.push_back({{StoreKind::token, 0xFEDCBA9876543210ULL}, {{material::soil, 77}}});
-  result.push_back({{StoreKind::session, 9}, {}});
-  result.push_back({named_store("red"), {{material::rock, 254}}});
-  return result;
+  return {{worlds_store(), {{material::rock, 1LL << 40}, {material::ice, 1}}},
+          {{StoreKind::token, 0xFEDCBA9876543210ULL}, {{material::soil, 77}}},
+          {{StoreKind::session, 9}, {}},
+          {named_store("red"), {{material::rock, 254}}}};
 }
 
 inline std::vector<ServerMessage> store_server_messages() {
