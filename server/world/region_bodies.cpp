@@ -1,8 +1,9 @@
 #include "server/world/region_bodies.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
+#include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
+#include <limits>
 
 #include "server/world/limits.h"
 #include "shared/base/check.h"
@@ -13,8 +14,16 @@ namespace {
 
 /// A body's way in a step.
 struct Way {
+  PieceId id = 0;
+  bool is_piece = false;
   glm::vec3 from_m{0.0F}, to_m{0.0F};
 };
+
+/// Whether a box about the way and these bounds are apart.
+bool misses(const RegionBounds& bounds, const Way& way) {
+  const glm::vec3 lo_m = glm::min(way.from_m, way.to_m), hi_m = glm::max(way.from_m, way.to_m);
+  return glm::any(glm::lessThan(hi_m, bounds.lo_m)) || glm::any(glm::greaterThan(lo_m, bounds.hi_m));
+}
 
 uint64_t tag_of(const World::State& state, PieceId id) {
   const auto prop = state.props.find(id);
@@ -27,44 +36,47 @@ void tell(EventKind kind, const Region& region, PieceId id, uint64_t tag, std::o
       {.kind = kind, .tick = delta.tick, .place_m = place_m, .text = region.name, .body = id, .tag = tag});
 }
 
-/// The bodies near a region, and those that are noted as in it; ordered.
-std::vector<PieceId> candidates(const World::State& state, const Region& region, float slack_m) {
-  const RegionBounds bounds = bounds_of(region);
-  std::vector<PieceId> ids = state.bodies.near(bounds.lo_m - slack_m, bounds.hi_m + slack_m);
-  if (const auto noted = state.regions.inside.find(region.id); noted != state.regions.inside.end())
-    for (const auto& [id, tag] : noted->second) ids.push_back(id);
-  std::ranges::sort(ids);
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
-  return ids;
+/// A way whose box holds all of them; apart from everything where there are none.
+Way hull_of_ways(std::span<const Way> ways) {
+  constexpr float far_m = std::numeric_limits<float>::max();
+  Way all{.from_m = glm::vec3(far_m), .to_m = glm::vec3(far_m)};
+  for (size_t i = 0; i < ways.size(); ++i) {
+    const Way& way = ways[i];
+    const glm::vec3 lo_m = glm::min(way.from_m, way.to_m), hi_m = glm::max(way.from_m, way.to_m);
+    all.from_m = i == 0 ? lo_m : glm::min(all.from_m, lo_m);
+    all.to_m = i == 0 ? hi_m : glm::max(all.to_m, hi_m);
+  }
+  return all;
 }
 
-/// The ways of all bodies in a step.
-class Ways {
- public:
-  Ways(const World::State& state, std::span<const BodyState> before) {
-    for (const BodyState& body : before) {
-      const glm::vec3 to_m = state.bodies.state(body.id).pose.position_m;
-      ways_.emplace_hint(ways_.end(), body.id, Way{body.pose.position_m, to_m});
-      const glm::vec3 step = to_m - body.pose.position_m;
-      longest_m_ = std::max(longest_m_, std::sqrt(glm::dot(step, step)));
-    }
-  }
+/// The ways of all bodies in a step, by id; without those that are no more.
+std::vector<Way> ways_of(const World::State& state, std::span<const BodyState> before) {
+  std::vector<Way> ways;
+  for (const BodyState& body : before)
+    if (state.bodies.contains(body.id))
+      ways.push_back({body.id, state.pieces.contains(body.id), body.pose.position_m,
+                      state.bodies.state(body.id).pose.position_m});
+  return ways;
+}
 
-  float longest_m() const { return longest_m_; }
-  /// Null: the body is no more.
-  Way* find(PieceId id) {
-    const auto found = ways_.find(id);
-    return found == ways_.end() ? nullptr : &found->second;
-  }
+using Noted = std::vector<WorldRegions::BodyInside>;
 
- private:
-  std::map<PieceId, Way> ways_;
-  float longest_m_ = 0.0F;
-};
+/// The bodies that are noted as in a region, in order: a copy, since what is told changes the notes.
+Noted noted_in(const World::State& state, RegionId region) {
+  const auto noted = state.regions.inside.find(region);
+  return noted == state.regions.inside.end() ? Noted() : noted->second;
+}
+
+/// Whether an ascending list has the id; `next` goes on from id to id.
+bool goes_to(Noted::const_iterator& next, Noted::const_iterator end, PieceId id) {
+  while (next != end && next->id < id) ++next;
+  return next != end && next->id == id;
+}
 
 /// Puts a piece back that came in from outside, to where it came in; of its speed it keeps what does not lead
 /// inwards.
-void keep_out(World::State& state, const Region& region, PieceId id, Way& way) {
+void keep_out(World::State& state, const Region& region, Way& way) {
+  const PieceId id = way.id;
   if (holds(region, way.from_m)) return;
   const std::optional<float> share = first_in(region, way.from_m, way.to_m);
   if (!share) return;
@@ -78,26 +90,34 @@ void keep_out(World::State& state, const Region& region, PieceId id, Way& way) {
   way.to_m = state.bodies.state(id).pose.position_m;
 }
 
+/// Where the note of a body stands, or would.
+Noted::iterator place_in(Noted& noted, PieceId id) {
+  return std::ranges::lower_bound(noted, id, {}, &WorldRegions::BodyInside::id);
+}
+
 void note(World::State& state, const Region& region, PieceId id) {
-  state.regions.inside[region.id][id] = tag_of(state, id);
+  Noted& noted = state.regions.inside[region.id];
+  noted.insert(place_in(noted, id), {id, tag_of(state, id)});
 }
 
 /// Tells that the body is in the region or not, where it was otherwise. Whether it was.
 bool tell_change(World::State& state, const Region& region, PieceId id, bool is_in,
                  std::optional<glm::vec3> place_m, TickDelta& delta) {
-  std::map<PieceId, uint64_t>& inside = state.regions.inside[region.id];
-  const auto noted = inside.find(id);
-  if (is_in == (noted != inside.end())) return false;
+  Noted& noted = state.regions.inside[region.id];
+  const auto place = place_in(noted, id);
+  const bool was_in = place != noted.end() && place->id == id;
+  if (is_in == was_in) return false;
   tell(is_in ? EventKind::region_enter : EventKind::region_leave, region, id,
-       is_in ? tag_of(state, id) : noted->second, place_m, delta);
+       is_in ? tag_of(state, id) : place->tag, place_m, delta);
   if (is_in)
     note(state, region, id);
   else
-    inside.erase(noted);
+    noted.erase(place);
   return true;
 }
 
-void tell_crossing(World::State& state, const Region& region, PieceId id, const Way& way, TickDelta& delta) {
+void tell_crossing(World::State& state, const Region& region, const Way& way, TickDelta& delta) {
+  const PieceId id = way.id;
   const auto at = [&](glm::vec3 from_m, glm::vec3 to_m) -> std::optional<glm::vec3> {
     const std::optional<float> share = first_in(region, from_m, to_m);
     return share ? std::optional(from_m + (to_m - from_m) * *share) : std::nullopt;
@@ -119,31 +139,56 @@ std::vector<BodyState> places_before_step(const World::State& state) {
 
 void meet_regions(World::State& state, std::span<const BodyState> before, TickDelta& delta) {
   if (before.empty()) return;
-  Ways ways(state, before);
+  std::vector<Way> ways = ways_of(state, before);
+  const Way all = hull_of_ways(ways);
   const auto regions = state.regions.shared();
   for (const Region& region : *regions) {
     if (!region.forbids_any(forbids::pieces)) continue;
-    for (const PieceId id : candidates(state, region, ways.longest_m()))
-      if (Way* const way = ways.find(id); way != nullptr && state.pieces.contains(id))
-        keep_out(state, region, id, *way);
+    const RegionBounds bounds = bounds_of(region);
+    if (misses(bounds, all)) continue;
+    for (Way& way : ways)
+      if (way.is_piece && !misses(bounds, way)) keep_out(state, region, way);
   }
   for (const Region& region : *regions) {
     if (!region.tells) continue;
-    for (const PieceId id : candidates(state, region, ways.longest_m()))
-      if (const Way* const way = ways.find(id)) tell_crossing(state, region, id, *way, delta);
+    const RegionBounds bounds = bounds_of(region);
+    if (misses(bounds, all) && !state.regions.inside.contains(region.id)) continue;
+    const Noted noted = noted_in(state, region.id);
+    auto next = noted.cbegin();
+    for (const Way& way : ways) {
+      const bool was_in = goes_to(next, noted.cend(), way.id);
+      if (was_in ? holds(region, way.to_m) : misses(bounds, way)) continue;
+      tell_crossing(state, region, way, delta);
+    }
   }
 }
 
 void tell_of_regions(World::State& state, TickDelta& delta) {
   if (!state.regions.tell()) return;
+  const std::vector<BodyState> bodies = state.bodies.states();
+  std::vector<Way> places;
+  for (const BodyState& body : bodies)
+    places.push_back({body.id, false, body.pose.position_m, body.pose.position_m});
+  const Way all = hull_of_ways(places);
   const auto regions = state.regions.shared();
   for (const Region& region : *regions) {
     if (!region.tells) continue;
-    for (const PieceId id : candidates(state, region, 0.0F)) {
-      std::optional<glm::vec3> place_m;
-      if (state.bodies.contains(id)) place_m = state.bodies.state(id).pose.position_m;
-      tell_change(state, region, id, place_m && holds(region, *place_m), place_m, delta);
+    if (misses(bounds_of(region), all) && !state.regions.inside.contains(region.id)) continue;
+    const Noted noted = noted_in(state, region.id);
+    auto next = noted.cbegin();
+    const auto tell_gone_before = [&](PieceId id) {
+      for (; next != noted.cend() && next->id < id; ++next)
+        if (!state.bodies.contains(next->id))
+          tell_change(state, region, next->id, false, std::nullopt, delta);
+    };
+    for (const BodyState& body : bodies) {
+      tell_gone_before(body.id);
+      const bool was_in = next != noted.cend() && next->id == body.id;
+      const glm::vec3 place_m = body.pose.position_m;
+      if (const bool is_in = holds(region, place_m); is_in != was_in)
+        tell_change(state, region, body.id, is_in, place_m, delta);
     }
+    tell_gone_before(std::numeric_limits<PieceId>::max());
   }
 }
 
@@ -151,8 +196,8 @@ void note_inside(World::State& state, RegionId id) {
   const auto& regions = state.regions.all();
   const auto region = std::ranges::lower_bound(regions, id, {}, &Region::id);
   CHECK(region != regions.end() && region->id == id);
-  for (const PieceId body : candidates(state, *region, 0.0F))
-    if (holds(*region, state.bodies.state(body).pose.position_m)) note(state, *region, body);
+  for (const BodyState& body : state.bodies.states())
+    if (holds(*region, body.pose.position_m)) note(state, *region, body.id);
 }
 
 }  // namespace scree

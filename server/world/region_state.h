@@ -92,8 +92,13 @@ class WorldRegions {
   /// Chunks that hang on a region. Those of a region that is over await their search in `released`.
   std::map<RegionId, std::set<ChunkCoord>> hung;
   std::set<ChunkCoord> released;
-  /// Bodies whose middles lie in regions that tell, with the tags of props.
-  std::map<RegionId, std::map<PieceId, uint64_t>> inside;
+  /// Bodies whose middles lie in regions that tell, with the tags of props; of each region by id, in a list:
+  /// every tick goes through all of them.
+  struct BodyInside {
+    PieceId id = 0;
+    uint64_t tag = 0;
+  };
+  std::map<RegionId, std::vector<BodyInside>> inside;
 
  private:
   void changed(std::vector<Region> regions);
