@@ -7,6 +7,7 @@
 #include "server/provenance/no_origin.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
+#include "shared/operation/ledger.h"
 
 namespace scree {
 
