@@ -115,6 +115,9 @@ std::string regions_json(const std::vector<Region>& regions);
 /// A line each.
 std::string regions_lines(const std::vector<Region>& regions);
 
+/// Cubic metres of solid rock that units of the ledger are.
+double m3_of(MassUnits mass, const WorldFacts& world);
+
 /// The stores of the world. Takes a director's token, too.
 Result<AdminListMessage> list_stores(const AdminServer& server);
 /// Masses are units of the ledger; materials without a name are known by their numbers.

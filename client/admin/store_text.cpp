@@ -9,12 +9,12 @@
 
 namespace scree {
 
-namespace {
-
 double m3_of(MassUnits mass, const WorldFacts& world) {
   const double voxel_m = world.voxel_size_m;
   return static_cast<double>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m;
 }
+
+namespace {
 
 double kg_of(MassUnits mass, Material material, const WorldFacts& world) {
   return m3_of(mass, world) * static_cast<double>(world.palette.row_or_first(material).density_kg_m3);

@@ -3,7 +3,6 @@
 
 #include "client/admin/programs/world_commands.h"
 #include "shared/base/option_check.h"
-#include "shared/field/mass.h"
 
 namespace scree {
 
@@ -30,11 +29,6 @@ std::string answer_text(const ReplyMessage& reply, bool as_json) {
 }
 
 }  // namespace
-
-double m3_of(MassUnits mass, const WorldFacts& world) {
-  const double voxel_m = world.voxel_size_m;
-  return static_cast<double>(mass) / units_per_voxel * voxel_m * voxel_m * voxel_m;
-}
 
 glm::vec3 vector_of(const Place& numbers) {
   return {numbers[0], numbers[1], numbers[2]};

@@ -50,9 +50,6 @@ glm::vec3 vector_of(const Place& numbers);
 CLI::Option* add_id(CLI::App* command, const std::string& name, PieceId& to, const std::string& what,
                     bool or_terrain = false);
 
-/// Cubic metres of solid rock, and units of the ledger.
-double m3_of(MassUnits mass, const WorldFacts& world);
-
 /// Sends a request, or says why it is none. Prints "prop 31 is added", or what else the answer says.
 Printed run_request(const AdminServer& server, const Made& request, bool as_json);
 /// What the server said, in lines or as JSON.
