@@ -70,7 +70,7 @@ std::vector<BlockWindows> dirty_windows(Field& field, const std::vector<BrickCoo
     const BlockCoord block{brick.x >> 1, brick.y >> 1, brick.z >> 1};
     if (!seen.insert(block).second) continue;
     std::optional<BlockWindows> found = gather_windows(field, box_of(block));
-    if (found && !found->mesh().empty()) windows.push_back(std::move(*found));
+    if (found && !found->mesh(FaceEdges::sharp).empty()) windows.push_back(std::move(*found));
   }
   return windows;
 }
@@ -98,7 +98,7 @@ void report_blocks(BenchReport& report, Field& field, const std::vector<BrickCoo
   size_t triangles = 0;
   const double dirty_us = median_us(rounds, dirty.size(), [&] {
     triangles = 0;
-    for (const BlockWindows& windows : dirty) triangles += windows.mesh().indices.size() / 3;
+    for (const BlockWindows& windows : dirty) triangles += windows.mesh(FaceEdges::sharp).indices.size() / 3;
   });
   report_cubes(report, dirty, rounds, dirty_us, triangles);
   // Nothing but air or nothing but rock, as far as anyone has looked: told by the bricks themselves.
@@ -147,7 +147,7 @@ void report_quads(BenchReport& report, Field& field, int rounds) {
       const std::optional<BlockWindows> windows = gather_windows(field, box_of(block));
       if (!windows) continue;
       Stopwatch stopwatch;
-      ours += windows->mesh().indices.size() / 6;
+      ours += windows->mesh(FaceEdges::sharp).indices.size() / 6;
       meshing_ms += stopwatch.lap_ms();
     }
     our_ms.push_back(whole.lap_ms());

@@ -8,12 +8,13 @@ const uint kind_solid = 255u;
 const float band = 3.0;       // distances saturate there
 const float brick = 8.0;      // voxels a side
 const float brick_pitch = 11.0;  // with the apron, one voxel of which lies before the brick
-const int look_pitch = 9;        // voxels a side of a brick in the atlas of looks
+const int corner_pitch = 9;      // voxels a side of a brick in the atlases of looks and planes
 // Voxels before a window's border where the next level takes over: a ray that nears the border sees beyond it.
 const float border = 16.0;
 
 uniform usampler3D u_entries;
 uniform usampler3D u_looks;
+uniform sampler3D u_planes;
 uniform sampler3D u_atlas;
 uniform vec3 u_atlas_texel;
 uniform ivec3 u_window;  // bricks; along x and z a power of two, along y half of it
@@ -27,9 +28,9 @@ const float turned_begins = 0.35;  // of the same above the surface, where that 
 const float worn_all = 0.46;     // nothing of the weathered ground is left
 const float probe_height = 2.75;  // voxels, as for meshes (shared/surface/surface_nets.h)
 
-uvec3 entry_at(ivec3 at, int level) {
+uvec4 entry_at(ivec3 at, int level) {
   ivec3 i = (at + u_wrap[level]) & (u_window - 1);
-  return texelFetch(u_entries, ivec3(i.z, i.y + level * u_window.y, i.x), 0).xyz;
+  return texelFetch(u_entries, ivec3(i.z, i.y + level * u_window.y, i.x), 0);
 }
 
 // Trilinear value in a stored brick, `local` voxels from its first. Rounded to 1/256 voxel, which is what hardware
@@ -47,8 +48,77 @@ vec3 brick_gradient(uint entry, vec3 local) {
               brick_value(entry, local + h.yyx) - brick_value(entry, local - h.yyx));
 }
 
+// What the planes at the corners of a cell say (shared/surface/face_plane.h): the largest and the smallest distance
+// from them, and their normals. No edge: all known ones are of one face.
+struct CellFaces {
+  bool edge;
+  float most;
+  float least;
+  vec3 most_normal;
+  vec3 least_normal;
+  vec4 blended;  // mean normal by how near the corners are, w: the share of those that know a plane
+};
+
+const float face_edge_cosine = 0.94;
+
+CellFaces faces_at(uint planes, vec3 local) {
+  ivec3 slot = ivec3(int(planes & 255u), int((planes >> 8u) & 255u), int((planes >> 16u) & 255u)) * corner_pitch;
+  ivec3 cell = clamp(ivec3(floor(local)), ivec3(0), ivec3(7));
+  vec3 f = local - vec3(cell);
+  CellFaces faces = CellFaces(false, -100.0, 100.0, vec3(0.0), vec3(0.0), vec4(0.0));
+  vec3 first = vec3(0.0);
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i >> 2, (i >> 1) & 1, i & 1);
+    vec4 plane = texelFetch(u_planes, slot + (cell + corner).zyx, 0);
+    if (dot(plane.xyz, plane.xyz) < 0.5) continue;
+    float away = plane.w * band + dot(plane.xyz, f - vec3(corner));
+    if (away > faces.most) {
+      faces.most = away;
+      faces.most_normal = plane.xyz;
+    }
+    if (away < faces.least) {
+      faces.least = away;
+      faces.least_normal = plane.xyz;
+    }
+    if (first == vec3(0.0)) first = plane.xyz;
+    faces.edge = faces.edge || dot(first, plane.xyz) < face_edge_cosine;
+    vec3 near = mix(1.0 - f, f, vec3(corner));
+    faces.blended += vec4(plane.xyz, 1.0) * (near.x * near.y * near.z);
+  }
+  return faces;
+}
+
+// Where faces meet, the trilinear value is rounded: planes go on up to the edge, the largest where rock is convex, the
+// smallest where it is hollow.
+float sharpened(CellFaces faces, float smooth_value) {
+  if (!faces.edge) return smooth_value;
+  return smooth_value + min(0.0, faces.most - smooth_value) + max(0.0, faces.least - smooth_value);
+}
+
+// Farther from the surface than this no edge lies, but that of a wedge below 45 degrees.
+const float sharp_reach = 1.3;
+
+float sharp_value(uvec4 entry, vec3 local, float smooth_value) {
+  if (entry.w == 0u || abs(smooth_value) > sharp_reach) return smooth_value;
+  return sharpened(faces_at(entry.w, local), smooth_value);
+}
+
+// The surface's own normal in a stored brick, not that of the rounded field beside an edge.
+vec3 brick_normal(uvec4 entry, vec3 local, vec3 otherwise) {
+  vec3 slope = brick_gradient(entry.x, local);
+  vec3 normal = dot(slope, slope) > 0.0 ? normalize(slope) : otherwise;
+  if (entry.w == 0u) return normal;
+  CellFaces faces = faces_at(entry.w, local);
+  float smooth_value = brick_value(entry.x, local);
+  if (faces.edge) {
+    if (faces.most < smooth_value + 0.06) return normalize(faces.most_normal);
+    return faces.least > smooth_value - 0.06 ? normalize(faces.least_normal) : normal;
+  }
+  return normalize(mix(normal, faces.blended.xyz / max(faces.blended.w, 0.01), faces.blended.w));
+}
+
 // The field as generated, code / 127: what an entry says of it, `same` where nothing was edited.
-float generated_in(uvec3 entry, vec3 local, float same) {
+float generated_in(uvec4 entry, vec3 local, float same) {
   uint kind = entry.y >> 24u;
   if (kind == 1u) return brick_value(entry.y, local) / band;
   return kind == 2u ? 1.0 : kind == 3u ? -1.0 : same;
@@ -77,12 +147,12 @@ float generated_at(vec3 from_eye, int level) {
 
 // What the surface looks like at a point in a brick (client/render/levels/look_window.h): as the nearest voxel to a point
 // half a voxel beneath it. 0: as the ground.
-int look_at(uvec3 entry, vec3 local, vec3 normal, float before) {
+int look_at(uvec4 entry, vec3 local, vec3 normal, float before) {
   uvec2 looks = uvec2(entry.z & 255u, (entry.z >> 8u) & 255u);
   if (entry.z >> 24u != 0u) {
     ivec3 slot = ivec3(int(entry.z & 255u), int((entry.z >> 8u) & 255u), int((entry.z >> 16u) & 255u));
-    ivec3 at = clamp(ivec3(floor(local - 0.5 * normal + 0.5)), ivec3(0), ivec3(look_pitch - 1));
-    looks = texelFetch(u_looks, slot * look_pitch + at.zyx, 0).rg;
+    ivec3 at = clamp(ivec3(floor(local - 0.5 * normal + 0.5)), ivec3(0), ivec3(corner_pitch - 1));
+    looks = texelFetch(u_looks, slot * corner_pitch + at.zyx, 0).rg;
   }
   return int(before < cut_begins ? looks.y : looks.x);
 }
@@ -115,7 +185,7 @@ int level_of(vec3 from_eye, int level) {
 // One look at the field from a point on a ray.
 struct Look {
   uint kind;
-  uvec3 entry;
+  uvec4 entry;
   vec3 local;      // in its brick, voxels
   vec3 lo;         // of the empty box around, from the point, voxels
   vec3 hi;
@@ -132,7 +202,7 @@ Look look(vec3 from_eye, int level) {
   found.distance = band;
   float bricks = 0.0;
   if (found.kind == kind_stored) {
-    found.distance = brick_value(found.entry.x, found.local);
+    found.distance = sharp_value(found.entry, found.local, brick_value(found.entry.x, found.local));
   } else {
     bricks = float(found.kind) - 1.0;
   }

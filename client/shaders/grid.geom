@@ -15,7 +15,6 @@ uniform vec3 u_eye;
 
 out vec3 v_world;
 out vec3 v_rock;
-out vec3 v_normal;
 out vec3 v_rock_normal;
 out float v_openness;
 out vec2 v_worn;
@@ -27,13 +26,13 @@ const uint no_corner = 255u;
 // The brick of the cell on one level.
 struct Home {
   int level;
-  uvec3 entry;
+  uvec4 entry;
   vec3 first;  // voxels
 };
 
 Home home_on(int level, vec3 middle) {
   vec3 at = floor(in_level(middle, level) / brick);
-  Home home = Home(level, uvec3(0u), at * brick);
+  Home home = Home(level, uvec4(0u), at * brick);
   if (all(greaterThanEqual(at, vec3(0.0))) && all(lessThan(at, vec3(u_window)))) home.entry = entry_at(ivec3(at), level);
   return home;
 }
@@ -45,7 +44,7 @@ Home home_of(vec3 corner, int level, vec3 middle, Home last) {
     if (level != last.level) home = home_on(level, middle);
     if (home.entry.x >> 24u != kind_unloaded) return home;
   }
-  return Home(u_levels, uvec3(0u), vec3(0.0));
+  return Home(u_levels, uvec4(0u), vec3(0.0));
 }
 
 // Metres; nowhere beyond all that is loaded.
@@ -70,7 +69,6 @@ void emit(vec3 from_eye, vec3 normal, Home home) {
   }
   v_world = u_eye + from_eye;
   v_rock = v_world;
-  v_normal = normal;
   v_rock_normal = normal;
   v_openness = cleft_openness_at(from_eye, normal, home.level, band);
   gl_Position = u_view_projection * vec4(v_world, 1.0);
@@ -90,7 +88,7 @@ void main() {
   vec3 hi = vec3(lines[3].x, lines[4].x, lines[5].x);
   float distances[8];
   Home homes[8];
-  Home last = Home(-1, uvec3(0u), vec3(0.0));
+  Home last = Home(-1, uvec4(0u), vec3(0.0));
   int signs = 0;
   for (int i = 0; i < 8; ++i) {
     float level = max(lines[3 * (i >> 2)].y, max(lines[1 + 3 * ((i >> 1) & 1)].y, lines[2 + 3 * (i & 1)].y));

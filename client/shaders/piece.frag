@@ -11,8 +11,7 @@ void main() {
   float before = 0.0;
   int material = 0;
   if (hit.entry.x != 0u) {
-    vec3 slope = brick_gradient(hit.entry.x, hit.in_brick);
-    if (dot(slope, slope) > 0.0) local_normal = normalize(slope);
+    local_normal = brick_normal(hit.entry, hit.in_brick, local_normal);
     before = generated_in(hit.entry, hit.in_brick, 0.0);
     material = look_at(hit.entry, hit.in_brick, local_normal, before);
   }

@@ -17,10 +17,10 @@ uniform mat4 u_view_projection;
 
 vec4 unturned() { return vec4(-v_rotation.xyz, v_rotation.w); }
 
-uvec3 piece_entry_at(ivec3 at) {
+uvec4 piece_entry_at(ivec3 at) {
   at = clamp(at, ivec3(0), v_bricks.yzw - 1);
   int i = v_bricks.x + (at.x * v_bricks.z + at.y) * v_bricks.w + at.z;
-  return texelFetch(u_piece_entries, ivec2(i % piece_entries_row, i / piece_entries_row), 0).xyz;
+  return texelFetch(u_piece_entries, ivec2(i % piece_entries_row, i / piece_entries_row), 0);
 }
 
 // Distance in voxels; outside is air.
@@ -37,7 +37,7 @@ struct PieceHit {
   bool found;
   vec3 local;   // voxels
   vec3 world;
-  uvec3 entry;  // 0 in the middle of a piece
+  uvec4 entry;  // 0 in the middle of a piece
   vec3 in_brick;
 };
 
@@ -58,14 +58,14 @@ PieceHit march_piece() {
     hit.in_brick = hit.local - at * brick;
     uint kind = hit.entry.x >> 24u;
     if (kind == kind_stored) {
-      float distance = brick_value(hit.entry.x, hit.in_brick);
+      float distance = sharp_value(hit.entry, hit.in_brick, brick_value(hit.entry.x, hit.in_brick));
       if (distance < 0.02) {
         hit.found = true;
         break;
       }
       along += max(distance * 0.9, 0.02);
     } else if (kind == kind_solid) {
-      hit.entry = uvec3(0u);
+      hit.entry = uvec4(0u);
       hit.found = true;
       break;
     } else {

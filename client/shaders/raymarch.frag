@@ -26,8 +26,7 @@ void main() {
   vec2 worn = vec2(0.0);
   int material = 0;
   if (hit.there.kind == kind_stored) {
-    vec3 slope = brick_gradient(hit.there.entry.x, hit.there.local);
-    if (dot(slope, slope) > 0.0) normal = normalize(slope);
+    normal = brick_normal(hit.there.entry, hit.there.local, normal);
 #if SURFACES > 0
     float before = generated_in(hit.there.entry, hit.there.local, 0.0);
     if (before != 0.0) worn = worn_at(from_eye, normal, hit.level, before, band);

@@ -16,7 +16,6 @@ uniform vec4 u_rotation;      // quaternion x, y, z, w
 
 out vec3 v_world;
 out vec3 v_rock;  // in the frame of the rock: patterns stay with a piece that moves
-out vec3 v_normal;
 out vec3 v_rock_normal;
 out float v_openness;
 out vec2 v_worn;     // rock.glsl
@@ -29,7 +28,6 @@ void main() {
   v_rock = (u_origin + a_position * u_step) * u_voxel_m;
   v_world = u_place_m + rotated(u_rotation, v_rock - u_centre_m);
   v_rock_normal = a_normal;
-  v_normal = rotated(u_rotation, a_normal);
   v_openness = a_openness;
   float come = floor(a_worn / 16.0);
   v_worn = vec2(a_worn - 16.0 * come, come) * worn_step;

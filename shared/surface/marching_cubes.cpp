@@ -40,7 +40,7 @@ class CubesBuilder {
     }
     for (int x = 0; x < cells_.x; ++x)
       for (int y = 0; y < cells_.y; ++y) add_row(x, y);
-    add_placed_vertices(window_, before_, vertices_, mesh_.vertices);
+    add_placed_vertices(window_, before_, vertices_, mesh_);
     return std::move(mesh_);
   }
 

@@ -8,22 +8,18 @@
 namespace scree {
 namespace {
 
-VoxelCoord corner(int i) {
-  return {i >> 2, (i >> 1) & 1, i & 1};
-}
-
 /// The sheet's crossings, in the order in which surface_nets sums them.
 std::vector<LeafCrossing> crossings_of(const Window& window, const CrossedSheet& sheet, VoxelCoord cell) {
   const CellTables& tables = cell_tables();
   std::vector<LeafCrossing> crossings;
   const auto code_at = [&](int i) {
-    const VoxelCoord p = cell + corner(i);
+    const VoxelCoord p = cell + cell_corner(i);
     return static_cast<float>(window.at(p.x, p.y, p.z));
   };
   for (size_t e = 0; e < cell_edges; ++e) {
     if (((sheet.edges >> e) & 1U) == 0) continue;
     const auto axis = static_cast<int>(e / 4);
-    const VoxelCoord from = corner(tables.edges[e].from);
+    const VoxelCoord from = cell_corner(tables.edges[e].from);
     const float a = code_at(tables.edges[e].from), b = code_at(tables.edges[e].to);
     CHECK_DEBUG((a < 0.0F) != (b < 0.0F));
     glm::vec3 at(static_cast<float>(from.x), static_cast<float>(from.y), static_cast<float>(from.z));

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "shared/field/coord.h"
+
 namespace scree {
 
 inline constexpr int cell_corners = 8;
@@ -13,6 +15,9 @@ inline constexpr int cell_faces = 6;
 /// Corner i lies at (i >> 2, (i >> 1) & 1, i & 1): z fastest, as in a window.
 /// Edge 4·axis + k runs along the axis; k counts the other two axes' offsets, the later axis fastest.
 /// Face 2·axis + side.
+inline constexpr VoxelCoord cell_corner(int i) {
+  return {i >> 2, (i >> 1) & 1, i & 1};
+}
 struct CellEdge {
   uint8_t from;
   uint8_t to;

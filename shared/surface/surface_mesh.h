@@ -36,7 +36,8 @@ static_assert(sizeof(SurfaceVertex) == 12);
 struct SurfaceMesh {
   VoxelCoord origin;                    ///< voxel of position (0, 0, 0)
   std::vector<SurfaceVertex> vertices;  ///< each once
-  std::vector<uint32_t> indices;        ///< triangles, counter-clockwise seen from the air
+  std::vector<float> slopes;      ///< of the field at each vertex: 1 on flat faces, less where faces meet
+  std::vector<uint32_t> indices;  ///< triangles, counter-clockwise seen from the air
 
   bool empty() const { return indices.empty(); }
 };

@@ -38,10 +38,9 @@ class NetsBuilder {
       if (segment.crossed) find_sheets(segment);
     if (sheets_.empty()) return std::move(mesh_);
     if (place_ == nullptr) {
-      add_sheet_vertices(window_, before_, sheets_, mesh_.vertices);
+      add_sheet_vertices(window_, before_, sheets_, mesh_);
     } else {
-      add_placed_vertices(window_, before_, placed_sheets(window_, origin_, sheets_, *place_),
-                          mesh_.vertices);
+      add_placed_vertices(window_, before_, placed_sheets(window_, origin_, sheets_, *place_), mesh_);
     }
     CHECK_EQ(mesh_.vertices.size(), sheets_.size());
     mesh_.indices.resize(quads_ * 6);
@@ -308,22 +307,19 @@ SurfaceMesh surface_nets_placed(const Window& window, const VoxelBox& owned, con
   return build(window, owned, before, mask, &place);
 }
 
-SurfaceMesh surface_nets_closed(const Window& volume, const Window* before) {
-  if (volume.box.empty()) return {};
+VoxelBox closed_box(const Window& volume) {
   // One voxel of air on every side closes the surface.
-  const VoxelBox owned = volume.box.grown(1);
-  Window padded(owned.grown(surface_nets_apron));
-  const auto copy = [&volume](const Window& from, Window& to) {
-    const VoxelCoord size = volume.box.size();
-    for (int x = volume.box.lo.x; x < volume.box.hi.x; ++x)
-      for (int y = volume.box.lo.y; y < volume.box.hi.y; ++y)
-        std::copy_n(&from.codes[from.index(x, y, volume.box.lo.z)], size.z, &to.at(x, y, volume.box.lo.z));
-  };
-  copy(volume, padded);
-  if (before == nullptr) return surface_nets(padded, owned);
-  Window padded_before(padded.box);
-  copy(*before, padded_before);
-  return surface_nets(padded, owned, &padded_before);
+  return volume.box.grown(1);
+}
+
+Window closed_window(const Window& volume) {
+  Window padded(closed_box(volume).grown(surface_nets_apron));
+  put(volume, padded);
+  return padded;
+}
+
+SurfaceMesh surface_nets_closed(const Window& volume) {
+  return volume.box.empty() ? SurfaceMesh{} : surface_nets(closed_window(volume), closed_box(volume));
 }
 
 }  // namespace scree

@@ -30,6 +30,9 @@ SurfaceMesh surface_nets_placed(const Window& window, const VoxelBox& owned, con
                                 const CellMask* mask, const SheetPlace& place);
 
 /// Meshes a piece's volume: a window outside which everything is air. The mesh is closed.
-SurfaceMesh surface_nets_closed(const Window& volume, const Window* before = nullptr);
+SurfaceMesh surface_nets_closed(const Window& volume);
+/// The box that surface_nets() has to own for that, and a volume's codes in the window that it then needs.
+VoxelBox closed_box(const Window& volume);
+Window closed_window(const Window& volume);
 
 }  // namespace scree

@@ -121,7 +121,8 @@ SCREE_INLINE void mean_crossing(const Rows& rows, const Ints& edges, Vector3& f)
 
 /// Central differences at the corners, interpolated: twice the step that a cell's own differences would have,
 /// so half the noise of the 8 bits. A normal of unit length; straight up where the codes are all the same.
-SCREE_INLINE void normal_at(const Rows& rows, const Vector3& f, Vector3& normal) {
+/// `length`: of the differences, codes.
+SCREE_INLINE void normal_at(const Rows& rows, const Vector3& f, Vector3& normal, Lanes& length) {
   const Lanes gx = 1.0F - f.x, gy = 1.0F - f.y, gz = 1.0F - f.z;
   Lanes across[2][2], slope[2][2], x_sum[2][2], y_sum[2][2];
   for (int i = 0; i < 2; ++i) {
@@ -145,7 +146,7 @@ SCREE_INLINE void normal_at(const Rows& rows, const Vector3& f, Vector3& normal)
   const Lanes x = gy * x0 + f.y * x1;
   const Lanes y = gx * y0 + f.x * y1;
   const Lanes z = gx * (gy * slope[0][0] + f.y * slope[0][1]) + f.x * (gy * slope[1][0] + f.y * slope[1][1]);
-  Lanes length = x * x + y * y + z * z;
+  length = x * x + y * y + z * z;
   for (int i = 0; i < batch; ++i) length[i] = __builtin_sqrtf(length[i]);
   const Ints flat = length == 0.0F;
   const Lanes scale = 1.0F / (flat ? Lanes{} + 1.0F : length);
@@ -166,15 +167,16 @@ struct Batch {
   Rows rows;
   Vector3 f;
   Vector3 normal;
-  Vector3 probe;  ///< fraction of the cell that the openness is probed in
-  Ints probed;    ///< that cell's offset
+  Lanes difference;  ///< length of the central differences, codes
+  Vector3 probe;     ///< fraction of the cell that the openness is probed in
+  Ints probed;       ///< that cell's offset
   Ints above_low, above_high;
   Ints before_low, before_high;
 };
 
 /// Where to probe the openness.
 SCREE_INLINE void aim(const Source& source, Batch& b) {
-  normal_at(b.rows, b.f, b.normal);
+  normal_at(b.rows, b.f, b.normal, b.difference);
   b.probe = {b.f.x + b.normal.x * probe_voxels, b.f.y + b.normal.y * probe_voxels,
              b.f.z + b.normal.z * probe_voxels};
   // The probe is > −4, so that truncation after a shift is floor.
@@ -206,7 +208,7 @@ SCREE_INLINE void openness_of(const Batch& b, Ints& openness) {
 }
 
 /// Packed as SurfaceVertex has it.
-SCREE_INLINE void store(const Source& source, const Batch& b, SurfaceVertex* vertices) {
+SCREE_INLINE void store(const Source& source, const Batch& b, SurfaceVertex* vertices, float* slopes) {
   Ints openness, nx, ny, nz, before{};
   openness_of(b, openness);
   round_to(b.normal.x * 127.0F, nx);
@@ -223,6 +225,8 @@ SCREE_INLINE void store(const Source& source, const Batch& b, SurfaceVertex* ver
     const int32_t packed[3] = {words[0][i], words[1][i], words[2][i]};
     std::memcpy(static_cast<void*>(vertices + i), packed, sizeof(packed));
   }
+  const Lanes slope = b.difference * (0.5F / codes_per_voxel);
+  std::memcpy(slopes, &slope, sizeof(slope));
 }
 
 SCREE_INLINE void load(const Source& source, const CrossedSheet* sheets, Batch& b) {
@@ -263,7 +267,7 @@ constexpr size_t together = 4;
 constexpr size_t group = together * batch;
 
 SCREE_VECTOR_CLONES void place_sheets(const Source& source, const CrossedSheet* sheets,
-                                      SurfaceVertex* vertices) {
+                                      SurfaceVertex* vertices, float* slopes) {
   Batch batches[together];
   for (size_t i = 0; i < together; ++i) load(source, sheets + i * batch, batches[i]);
   for (Batch& b : batches) {
@@ -274,51 +278,56 @@ SCREE_VECTOR_CLONES void place_sheets(const Source& source, const CrossedSheet* 
     aim(source, b);
   }
   for (Batch& b : batches) load_above_and_before(source, b);
-  for (size_t i = 0; i < together; ++i) store(source, batches[i], vertices + i * batch);
+  for (size_t i = 0; i < together; ++i) store(source, batches[i], vertices + i * batch, slopes + i * batch);
 }
 
 SCREE_VECTOR_CLONES void shade_placed(const Source& source, const PlacedVertex* placed,
-                                      SurfaceVertex* vertices) {
+                                      SurfaceVertex* vertices, float* slopes) {
   Batch batches[together];
   for (size_t i = 0; i < together; ++i) load(source, placed + i * batch, batches[i]);
   for (Batch& b : batches) aim(source, b);
   for (Batch& b : batches) load_above_and_before(source, b);
-  for (size_t i = 0; i < together; ++i) store(source, batches[i], vertices + i * batch);
+  for (size_t i = 0; i < together; ++i) store(source, batches[i], vertices + i * batch, slopes + i * batch);
 }
 
 /// Runs the kernel on whole groups in place, and on the rest in a padded copy.
 template <typename Item, typename Kernel>
-void in_groups(const Window& window, const Window* before, std::span<const Item> items,
-               std::vector<SurfaceVertex>& vertices, Kernel&& kernel) {
+void in_groups(const Window& window, const Window* before, std::span<const Item> items, SurfaceMesh& mesh,
+               Kernel&& kernel) {
   CHECK(before == nullptr || before->box == window.box);
   const VoxelCoord size = window.box.size();
   const Source source{window.codes.data(),
                       before == nullptr ? nullptr : before->codes.data(),
                       {static_cast<std::ptrdiff_t>(size.y) * size.z, size.z}};
-  const size_t first = vertices.size();
-  vertices.resize(first + items.size());
-  SurfaceVertex* to = vertices.data() + first;
+  const size_t first = mesh.vertices.size();
+  CHECK_EQ(mesh.slopes.size(), first);
+  mesh.vertices.resize(first + items.size());
+  mesh.slopes.resize(first + items.size());
+  SurfaceVertex* to = mesh.vertices.data() + first;
+  float* slopes_to = mesh.slopes.data() + first;
   size_t i = 0;
-  for (; i + group <= items.size(); i += group) kernel(source, items.data() + i, to + i);
+  for (; i + group <= items.size(); i += group) kernel(source, items.data() + i, to + i, slopes_to + i);
   if (i == items.size()) return;
   std::array<Item, group> padded;
   std::array<SurfaceVertex, group> done;
+  std::array<float, group> slopes_done;
   padded.fill(items[i]);
   std::ranges::copy(items.subspan(i), padded.begin());
-  kernel(source, padded.data(), done.data());
+  kernel(source, padded.data(), done.data(), slopes_done.data());
   std::copy_n(done.begin(), items.size() - i, to + i);
+  std::copy_n(slopes_done.begin(), items.size() - i, slopes_to + i);
 }
 
 }  // namespace
 
 void add_sheet_vertices(const Window& window, const Window* before, std::span<const CrossedSheet> sheets,
-                        std::vector<SurfaceVertex>& vertices) {
-  in_groups(window, before, sheets, vertices, place_sheets);
+                        SurfaceMesh& mesh) {
+  in_groups(window, before, sheets, mesh, place_sheets);
 }
 
 void add_placed_vertices(const Window& window, const Window* before, std::span<const PlacedVertex> placed,
-                         std::vector<SurfaceVertex>& vertices) {
-  in_groups(window, before, placed, vertices, shade_placed);
+                         SurfaceMesh& mesh) {
+  in_groups(window, before, placed, mesh, shade_placed);
 }
 
 }  // namespace scree

@@ -27,10 +27,11 @@ struct PlacedVertex {
 
 /// Appends one vertex for each sheet, at the mean of the crossings of its edges (Gibson 1998), strictly
 /// inside the cell. `window` reaches far enough beyond the cells (surface_nets_apron); `before` has its box.
+/// The mesh gets their slopes, too.
 void add_sheet_vertices(const Window& window, const Window* before, std::span<const CrossedSheet> sheets,
-                        std::vector<SurfaceVertex>& vertices);
+                        SurfaceMesh& mesh);
 /// Appends a vertex at each place, under the same conditions.
 void add_placed_vertices(const Window& window, const Window* before, std::span<const PlacedVertex> placed,
-                         std::vector<SurfaceVertex>& vertices);
+                         SurfaceMesh& mesh);
 
 }  // namespace scree

@@ -249,7 +249,7 @@ TEST_F(AgreementOverRubble, triangles_face_as_the_field_does) {
   const std::optional<BlockWindows> windows =
       gather_windows(field_, {middle - VoxelCoord{12, 12, 12}, middle + VoxelCoord{12, 12, 12}});
   ASSERT_TRUE(windows);
-  const SurfaceMesh mesh = windows->mesh();
+  const SurfaceMesh mesh = windows->mesh(FaceEdges::sharp);
   double area = 0.0, drawn_degrees = 0.0;
   size_t judged = 0, astray = 0;
   for (size_t t = 0; t < mesh.indices.size(); t += 3) {

@@ -68,7 +68,7 @@ class Watched : public testing::Test {
           const SurfaceNode node{0, {x, y, z}};
           const VoxelBox owned = samples_of(node);
           const std::optional<BlockWindows> windows = gather_windows(field_, owned);
-          const SurfaceMesh now = windows ? windows->mesh() : SurfaceMesh{};
+          const SurfaceMesh now = windows ? windows->mesh(FaceEdges::sharp) : SurfaceMesh{};
           const auto shown = nodes_.find(node);
           ASSERT_EQ(now.empty(), shown == nodes_.end());
           if (now.empty()) continue;

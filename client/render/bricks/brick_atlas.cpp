@@ -56,7 +56,7 @@ void BrickAtlas::replace(AtlasSlot slot, const AtlasBrick& brick) {
 
 size_t BrickAtlas::bytes() const {
   return static_cast<size_t>(size_[0]) * static_cast<size_t>(size_[1]) * static_cast<size_t>(size_[2]) +
-         looks_.bytes();
+         looks_.bytes() + planes_.bytes();
 }
 
 }  // namespace scree

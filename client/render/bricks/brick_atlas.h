@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "client/render/bricks/look_atlas.h"
+#include "client/render/bricks/corner_atlas.h"
 #include "client/render/gl/gl.h"
 #include "client/render/levels/atlas_brick.h"
 
@@ -26,8 +26,11 @@ class BrickAtlas {
   void remove(AtlasSlot slot) { free_.push_back(slot); }
 
   /// The looks of bricks whose voxels look unlike each other.
-  LookAtlas& looks() { return looks_; }
-  const LookAtlas& looks() const { return looks_; }
+  CornerAtlas<Look>& looks() { return looks_; }
+  const CornerAtlas<Look>& looks() const { return looks_; }
+  /// The planes of bricks in which faces meet.
+  CornerAtlas<FacePlane>& planes() { return planes_; }
+  const CornerAtlas<FacePlane>& planes() const { return planes_; }
 
   unsigned texture() const { return texture_.name(); }
   /// Texels along x, y and z.
@@ -40,7 +43,8 @@ class BrickAtlas {
 
  private:
   gl::Texture texture_;
-  LookAtlas looks_;
+  CornerAtlas<Look> looks_;
+  CornerAtlas<FacePlane> planes_;
   std::array<int, 3> size_;
   size_t capacity_ = 0;
   std::vector<AtlasSlot> free_;

@@ -54,8 +54,8 @@ BrickWorld::BrickWorld(WorkPool& pool, const TerrainSource& source, float view_r
   glBindTexture(GL_TEXTURE_3D, entries_.name());
   const std::vector<ClipEntry> unloaded(static_cast<size_t>(side_ * side_) * static_cast<size_t>(side_ / 2) *
                                         levels);
-  glTexImage3D(GL_TEXTURE_3D, 0, GL_RGB32UI, side_, side_ / 2 * static_cast<int>(levels), side_, 0,
-               GL_RGB_INTEGER, GL_UNSIGNED_INT, unloaded.data());
+  glTexImage3D(GL_TEXTURE_3D, 0, GL_RGBA32UI, side_, side_ / 2 * static_cast<int>(levels), side_, 0,
+               GL_RGBA_INTEGER, GL_UNSIGNED_INT, unloaded.data());
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
   glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
 }
@@ -77,7 +77,7 @@ void BrickWorld::upload_entries(ClipLevel& level) {
   glBindTexture(GL_TEXTURE_3D, entries_.name());
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   level.window().drain_changed_slabs([&](int x, const ClipEntry* entries) {
-    glTexSubImage3D(GL_TEXTURE_3D, 0, 0, side_ / 2 * level.level(), x, side_, side_ / 2, 1, GL_RGB_INTEGER,
+    glTexSubImage3D(GL_TEXTURE_3D, 0, 0, side_ / 2 * level.level(), x, side_, side_ / 2, 1, GL_RGBA_INTEGER,
                     GL_UNSIGNED_INT, entries);
   });
 }
@@ -105,12 +105,15 @@ void BrickWorld::use(const gl::Program& program, glm::vec3 eye_m) const {
   program.set("u_entries", 0);
   program.set("u_atlas", 1);
   program.set("u_looks", looks_unit);
+  program.set("u_planes", planes_unit);
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_3D, entries_.name());
   glActiveTexture(GL_TEXTURE1);
   glBindTexture(GL_TEXTURE_3D, atlas_.texture());
   glActiveTexture(GL_TEXTURE0 + looks_unit);
   glBindTexture(GL_TEXTURE_3D, atlas_.looks().texture());
+  glActiveTexture(GL_TEXTURE0 + planes_unit);
+  glBindTexture(GL_TEXTURE_3D, atlas_.planes().texture());
   glActiveTexture(GL_TEXTURE0);
 }
 

@@ -15,6 +15,7 @@ namespace scree {
 class BrickWorld {
  public:
   static constexpr int looks_unit = 6;
+  static constexpr int planes_unit = 8;
 
   /// `pool` must outlive it.
   BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m);

@@ -26,7 +26,7 @@ uint32_t store_before(LevelBrick::Before kind, const AtlasBrick& brick, BrickAtl
   return slot ? ClipEntry::packed(ClipEntry::mixed, *slot) : 0;
 }
 
-uint32_t store_looks(const BrickLooks& looks, const ClipEntry& old, LookAtlas& atlas) {
+uint32_t store_looks(const BrickLooks& looks, const ClipEntry& old, CornerAtlas<Look>& atlas) {
   if (looks.each != nullptr) {
     if (old.has_looks_slot()) {
       atlas.replace(ClipEntry::slot_of(old.looks), *looks.each);
@@ -36,6 +36,19 @@ uint32_t store_looks(const BrickLooks& looks, const ClipEntry& old, LookAtlas& a
   }
   if (old.has_looks_slot()) atlas.remove(ClipEntry::slot_of(old.looks));
   return looks.all.shown | static_cast<uint32_t>(looks.all.bare) << 8U;
+}
+
+uint32_t store_planes(const PlaneBrick* planes, const ClipEntry& old, CornerAtlas<FacePlane>& atlas) {
+  if (planes == nullptr) {
+    if (old.has_planes_slot()) atlas.remove(ClipEntry::slot_of(old.planes));
+    return 0;
+  }
+  if (old.has_planes_slot()) {
+    atlas.replace(ClipEntry::slot_of(old.planes), *planes);
+    return old.planes;
+  }
+  const std::optional<AtlasSlot> slot = atlas.add(*planes);
+  return slot ? ClipEntry::packed(ClipEntry::planes_stored, *slot) : 0;
 }
 
 struct ClipLevel::Inbox {
@@ -56,6 +69,7 @@ void ClipLevel::release(const ClipEntry& entry, BrickAtlas& atlas) {
   if (entry.kind() == ClipEntry::stored) atlas.remove(ClipEntry::slot_of(entry.field));
   if (entry.has_before_slot()) atlas.remove(ClipEntry::slot_of(entry.before));
   if (entry.has_looks_slot()) atlas.looks().remove(ClipEntry::slot_of(entry.looks));
+  if (entry.has_planes_slot()) atlas.planes().remove(ClipEntry::slot_of(entry.planes));
 }
 
 void ClipLevel::follow(glm::vec3 eye_m, BrickAtlas& atlas) {
@@ -164,6 +178,7 @@ void ClipLevel::read(const Field& field, BrickCoord brick, BrickAtlas& atlas) {
   const bool keeps = now.before_kind == LevelBrick::Before::mixed && old.has_before_slot();
   entry.before = keeps ? old.before : store_before(now.before_kind, now.before, atlas);
   entry.looks = store_looks(now.looks, old, atlas.looks());
+  entry.planes = store_planes(now.planes.get(), old, atlas.planes());
   if (old.kind() == ClipEntry::stored && entry.kind() != ClipEntry::stored)
     atlas.remove(ClipEntry::slot_of(old.field));
   if (old.has_before_slot() && !keeps) atlas.remove(ClipEntry::slot_of(old.before));

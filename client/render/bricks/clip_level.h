@@ -22,7 +22,9 @@ namespace scree {
 uint32_t store_before(LevelBrick::Before kind, const AtlasBrick& brick, BrickAtlas& atlas);
 /// The value of ClipEntry::looks; `old`: what stood there. Mixed looks go into the looks' atlas, if there is
 /// room; else the brick looks as one of its voxels does. Gives the slot of `old` back if it has no use.
-uint32_t store_looks(const BrickLooks& looks, const ClipEntry& old, LookAtlas& atlas);
+uint32_t store_looks(const BrickLooks& looks, const ClipEntry& old, CornerAtlas<Look>& atlas);
+/// The same of planes.
+uint32_t store_planes(const PlaneBrick* planes, const ClipEntry& old, CornerAtlas<FacePlane>& atlas);
 
 class ClipLevel {
  public:

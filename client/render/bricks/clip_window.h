@@ -27,8 +27,10 @@ struct ClipEntry {
   /// How all of a stored brick looks, shown | bare << 8; or looks_mixed << 24 and a slot of the looks'
   /// atlas.
   uint32_t looks = 0;
+  uint32_t planes = 0;  ///< planes_stored << 24 and a slot of the planes' atlas, where faces meet; else 0
 
   static constexpr uint32_t looks_mixed = 1;
+  static constexpr uint32_t planes_stored = 1;
 
   /// The kind of `before`: nothing was edited, so it is the field itself; or all air, or all rock, or a
   /// brick.
@@ -37,6 +39,7 @@ struct ClipEntry {
   uint32_t kind() const { return field >> 24U; }
   bool has_before_slot() const { return before >> 24U == mixed; }
   bool has_looks_slot() const { return looks >> 24U == looks_mixed; }
+  bool has_planes_slot() const { return planes != 0; }
   /// Edited, or of looks of its own.
   bool is_touched() const { return before != 0 || looks != 0; }
   bool is_empty() const { return kind() != unloaded && kind() < stored; }

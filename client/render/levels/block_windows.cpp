@@ -8,6 +8,7 @@
 
 #include "client/render/levels/surface_looks.h"
 #include "shared/base/vector_clones.h"
+#include "shared/surface/creases.h"
 #include "shared/surface/marching_cubes.h"
 
 namespace scree {
@@ -123,10 +124,12 @@ void copy_brick(BrickCoord coord, const Brick& brick, Window& window) {
 
 }  // namespace
 
-SurfaceMesh BlockWindows::mesh(const CellMask* mask, const SheetPlace* place) const {
+SurfaceMesh BlockWindows::mesh(FaceEdges edges, const CellMask* mask, const SheetPlace* place) const {
   const Window* then = before ? &*before : nullptr;
-  return finished(place == nullptr ? surface_nets(now, owned, then, mask)
-                                   : surface_nets_placed(now, owned, then, mask, *place));
+  SurfaceMesh made = place == nullptr ? surface_nets(now, owned, then, mask)
+                                      : surface_nets_placed(now, owned, then, mask, *place);
+  if (edges == FaceEdges::sharp) sharpen_creases(now, made);
+  return finished(std::move(made));
 }
 
 SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {

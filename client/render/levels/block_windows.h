@@ -9,6 +9,9 @@
 
 namespace scree {
 
+/// Whether edges of faces are drawn sharp (creases.h). Coarse samples of edits know no faces.
+enum class FaceEdges { rounded, sharp };
+
 struct BlockWindows {
   VoxelBox owned;
   Window now;
@@ -17,7 +20,7 @@ struct BlockWindows {
 
   /// The mesh of the cells in the mask alone, if there is one, with vertices at those places
   /// (surface_nets.h).
-  SurfaceMesh mesh(const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
+  SurfaceMesh mesh(FaceEdges edges, const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
   /// The same by marching_cubes.h.
   SurfaceMesh mesh_by_cubes(const CellMask* mask) const;
   /// Whether all looks as the ground does that nobody touched.

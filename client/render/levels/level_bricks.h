@@ -13,13 +13,14 @@
 #include "client/render/levels/atlas_brick.h"
 #include "client/render/levels/look_window.h"
 #include "shared/field/field.h"
+#include "shared/surface/face_plane.h"
 
 namespace scree {
 
 /// The looks of samples 0 … 8 of a brick along each axis, for rays that end in it: half a voxel beneath a
 /// surface in the brick, the nearest voxel is one of them. Air has the looks of rock beside it.
-inline constexpr int look_brick_side = brick_size + 1;
-using LookBrick = std::array<Look, look_brick_side * look_brick_side * look_brick_side>;
+inline constexpr int corner_brick_side = brick_size + 1;
+using LookBrick = std::array<Look, corner_brick_side * corner_brick_side * corner_brick_side>;
 
 struct BrickLooks {
   Look all{};
@@ -29,14 +30,25 @@ struct BrickLooks {
 /// The looks of the brick that begins at `first`; what is beyond the windows is air. They have the same box.
 BrickLooks looks_of(const LookWindow& looks, const Window& now, VoxelCoord first);
 
+/// The planes of flat faces at the same samples. Points far from the surface have none.
+using PlaneBrick = std::array<FacePlane, corner_brick_side * corner_brick_side * corner_brick_side>;
+
+/// Voxels beyond these samples that their planes depend on: those of neighbours, too.
+inline constexpr int plane_brick_reach = face_plane_reach + 1;
+
+/// The planes of the brick that begins at `first`, if faces meet in it. The window must hold its samples 0 … 8
+/// grown by plane_brick_reach.
+std::unique_ptr<PlaneBrick> planes_of(const Window& window, VoxelCoord first);
+
 struct LevelBrick {
   enum class Kind { empty, solid, stored } kind = Kind::empty;
   AtlasBrick field;  ///< when stored
 
   /// The generated field: `same` without edits; else it distinguishes fresh rock and rubble.
   enum class Before { same, mixed, air, rock } before_kind = Before::same;
-  AtlasBrick before;  ///< when mixed
-  BrickLooks looks;   ///< when stored
+  AtlasBrick before;                     ///< when mixed
+  BrickLooks looks;                      ///< when stored
+  std::unique_ptr<PlaneBrick> planes{};  ///< when stored, and faces meet; coarse samples of edits know none
 };
 
 /// By the samples of its own cells, not the rest of its apron.

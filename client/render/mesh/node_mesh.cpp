@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "client/render/levels/surface_looks.h"
+#include "shared/surface/creases.h"
 #include "shared/surface/leaf_surface.h"
 #include "shared/surface/marching_cubes.h"
 #include "shared/surface/sharp_vertex.h"
@@ -199,7 +200,7 @@ std::vector<bool> coarse_points(const LeafMesh& leaves) {
 /// The looks of coarse points by the node's own samples, as meshes have them that know no others.
 void set_coarse_looks(const LeafMesh& leaves, const std::vector<bool>& coarse, const BlockWindows& own,
                       SurfaceMesh& mesh) {
-  SurfaceMesh points{own.now.box.lo, {}, {}};
+  SurfaceMesh points{own.now.box.lo, {}, {}, {}};
   const std::array<int, 3> lo{points.origin.x, points.origin.y, points.origin.z};
   for (size_t p = 0; p < coarse.size(); ++p) {
     if (!coarse[p]) continue;
@@ -215,19 +216,22 @@ void set_coarse_looks(const LeafMesh& leaves, const std::vector<bool>& coarse, c
 }
 
 void set_looks(const LeafMesh& leaves, const BlockWindows& own, const BlockWindows& finer,
-               SurfaceMesh& mesh) {
+               const std::vector<bool>& coarse, SurfaceMesh& mesh) {
   if (own.is_untouched() && finer.is_untouched()) return;
   finer.set_looks(mesh);
   finer.set_worn(mesh);
   if (own.looks.is_ground() && finer.looks.is_ground()) return;
-  const std::vector<bool> coarse = coarse_points(leaves);
   set_coarse_looks(leaves, coarse, own, mesh);
   part_looks(mesh, coarse);
 }
 
+FaceEdges edges_at(int level) {
+  return level == 0 ? FaceEdges::sharp : FaceEdges::rounded;
+}
+
 /// Placed and shaded by a window in the grid's units.
 SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows& own,
-                   const BlockWindows& windows) {
+                   const BlockWindows& windows, FaceEdges edges) {
   SurfaceMesh mesh;
   mesh.origin = origin;
   mesh.indices = leaves.indices;
@@ -247,8 +251,10 @@ SurfaceMesh shaded(const LeafMesh& leaves, VoxelCoord origin, const BlockWindows
     placed.cell = static_cast<int32_t>(windows.now.index(cell[0], cell[1], cell[2]));
     vertices.push_back(placed);
   }
-  add_placed_vertices(windows.now, windows.before ? &*windows.before : nullptr, vertices, mesh.vertices);
-  set_looks(leaves, own, windows, mesh);
+  add_placed_vertices(windows.now, windows.before ? &*windows.before : nullptr, vertices, mesh);
+  const std::vector<bool> coarse = coarse_points(leaves);
+  if (edges == FaceEdges::sharp) sharpen_creases(windows.now, mesh, &coarse);
+  set_looks(leaves, own, windows, coarse, mesh);
   return mesh;
 }
 static_assert(surface_steps_per_voxel == 256.0F);
@@ -298,9 +304,12 @@ SurfaceMesh mesh_border(const NodeJob& job, const CellMask& plain) {
       job.finer ? *job.finer
                 : plain_windows(scaled(own, own_side).grown(known_around - 2), job.finer_is_rock);
   const LeafMesh leaves = border_polygons(job, plain, coarse.now, finer.now);
+  // Marching cubes has no vertices inside cells.
+  const FaceEdges edges =
+      job.polygoniser == Polygoniser::cubes ? FaceEdges::rounded : edges_at(job.node.level - 1);
   // Below all that mesh_inside makes of the node, too.
   const VoxelCoord origin = scaled(own, own_side).grown(known_around).lo;
-  return leaves.indices.empty() ? SurfaceMesh{} : shaded(leaves, origin, coarse, finer);
+  return leaves.indices.empty() ? SurfaceMesh{} : shaded(leaves, origin, coarse, finer, edges);
 }
 
 /// The mesh by the node's own samples.
@@ -308,7 +317,8 @@ SurfaceMesh mesh_inside(const NodeJob& job, const CellMask* plain) {
   if (!job.own) return {};
   if (job.polygoniser == Polygoniser::cubes) return job.own->mesh_by_cubes(plain);
   const SheetPlace place = place_by(job.polygoniser, job.own->now);
-  return job.own->mesh(plain, job.polygoniser == Polygoniser::nets ? nullptr : &place);
+  return job.own->mesh(edges_at(job.node.level), plain,
+                       job.polygoniser == Polygoniser::nets ? nullptr : &place);
 }
 
 }  // namespace

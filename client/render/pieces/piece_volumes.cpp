@@ -42,6 +42,16 @@ AtlasBrick brick_from(const Window& window, VoxelCoord first) {
   return brick;
 }
 
+/// A volume's codes, air about them, as far as the planes of bricks over a box need them.
+Window padded_to(const Window& window, const VoxelBox& bricks) {
+  const VoxelBox needed = bricks.grown(1 + plane_brick_reach), &own = window.box;
+  Window padded(
+      {{std::min(needed.lo.x, own.lo.x), std::min(needed.lo.y, own.lo.y), std::min(needed.lo.z, own.lo.z)},
+       {std::max(needed.hi.x, own.hi.x), std::max(needed.hi.y, own.hi.y), std::max(needed.hi.z, own.hi.z)}});
+  put(window, padded);
+  return padded;
+}
+
 std::array<float, 3> as_floats(VoxelCoord v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
@@ -113,6 +123,8 @@ PieceVolumes::Stored PieceVolumes::store(const Field& field, const ScenePiece& p
   const VoxelCoord size = rock.hi - first;
   const auto along = [](int voxels) { return (voxels + brick_size - 1) / brick_size; };
   const VoxelCoord bricks{along(size.x), along(size.y), along(size.z)};
+  const Window padded =
+      padded_to(window, {first, first + first_voxel(BrickCoord{bricks.x, bricks.y, bricks.z})});
   const Window before = gather_generated(field, window.box);
   const LookWindow looks = looks_of(field, *piece.volume);
   stored.count = static_cast<uint32_t>(bricks.x * bricks.y * bricks.z);
@@ -124,12 +136,13 @@ PieceVolumes::Stored PieceVolumes::store(const Field& field, const ScenePiece& p
         const VoxelCoord at = first + first_voxel(BrickCoord{x, y, z});
         const AtlasBrick codes = brick_from(window, at);
         const LevelBrick::Kind kind = kind_of(codes);
-        *entry = {kind == LevelBrick::Kind::solid ? ClipEntry::solid << 24U : clip_empty, 0, 0};
+        *entry = {kind == LevelBrick::Kind::solid ? ClipEntry::solid << 24U : clip_empty, 0, 0, 0};
         if (kind != LevelBrick::Kind::stored) continue;
         if (const auto slot = atlas.add(codes)) entry->field = ClipEntry::packed(ClipEntry::stored, *slot);
         const AtlasBrick generated = brick_from(before, at);
         entry->before = store_before(before_kind_of(generated), generated, atlas);
         entry->looks = store_looks(looks_of(looks, window, at), {}, atlas.looks());
+        entry->planes = store_planes(planes_of(padded, at).get(), {}, atlas.planes());
       }
   upload_entries(stored.first, stored.count);
   const glm::vec3 centre = piece.volume->centre_voxels - glm::vec3(first.x, first.y, first.z);
@@ -147,6 +160,7 @@ void PieceVolumes::drop(const Stored& stored, BrickAtlas& atlas) {
     if (entry.kind() == ClipEntry::stored) atlas.remove(ClipEntry::slot_of(entry.field));
     if (entry.has_before_slot()) atlas.remove(ClipEntry::slot_of(entry.before));
     if (entry.has_looks_slot()) atlas.looks().remove(ClipEntry::slot_of(entry.looks));
+    if (entry.has_planes_slot()) atlas.planes().remove(ClipEntry::slot_of(entry.planes));
   }
   free_runs_[static_cast<size_t>(std::bit_width(stored.count - 1))].push_back(stored.first);
 }
@@ -156,14 +170,14 @@ void PieceVolumes::upload_entries(uint32_t first, uint32_t count) {
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
   const auto rows = static_cast<GLsizei>(entries_.size() / entries_row);
   if (count == entries_.size()) {
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGB32UI, entries_row, rows, 0, GL_RGB_INTEGER, GL_UNSIGNED_INT,
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32UI, entries_row, rows, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
                  entries_.data());
     return;
   }
   const uint32_t top = first / entries_row;
   const uint32_t end = (first + count - 1) / entries_row + 1;
   glTexSubImage2D(GL_TEXTURE_2D, 0, 0, static_cast<GLint>(top), entries_row, static_cast<GLsizei>(end - top),
-                  GL_RGB_INTEGER, GL_UNSIGNED_INT, &entries_[size_t{top} * entries_row]);
+                  GL_RGBA_INTEGER, GL_UNSIGNED_INT, &entries_[size_t{top} * entries_row]);
 }
 
 void PieceVolumes::upload_instances(const ScenePieces& pieces) {

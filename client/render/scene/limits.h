@@ -48,9 +48,9 @@ inline constexpr int image_side_max = 8192;
 /// smaller. A coarser level shows the bricks that do not fit.
 inline constexpr int atlas_side_max = 512;
 
-/// Texels along the third side of the atlas of looks: 28³ bricks whose voxels look unlike each other, 32 MiB.
-/// It begins small. A brick that does not fit looks as one of its voxels does.
-inline constexpr int look_atlas_depth_max = 256;
+/// Texels along the third side of an atlas of looks or planes: 28³ bricks, 32 or 64 MiB. It begins small. A
+/// brick that does not fit looks as one of its voxels does, or has rounded edges.
+inline constexpr int corner_atlas_depth_max = 256;
 
 /// Bricks with a surface in a column of a level's window that the atlas has room for. The rough open terrain
 /// has 6 on the finest level and fewer on the others.
