@@ -25,6 +25,8 @@ constexpr float same_wall_voxels = 1.2F;
 constexpr float other_side_cosine = -0.94F;
 /// Planes that pass by the meeting point farther away than this are of no common edge.
 constexpr float meeting_voxels = 0.2F;
+/// A vertex this near to a plane lies on its face.
+constexpr float on_face_voxels = 0.12F;
 /// Share of the planes' weight that holds a vertex where the planes say nothing, such as along an edge:
 /// normals have errors of some hundredths, which must not move it there.
 constexpr float hold = 0.002F;
@@ -128,6 +130,16 @@ struct CellPlanes {
       if (std::abs(distance[i] + glm::dot(normal[i], way)) > meeting_voxels) return false;
     return true;
   }
+  /// Drops those that are farther from the point.
+  void keep_near(float voxels) {
+    size_t kept = 0;
+    for (size_t i = 0; i < count; ++i) {
+      if (std::abs(distance[i]) > voxels) continue;
+      normal[kept] = normal[i];
+      distance[kept++] = distance[i];
+    }
+    count = kept;
+  }
   glm::vec3 mean_normal() const {
     glm::vec3 sum(0.0F);
     for (size_t i = 0; i < count; ++i) sum += normal[i];
@@ -170,8 +182,11 @@ class Sharpener {
     rebase();
     if (bent_.empty()) return;
     is_crease_.resize(mesh_.vertices.size());
-    for (const uint32_t i : bent_) move(i);
-    if (any_ && fixed_ == nullptr) finish_quads();
+    for (const uint32_t i : bent_) {
+      move(i);
+      if (!is_crease_[i]) face(mesh_.vertices[i]);
+    }
+    if (any_ && fixed_ == nullptr) split_quads();
   }
 
  private:
@@ -247,20 +262,13 @@ class Sharpener {
       vertex.normal[static_cast<size_t>(i)] = static_cast<int8_t>(n[i] + (n[i] < 0.0F ? -0.5F : 0.5F));
   }
 
-  /// Quads at an edge: split along it, and their other vertices lie on a face each.
-  void finish_quads() {
+  /// Quads with two opposite vertices on an edge are split along it.
+  void split_quads() {
     std::vector<uint32_t>& indices = mesh_.indices;
     CHECK_EQ(indices.size() % 6, size_t{0});
-    std::vector<bool> is_done = is_crease_;
     for (size_t q = 0; q < indices.size(); q += 6) {
       const std::array<uint32_t, 4> quad{indices[q], indices[q + 1], indices[q + 2], indices[q + 5]};
       const auto is_crease = [&](size_t i) { return static_cast<bool>(is_crease_[quad[i]]); };
-      if (!is_crease(0) && !is_crease(1) && !is_crease(2) && !is_crease(3)) continue;
-      for (const uint32_t i : quad) {
-        if (is_done[i]) continue;
-        is_done[i] = true;
-        face(mesh_.vertices[i]);
-      }
       const bool other = is_crease(1) && is_crease(3) && !(is_crease(0) && is_crease(2));
       if (!other) continue;
       const std::array<uint32_t, 6> turned{quad[1], quad[2], quad[3], quad[1], quad[3], quad[0]};
@@ -268,9 +276,10 @@ class Sharpener {
     }
   }
 
-  /// Central differences reach over an edge; the planes of the cell's corners do not.
+  /// Central differences reach over an edge; the planes on which the vertex lies do not.
   void face(SurfaceVertex& vertex) {
-    const CellPlanes planes(planes_, cell_of(vertex), place_of(vertex), normal_of(vertex));
+    CellPlanes planes(planes_, cell_of(vertex), place_of(vertex), normal_of(vertex));
+    planes.keep_near(on_face_voxels);
     if (planes.count > 0 && !planes.is_edge()) set_normal(vertex, planes.mean_normal(), 127);
   }
 
