@@ -15,6 +15,7 @@ Result<void> MethodSwitch::choose(const MethodEntry& entry) {
 }
 
 void MethodSwitch::begin_world() {
+  stones_.forget();
   next_ = {};
   shown_is_past_ = shown_.method != nullptr;
 }
@@ -52,7 +53,10 @@ Result<void> MethodSwitch::begin(Slot& slot, const Scene& scene) {
   return {};
 }
 
-Result<void> MethodSwitch::follow(const MirrorChanges& changes, const Scene& scene, const Camera& camera) {
+Result<void> MethodSwitch::follow(const MirrorChanges& mirrored, const Scene& mirrors, const Camera& camera) {
+  MirrorChanges changes = mirrored;
+  const Scene scene{mirrors.field, stones_.step(mirrors.pieces, mirrors.field, camera.eye_m, changes),
+                    mirrors.props};
   const auto update = [&](Slot& slot) {
     slot.method->changed(changes);
     slot.method->update(scene, camera);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "client/render/methods.h"
+#include "client/render/scene/settled_stones.h"
 
 namespace scree {
 
@@ -27,8 +28,14 @@ class MethodSwitch {
   void begin_world();
   /// Draws nothing until begin_world() and follow() have made something.
   void forget_world();
-  /// Passes on the mirror's last changes and the scene of this frame.
+  /// The world is at another moment: no stone lies where a piece merged.
+  void forget_stones() { stones_.forget(); }
+  /// Passes on the mirror's last changes and the scene of this frame, with the stones that lie where pieces
+  /// merged (settled_stones.h).
   Result<void> follow(const MirrorChanges& changes, const Scene& scene, const Camera& camera);
+
+  /// The pieces and stones of the last follow().
+  const ScenePieces& pieces() const { return stones_.shown(); }
 
   /// Null before the first world.
   DrawMethod* shown() { return shown_.method.get(); }
@@ -63,6 +70,7 @@ class MethodSwitch {
 
   WorkPool& pool_;
   float view_radius_m_;
+  SettledStones stones_;
   const MethodEntry* chosen_;
   DrawOptionValues options_;
   Slot shown_;

@@ -1,10 +1,12 @@
+uniform float u_lift;  // metres: drawn in front of terrain that is so little nearer
 out vec4 o_colour;
 
 void main() {
   PieceHit hit = march_piece();
   if (!hit.found) discard;
-  gl_FragDepth = depth_of(hit.world);
   vec3 from_eye = hit.world - u_eye;
+  // A stone that merged lies in the surface of the terrain that it became.
+  gl_FragDepth = depth_of(u_eye + from_eye * max(1.0 - u_lift / max(length(from_eye), 1e-3), 0.5));
   float away = length(from_eye);
   float voxel_m = 1.0 / u_voxels_per_m[0];
   vec3 local_normal = rotated(unturned(), -from_eye / max(away, 1e-3));

@@ -13,6 +13,9 @@ uniform float u_voxel_m;
 uniform vec3 u_centre_m;      // in that frame: what lies at u_place_m
 uniform vec3 u_place_m;
 uniform vec4 u_rotation;      // quaternion x, y, z, w
+uniform vec3 u_eye;
+uniform float u_loose;        // 1 for a piece, 0 for terrain
+uniform float u_lift;         // metres: pieces are drawn in front of terrain that is so little nearer
 
 out vec3 v_world;
 out vec3 v_rock;  // in the frame of the rock: patterns stay with a piece that moves
@@ -33,4 +36,9 @@ void main() {
   v_worn = vec2(a_worn - 16.0 * come, come) * worn_step;
   v_look = int(a_look);
   gl_Position = u_view_projection * vec4(v_world, 1.0);
+  // A stone that merged lies in the surface of the terrain that it became.
+  vec3 to_eye = u_eye - v_world;
+  float lift = u_loose * min(u_lift / max(length(to_eye), 1e-3), 0.5);
+  vec4 nearer = u_view_projection * vec4(v_world + to_eye * lift, 1.0);
+  gl_Position.z = nearer.z / max(nearer.w, 1e-4) * gl_Position.w;
 }

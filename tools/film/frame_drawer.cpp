@@ -51,7 +51,8 @@ Result<void> FrameDrawer::prepare(RecordedScene& scene, const MirrorChanges& cha
 Result<Image> FrameDrawer::draw(RecordedScene& scene, const MirrorChanges& changes, const Camera& camera,
                                 const Stopped& stopped) {
   TRY(prepare(scene, changes, camera, stopped));
-  renderer_->set_contacts(contacts_of(scene.scene(), camera.eye_m));
+  const Scene shown = scene.scene();
+  renderer_->set_contacts(contacts_of({shown.field, methods_.pieces(), shown.props}, camera.eye_m));
   if (drawn_.particles) renderer_->set_particles(scene.particles(camera.eye_m));
   LineList lines;
   add_joints(lines, scene.joints(), scene.scene(), camera.eye_m);

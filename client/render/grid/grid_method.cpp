@@ -11,6 +11,7 @@
 #include "client/render/gl/shader_sources.h"
 #include "client/render/grid/grid_points.h"
 #include "client/render/pieces/piece_views.h"
+#include "client/render/scene/limits.h"
 #include "shared/surface/cube_cases.h"
 #include "shared/surface/surface_cells.h"
 
@@ -172,6 +173,7 @@ void GridMethod::draw_pieces(const DrawPass& pass, const Frustum& frustum) {
   program.program.use();
   program.program.set("u_view_projection", pass.view_projection);
   if (!shadow) set_lighting(program.program, pass, grid_shadow_unit);
+  program.program.set("u_lift", shadow ? 0.0F : limits::stone_lift_voxels * world_->voxel_m());
   pieces_.draw(program, frustum, world_->voxel_m(), pass_);
   glBindVertexArray(0);
 }

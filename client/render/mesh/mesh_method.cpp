@@ -11,6 +11,7 @@
 #include "client/render/levels/surface_looks.h"
 #include "client/render/mesh/mesh_scheduler.h"
 #include "client/render/pieces/piece_views.h"
+#include "client/render/scene/limits.h"
 
 namespace scree {
 namespace {
@@ -137,6 +138,7 @@ const SurfaceProgram& MeshMethod::use(const DrawPass& pass, bool ground) {
   program.program.use();
   program.program.set("u_view_projection", pass.view_projection);
   if (!shadow) set_lighting(program.program, pass, 0);
+  program.program.set("u_lift", shadow ? 0.0F : limits::stone_lift_voxels * voxel_m_);
   return program;
 }
 

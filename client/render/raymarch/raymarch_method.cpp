@@ -18,6 +18,7 @@
 #include "client/render/gl/surface_variants.h"
 #include "client/render/pieces/piece_volumes.h"
 #include "client/render/raymarch/march_targets.h"
+#include "client/render/scene/limits.h"
 
 namespace scree {
 namespace {
@@ -199,6 +200,7 @@ void RaymarchMethod::draw_pieces(const DrawPass& pass) {
   const glm::vec3 from = shadow ? pass.lighting.sun : pass.eye_m;
   glUniform4f(program.uniform("u_viewpoint"), from.x, from.y, from.z, shadow ? 0.0F : 1.0F);
   program.set("u_piece_entries", 2);
+  if (!shadow) program.set("u_lift", limits::stone_lift_voxels * world_->voxel_m());
   glActiveTexture(GL_TEXTURE2);
   glBindTexture(GL_TEXTURE_2D, pieces_.entry_texture());
   glActiveTexture(GL_TEXTURE0);

@@ -85,6 +85,13 @@ inline constexpr size_t lines_max = 100000;
 /// oldest end.
 inline constexpr size_t particles_max = 6000;
 
+/// Stones are drawn in front of terrain that is so little nearer to the eye: rubble takes 1.6 times the room of
+/// its stones, so what a merge made lies about them.
+inline constexpr float stone_lift_voxels = 0.9F;
+
+/// Stones that stay where pieces merged: about thirty strikes' worth. The farthest end first.
+inline constexpr size_t settled_stones_max = 1500;
+
 /// Pieces that darken what they lie on: as many as a blast makes, and margin. The nearest are taken.
 inline constexpr size_t contacts_max = 1024;
 

@@ -36,6 +36,7 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
     methods_.begin_world();
     renderer_->set_terrain(session.mirror()->terrain());
   }
+  if (step.jumped) methods_.forget_stones();
   if (session.mirror() == nullptr) return {};
   const std::shared_ptr<const Palette>& palette = session.mirror()->palette();
   renderer_->set_palette(palette);

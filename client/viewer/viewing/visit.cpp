@@ -99,12 +99,14 @@ Result<void> Visit::step(double now_s) {
     dust_.clear();
   }
   events_.clear();
-  if (session.mirror() != nullptr) {
-    follow_pieces(now_s);
-    view->renderer().set_contacts(contacts_of(session.scene(now_s), camera.eye_m));
-  }
+  if (session.mirror() != nullptr) follow_pieces(now_s);
   const TraceSpan span(trace.get(), "viewer", "update");
-  return view->follow(step, session, camera, now_s);
+  TRY(view->follow(step, session, camera, now_s));
+  if (session.mirror() == nullptr) return {};
+  const Scene scene = session.scene(now_s);
+  view->renderer().set_contacts(
+      contacts_of({scene.field, view->methods().pieces(), scene.props}, camera.eye_m));
+  return {};
 }
 
 /// What they do is heard and seen.
