@@ -4,13 +4,14 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <limits>
 #include <optional>
 
+#include "client/render/details/details.h"
 #include "client/render/gl/canvas.h"
 #include "client/render/gl/contact_drawer.h"
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gl_errors.h"
+#include "client/render/gl/limb_drawer.h"
 #include "client/render/gl/line_drawer.h"
 #include "client/render/gl/material_images.h"
 #include "client/render/gl/material_table.h"
@@ -46,21 +47,6 @@ Result<void> check_version() {
               "or Mesa's software one (libgl1-mesa-dri) and set LIBGL_ALWAYS_SOFTWARE=1");
 }
 
-Image read_pixels(int width, int height) {
-  std::vector<uint8_t> rgba(static_cast<size_t>(width) * static_cast<size_t>(height) * 4);
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
-  Image image{width, height, {}};
-  image.rgb.reserve(rgba.size() / 4 * 3);
-  for (int y = height - 1; y >= 0; --y) {
-    for (int x = 0; x < width; ++x) {
-      const auto at = (static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)) * 4;
-      image.rgb.insert(image.rgb.end(), {rgba[at], rgba[at + 1], rgba[at + 2]});
-    }
-  }
-  return image;
-}
-
 glm::mat4 projection_of(const Camera& camera, float reach_m, int width, int height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   return camera.projection(aspect, reach_m * far_per_reach);
@@ -73,25 +59,6 @@ glm::mat4 nowhere_in_shadow() {
   return matrix;
 }
 
-/// Undoes the projection of a perspective: from 0..1 to metres along the view's axis.
-DepthImage read_depths(const glm::mat4& projection, int width, int height) {
-  std::vector<float> depths(static_cast<size_t>(width) * static_cast<size_t>(height));
-  glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, width, height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.data());
-  DepthImage image{width, height, {}};
-  image.metres.reserve(depths.size());
-  const float scale = projection[2][2], offset = projection[3][2];
-  for (int y = height - 1; y >= 0; --y) {
-    for (int x = 0; x < width; ++x) {
-      const float depth =
-          depths[static_cast<size_t>(y) * static_cast<size_t>(width) + static_cast<size_t>(x)];
-      image.metres.push_back(depth >= 1.0F ? std::numeric_limits<float>::infinity()
-                                           : offset / (2.0F * depth - 1.0F + scale));
-    }
-  }
-  return image;
-}
-
 }  // namespace
 
 struct Renderer::Parts {
@@ -102,6 +69,10 @@ struct Renderer::Parts {
   ContactDrawer contact_drawer;
   std::vector<Contact> contacts;
   PropViews props;
+  LimbDrawer limb_drawer;
+  std::vector<Limb> limbs;
+  Details details;
+  bool draws_details = true;  ///< depths have none
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
   std::shared_ptr<const Palette> palette = plain_palette();
@@ -121,11 +92,12 @@ struct Renderer::Parts {
   Canvases stretched;  ///< of the last image that was stretched
 
   Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, ParticleDrawer&& of_particles,
-        ContactDrawer&& of_contacts, float radius_m)
+        ContactDrawer&& of_contacts, LimbDrawer&& of_limbs, float radius_m)
       : sky(std::move(sky_program)),
         lines(std::move(line_drawer)),
         particle_drawer(std::move(of_particles)),
         contact_drawer(std::move(of_contacts)),
+        limb_drawer(std::move(of_limbs)),
         view_radius_m(radius_m),
         description(describe()) {}
 
@@ -179,8 +151,11 @@ Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
   if (!particles) return fail(particles.error().message);
   Result<ContactDrawer> contacts = ContactDrawer::create();
   if (!contacts) return fail(contacts.error().message);
-  return std::unique_ptr<Renderer>(new Renderer(std::make_unique<Parts>(
-      std::move(*sky), std::move(*lines), std::move(*particles), std::move(*contacts), view_radius_m)));
+  Result<LimbDrawer> limbs = LimbDrawer::create();
+  if (!limbs) return fail(limbs.error().message);
+  return std::unique_ptr<Renderer>(
+      new Renderer(std::make_unique<Parts>(std::move(*sky), std::move(*lines), std::move(*particles),
+                                           std::move(*contacts), std::move(*limbs), view_radius_m)));
 }
 
 void Renderer::draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
@@ -226,7 +201,7 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
                    reach_m,
                    nowhere_in_shadow(),
                    shadows ? shadows->texture() : 0,
-                   props.count() > 0,
+                   props.count() > 0 || !limbs.empty() || !details.empty(),
                    materials.texture(),
                    images.texture(),
                    layers,
@@ -246,6 +221,11 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
   if (method != nullptr) {
     const GpuTimers::Part part(&timers, "props");
     props.draw(pass, *palette);
+    limb_drawer.draw(limbs, pass);
+  }
+  if (method != nullptr && draws_details) {
+    const GpuTimers::Part part(&timers, "details");
+    details.draw(pass);
   }
   // Depths of a framebuffer that is not a canvas may be of a kind that cannot be copied.
   if (fineness.contacts && canvases.ready() && framebuffer == canvases.drawn()) {
@@ -266,6 +246,8 @@ void Renderer::Parts::draw_shadows(DrawMethod& method, const Camera& camera, Dra
   pass.view_projection = shadows->begin(camera, sun, view_radius_m);
   method.draw(pass);
   props.draw(pass, *palette);
+  limb_drawer.draw(limbs, pass);
+  if (draws_details) details.draw(pass);
   shadows->end();
   pass.lighting.shadow_matrix = shadows->matrix();
 }
@@ -295,7 +277,9 @@ Result<DepthImage> Renderer::draw_depths(DrawMethod& method, const Camera& camer
   if (Result<void> ready = parts_->canvases.prepare(width, height, parts_->fineness.samples); !ready)
     return fail(ready.error().message);
   const unsigned framebuffer = parts_->canvases.one();
+  parts_->draws_details = false;
   parts_->draw_scene(&method, camera, framebuffer, width, height, {});
+  parts_->draws_details = true;
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   DepthImage image = read_depths(projection_of(camera, method.reach_m(), width, height), width, height);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -320,9 +304,29 @@ Result<void> Renderer::set_props(const SceneProps& props) {
   return parts_->props.show(props);
 }
 
+Result<void> Renderer::follow_details(const Field& field, std::span<const BrickCoord> changed,
+                                      glm::vec3 eye_m) {
+  // Farther, methods draw coarser levels of the ground.
+  constexpr float finest_part = 0.45F;
+  const float range_m = std::min(parts_->fineness.details_m, finest_part * parts_->view_radius_m);
+  return parts_->details.follow(field, changed, eye_m, range_m, sun);
+}
+
+bool Renderer::details_settled() const {
+  return parts_->details.settled();
+}
+
+void Renderer::forget_details() {
+  parts_->details.forget();
+}
+
 void Renderer::set_particles(std::vector<Particle> particles) {
   CHECK(particles.size() <= limits::particles_max);
   parts_->particles = std::move(particles);
+}
+
+void Renderer::set_limbs(std::vector<Limb> limbs) {
+  parts_->limbs = std::move(limbs);
 }
 
 void Renderer::set_contacts(std::vector<Contact> contacts) {

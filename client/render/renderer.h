@@ -4,12 +4,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "client/render/gl/gpu_timers.h"
+#include "client/render/image.h"
 #include "client/render/scene/contact.h"
 #include "client/render/scene/draw_method.h"
+#include "client/render/scene/limb.h"
 #include "client/render/scene/line_list.h"
 #include "client/render/scene/material_texels.h"
 #include "client/render/scene/particle.h"
@@ -18,19 +21,6 @@
 #include "shared/prop/model_mesh.h"
 
 namespace scree {
-
-struct Image {
-  int width = 0;
-  int height = 0;
-  std::vector<uint8_t> rgb;  ///< rows from the top, 3 bytes a pixel
-};
-
-/// Distances of the drawn surfaces.
-struct DepthImage {
-  int width = 0;
-  int height = 0;
-  std::vector<float> metres;  ///< rows from the top, along the camera's forward(); infinity: sky
-};
 
 class Renderer {
  public:
@@ -53,6 +43,15 @@ class Renderer {
   /// number, and with that of new shapes. Fails if the driver cannot make what draws them.
   Result<void> set_props(const SceneProps& props);
 
+  /// Grass, bushes and stones on this field's ground about that place, from now on, as far as fineness has
+  /// any; `changed`: its bricks since the last call. Some work of each frame. Fails if the driver cannot make
+  /// what draws them.
+  Result<void> follow_details(const Field& field, std::span<const BrickCoord> changed, glm::vec3 eye_m);
+  /// Whether all of them within their range are there.
+  bool details_settled() const;
+  /// Another world's ground follows.
+  void forget_details();
+
   /// Into the GL framebuffer of that name (0: the window's). A size of nothing draws nothing; without a
   /// method there is only sky. `lines` come last.
   void draw(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
@@ -61,6 +60,9 @@ class Renderer {
   /// What is in the air from now on, in pictures alone: depths have none of it. The farthest first, at most
   /// limits::particles_max.
   void set_particles(std::vector<Particle> particles);
+
+  /// The bodies of persons, which cast shadows, from now on.
+  void set_limbs(std::vector<Limb> limbs);
 
   /// Where pieces and props darken what they lie on from now on, where fineness has that.
   void set_contacts(std::vector<Contact> contacts);

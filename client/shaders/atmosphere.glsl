@@ -22,6 +22,8 @@ vec3 ambient(vec3 normal) {
   return mix(below, mix(horizon_colour, zenith_colour, 0.5) * 0.80, up);
 }
 
+#ifndef AT_CORNERS  // fragments have a place in the picture
+
 // ACES curve as fitted by Narkowicz (2016), then gamma. What 8 bits cannot tell is dithered (interleaved gradient noise,
 // Jimenez 2014), so that the sky and soft shadows have no steps.
 vec3 tone(vec3 colour) {
@@ -30,3 +32,5 @@ vec3 tone(vec3 colour) {
   float dither = fract(52.9829189 * fract(dot(floor(gl_FragCoord.xy), vec2(0.06711056, 0.00583715)))) - 0.5;
   return pow(mapped, vec3(1.0 / 2.2)) + dither / 255.0;
 }
+
+#endif

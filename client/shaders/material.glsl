@@ -165,6 +165,19 @@ Marks plain_at(vec3 p, float pores, float pixel, vec4 small) {
   return marks;
 }
 
+// What a centimetre shows of a surface, as near as a pixel can tell: fibres along a board, thin layers of a bed, and
+// grains of everything else. Polished surfaces have none.
+void add_grains(inout Marks marks, vec3 p, int pattern, float rough, float variation, float pixel) {
+  const float grain_m = 0.011;
+  float near = rough * rough * (1.0 - smoothstep(0.20 * grain_m, 0.44 * grain_m, pixel));
+  vec3 along = pattern == pattern_planks ? vec3(0.10, 1.0, 1.0) : pattern == pattern_strata ? vec3(0.6, 1.6, 0.6) : vec3(1.0);
+  vec4 grain = noise(p * along / grain_m + 31.0);
+  float pit = smoothstep(0.70, 0.88, grain.x);
+  marks.shade *= 1.0 + near * ((0.16 + 0.5 * variation) * (grain.x - 0.5) - 0.22 * pit);
+  marks.bump += near * 0.16 * along * grain.yzw;
+  marks.open *= 1.0 - 0.25 * pit * near;
+}
+
 #if SURFACES > 1
 
 uniform highp sampler2DArray u_images;
@@ -234,6 +247,7 @@ Rock material_at(int look, vec3 p, vec3 n, vec4 coarse, vec4 middle, vec4 small,
   // Brightness from place to place; patterns have a part in it.
   float uneven = 1.0 + variation * (1.2 * (coarse.x - 0.5) + 1.6 * (fine - 0.5));
   if (pattern != pattern_strata) marks.shade = mix(vec3(1.0), marks.shade, min(1.0, 0.35 + 3.0 * variation));
+  add_grains(marks, p, pattern, roughness, variation, pixel);
 #if SURFACES > 1
   // An image is drawn in place of colour and pattern, one of normals in place of the pattern's relief.
   vec4 image = texelFetch(u_materials, ivec2(look - 1, 2), 0);

@@ -42,6 +42,8 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded
       tool_(loaded.tool),
       method_options_(viewing.options.method_options),
       particles_(viewing.options.particles),
+      details_(viewing.options.details),
+      shake_(viewing.options.shake),
       predict_(viewing.options.predict),
       quality_(viewing.options.quality) {
   overlay_.shown = overlay_.shown || viewing.options.overlay.shown;
@@ -187,11 +189,11 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
                camera.projection(aspect, viewing_.view_radius_m()) * camera.view(), eye().person());
     hud_.figures(facts, choice_.figures);
     hud_.lower_right(facts, choice_.persons ? &viewing_.session.conversation().persons() : nullptr,
-                     choice_.graphs);
+                     viewing_.session.colours(), choice_.graphs);
     if (choice_.panel)
       picked = hud_.panel(viewing_.view->methods().chosen(),
-                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, predict_,
-                           hand_, quality_});
+                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, details_,
+                           shake_, predict_, hand_, quality_});
     hud_.help(choice_.help, window_.has_gamepad(),
               viewing_.session.is_replay() ? ControlsOf::replay : ControlsOf::live);
     hud_.timeline(viewing_.session.timeline(), now_s);
@@ -200,6 +202,8 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   if (!hidden_ || window_.asks_to_end()) hud_.messages(facts, messages(now_s));
   screen_.end();
   viewing_.show_particles(particles_);
+  viewing_.show_details(details_);
+  viewing_.shake(shake_);
   viewing_.session.predict(predict_);
   viewing_.view->methods().set_options(method_options_);
   return picked == nullptr ? Result<void>() : choose(*picked);
@@ -220,8 +224,8 @@ Result<void> WindowApp::frame() {
   parts.update_ms = static_cast<float>(stopwatch.lap_ms());
   if (!window_.minimised()) {
     View& view = *viewing_.view;
-    view.renderer().draw(view.methods().shown(), viewing_.camera, 0, window_.width(), window_.height(),
-                         viewing_.lines(tool_, overlay_, eye().person(), now_s));
+    view.renderer().draw(view.methods().shown(), viewing_.shaken_camera(now_s), 0, window_.width(),
+                         window_.height(), viewing_.lines(tool_, overlay_, eye().person(), now_s));
     parts.draw_ms = static_cast<float>(stopwatch.lap_ms());
     TRY(draw_hud(parts, now_s));
   }
@@ -241,6 +245,8 @@ Settings WindowApp::settings() const {
   settings.overlay = overlay_;
   settings.tool = tool_;
   settings.particles = particles_;
+  settings.details = details_;
+  settings.shake = shake_;
   settings.predict = predict_;
   return settings;
 }

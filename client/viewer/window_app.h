@@ -56,6 +56,8 @@ class WindowApp {
   Whereabouts whereabouts_;
   DrawOptionValues method_options_;
   bool particles_;
+  bool details_;
+  bool shake_;
   bool predict_;
   std::optional<Quality> quality_;  ///< as chosen; nothing: by the first frames
   FactFinder facts_;

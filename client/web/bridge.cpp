@@ -192,6 +192,16 @@ int scree_set_particles(int on) {
   return 1;
 }
 
+int scree_set_details(int on) {
+  client().details = on != 0;
+  return 1;
+}
+
+int scree_set_shake(int on) {
+  client().shake = on != 0;
+  return 1;
+}
+
 int scree_set_predict(int on) {
   client().predicts = on != 0;
   return 1;

@@ -85,6 +85,8 @@ int scree_set_view_radius(float metres);
 int scree_set_field_of_view(float degrees);  ///< vertical
 int scree_set_look_speed(float factor);      ///< 1: a seventh of a degree for a pixel of CSS
 int scree_set_particles(int on);             ///< dust of breaks, blows and merges
+int scree_set_details(int on);               ///< grass, bushes and stones, where the quality has them
+int scree_set_shake(int on);                 ///< blows shake the eye
 int scree_set_predict(int on);               ///< own carves are shown before the server has answered
 int scree_set_overlay(int on);               ///< borders, interest, bodies, contacts
 
@@ -180,9 +182,9 @@ const char* scree_catalogue();
 ///            "refusals": {reason: count}},
 ///  "materials": [{"name", "colour": "#rrggbb"}], the rows of the world's palette, which may change,
 ///  "tool": {"kind", "use", "material": a name, or "", "radius_m", "blast_speed_m_s", "pattern", "seeds",
-///  "seeds_now"}, "view": {"method", "quality", "quality_auto", "view_radius_m", "particles", "predict",
-///  "overlay",
-///           "field_of_view_degrees", "look_speed"},
+///  "seeds_now"},
+///  "view": {"method", "quality", "quality_auto", "view_radius_m", "particles", "details", "shake",
+///           "predict", "overlay", "field_of_view_degrees", "look_speed"},
 ///  "persons": {"list": [{"session", "name", "role"}], "more", "chat"},
 ///  "lines": ["Ann: mind the edge"], of the last seconds,
 ///  "playback": null or {"moment", "first", "last": ticks, "speed", "playing", "grows",

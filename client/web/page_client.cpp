@@ -123,14 +123,16 @@ Result<void> PageClient::frame() {
   grow(tool, intents.wheel);
   if (intents.strike) visit_.session.strike(tool, visit_.camera.eye_m, visit_.camera.forward(), now_s);
   visit_.show_particles(particles);
+  visit_.show_details(details);
+  visit_.shake(shake);
   visit_.session.predict(predicts);
   Stopwatch stopwatch;
   if (stepped_) stepped_ = visit_.step(now_s);
   if (!stepped_) return stepped_;
   const double update_ms = stopwatch.lap_ms();
   if (width_ > 0 && height_ > 0)
-    visit_.view->renderer().draw(visit_.view->methods().shown(), visit_.camera, 0, width_, height_,
-                                 visit_.lines(tool, overlay, whereabouts_.eye().person(), now_s));
+    visit_.view->renderer().draw(visit_.view->methods().shown(), visit_.shaken_camera(now_s), 0, width_,
+                                 height_, visit_.lines(tool, overlay, whereabouts_.eye().person(), now_s));
   note(elapsed_s * 1000.0, update_ms, stopwatch.lap_ms());
   if (visit_.view->work_for(0.0)) work_later();
   if (visit_.session.timeline().is_known() && visit_.session.timeline().marks() != marks_) {

@@ -49,6 +49,8 @@ class PageClient {
   std::optional<Quality> quality;  ///< nothing: by the first frames
   OverlayChoice overlay;
   bool particles = true;
+  bool details = true;
+  bool shake = true;
   bool predicts = true;
 
   Visit& visit() { return visit_; }

@@ -154,6 +154,8 @@ Json view_json(PageClient& client) {
           {"quality_auto", !client.quality.has_value()},
           {"view_radius_m", visit.view_radius_m()},
           {"particles", client.particles},
+          {"details", client.details},
+          {"shake", client.shake},
           {"predict", client.predicts},
           {"overlay", client.overlay.shown},
           {"field_of_view_degrees", client.hand.field_of_view_degrees},
@@ -284,7 +286,7 @@ std::string names_text(PageClient& client) {
     if (!place || session == client.whereabouts().eye().person()) continue;
     names.push_back({{"session", session},
                      {"name", called(session, figure.name)},
-                     {"colour", hex_colour(colour_of_person(session))},
+                     {"colour", hex_colour(figure.colour)},
                      {"x", place->x},
                      {"y", place->y},
                      {"metres", glm::distance(figure.eye_m, camera.eye_m)}});

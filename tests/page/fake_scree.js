@@ -40,7 +40,7 @@ export const state = {
   preparing: null, latency_ms: 21.4, status,
   materials: [{ name: 'rock', colour: '#938e8b' }, { name: 'brick', colour: '#99543f' }, { name: 'glass', colour: '#bdd5d2' }],
   tool: { kind: 'crater', use: 'carve', material: '', radius_m: 2, blast_speed_m_s: 6, pattern: 'radial', seeds: 0, seeds_now: 34 },
-  view: { method: 'mesh', quality: 'medium', quality_auto: true, view_radius_m: 48, particles: true, predict: true, overlay: false,
+  view: { method: 'mesh', quality: 'medium', quality_auto: true, view_radius_m: 48, particles: true, details: true, shake: true, predict: true, overlay: false,
     field_of_view_degrees: 60, look_speed: 1 },
   persons: { list: [{ session: 1, name: 'Ann', role: 'player' }], more: 0, chat: true },
   lines: [], playback: null,

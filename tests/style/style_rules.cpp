@@ -99,6 +99,7 @@ std::vector<Layer> other_layers() {
       {"client/render/levels/", {"client/render/scene/"}},
       {"client/render/bricks/", {"client/render/gl/", "client/render/levels/"}},
       {"client/render/pieces/", {"client/render/bricks/"}},
+      {"client/render/details/", {"client/render/gl/", "client/render/levels/"}},
       {"client/render/mesh/", {"client/render/pieces/"}},
       {"client/render/raymarch/", {"client/render/pieces/"}},
       {"client/render/grid/", {"client/render/pieces/"}},

@@ -122,9 +122,9 @@ class WholeHud {
     hud_.figures(facts, all);
     const PersonsMessage persons{
         {{1, "A person with a long name, so it", Role::builder}, {2, "", Role::viewer}}, 3, true};
-    hud_.lower_right(facts, all ? &persons : nullptr, all);
-    hud_.panel(*method_named("grid"),
-               {tool_, *plain_palette(), overlay_, method_options_, particles_, predict_, hand_, quality_});
+    hud_.lower_right(facts, all ? &persons : nullptr, {}, all);
+    hud_.panel(*method_named("grid"), {tool_, *plain_palette(), overlay_, method_options_, particles_,
+                                       details_, shake_, predict_, hand_, quality_});
     hud_.help(all ? Telling::all : Telling::basics, all, all ? ControlsOf::both : ControlsOf::live);
     if (all) hud_.banner("the server is gone - trying again");
     if (all) hud_.timeline(timeline_, 10.0);
@@ -141,6 +141,8 @@ class WholeHud {
   OverlayChoice overlay_;
   DrawOptionValues method_options_;
   bool particles_ = true;
+  bool details_ = true;
+  bool shake_ = true;
   bool predict_ = true;
   HandChoice hand_;
   std::optional<Quality> quality_;

@@ -1,4 +1,6 @@
 // Other persons, as one sees and hears of them: lines, figures, and the line that one writes.
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
@@ -73,25 +75,74 @@ TEST(Figures, follow_their_cursors_smoothly_and_go_with_them) {
   EXPECT_TRUE(figures.all().empty());
 }
 
+/// As if every limb ended in balls of its least radius.
+float reach_m(const std::vector<Limb>& limbs, float way) {
+  float most_m = -1e9F;
+  for (const Limb& limb : limbs) {
+    const glm::quat turn(limb.rotation.w, limb.rotation.x, limb.rotation.y, limb.rotation.z);
+    const float end_m = std::abs((turn * glm::vec3(0.0F, limb.half_m, 0.0F)).y);
+    const float round_m = std::min({limb.radius_m.x, limb.radius_m.y, limb.radius_m.z});
+    most_m = std::max(most_m, way * limb.middle_m.y + end_m + round_m);
+  }
+  return way * most_m;
+}
+float lowest_m(const std::vector<Limb>& limbs) {
+  return reach_m(limbs, -1.0F);
+}
+float highest_m(const std::vector<Limb>& limbs) {
+  return reach_m(limbs, 1.0F);
+}
+
 TEST(Figures, are_bodies_under_the_eye_but_not_around_ones_own) {
   Figures figures;
   figures.step({{3, "Ann", {0.0F, 2.0F, 0.0F}, {0.0F, 0.0F, 5.0F}}}, 10.0);
-  LineList lines;
-  figures.add_to(lines, {5.0F, 2.0F, 0.0F});
-  ASSERT_FALSE(lines.corners().empty());
-  EXPECT_EQ(lines.corners().size() % 3, 0U);
-  float low_m = 1e9F, high_m = -1e9F;
-  for (const LineVertex& corner : lines.corners()) {
-    low_m = std::min(low_m, corner.place_m.y);
-    high_m = std::max(high_m, corner.place_m.y);
+  const std::vector<Limb> limbs = figures.limbs({5.0F, 2.0F, 0.0F}, {}, false);
+  ASSERT_FALSE(limbs.empty());
+  EXPECT_NEAR(lowest_m(limbs), 2.0F - 1.55F, 0.06F);
+  EXPECT_NEAR(highest_m(limbs), 2.15F, 0.08F);
+  EXPECT_TRUE(figures.limbs({0.1F, 2.0F, 0.0F}, {}, false).empty());
+  EXPECT_TRUE(figures.limbs({5.0F, 2.0F, 0.0F}, 3, false).empty())
+      << "nor around the eye that one looks through";
+  EXPECT_TRUE(figures.limbs({5.0F, 2.0F, 0.0F}, {}, true).empty())
+      << "who has no body is no part of the world";
+}
+
+TEST(Figures, walk_by_the_way_they_go_and_keep_a_foot_on_the_ground) {
+  Figures figures;
+  PersonFacts facts;
+  for (int tick = 0; tick < 60; ++tick) {
+    const float x_m = 4.0F * static_cast<float>(tick) / 60.0F;
+    facts.feet_m[3] = {x_m, 1.0F, 0.0F};
+    figures.step({{3, "Ann", {}, {x_m + 10.0F, 2.55F, 0.0F}}}, 10.0 + tick / 60.0, facts);
+    const std::vector<Limb> limbs = figures.limbs({0.0F, 9.0F, 0.0F}, {}, true);
+    ASSERT_FALSE(limbs.empty());
+    EXPECT_NEAR(lowest_m(limbs), 1.0F, 0.06F) << tick;
   }
-  EXPECT_NEAR(low_m, 2.0F - 1.55F, 0.01F);
-  EXPECT_NEAR(high_m, 2.15F, 0.01F);
-  lines.clear();
-  figures.add_to(lines, {0.1F, 2.0F, 0.0F});
-  EXPECT_TRUE(lines.corners().empty());
-  figures.add_to(lines, {5.0F, 2.0F, 0.0F}, 3);
-  EXPECT_TRUE(lines.corners().empty()) << "nor around the eye that one looks through";
+  EXPECT_NEAR(figures.all().at(3).walked_m, 4.0F, 0.1F);
+  EXPECT_NEAR(figures.all().at(3).speed_m_s, 4.0F, 0.1F);
+  EXPECT_TRUE(figures.all().at(3).stands);
+}
+
+float distance_of(LineColour a, LineColour b) {
+  const auto part = [](uint8_t x, uint8_t y) { return static_cast<float>(x) - static_cast<float>(y); };
+  return std::hypot(part(a.red, b.red), part(a.green, b.green), part(a.blue, b.blue));
+}
+
+TEST(PersonColours, never_coincide_and_stay) {
+  PersonColours colours;
+  std::vector<uint64_t> sessions{7};
+  colours.follow(sessions);
+  const LineColour first = colours.of(7);
+  for (uint64_t session = 8; session < 72; ++session) sessions.push_back(session);
+  colours.follow(sessions);
+  EXPECT_EQ(distance_of(first, colours.of(7)), 0.0F);
+  for (const uint64_t a : sessions)
+    for (const uint64_t b : sessions)
+      EXPECT_TRUE(a == b || distance_of(colours.of(a), colours.of(b)) > 4.0F) << a << " and " << b;
+  PersonColours few;
+  few.follow(std::vector<uint64_t>{1, 2, 3, 4, 5, 6});
+  for (uint64_t a = 1; a < 7; ++a)
+    for (uint64_t b = 1; b < a; ++b) EXPECT_GT(distance_of(few.of(a), few.of(b)), 60.0F) << a << " and " << b;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/quaternion.hpp>
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -158,6 +159,46 @@ TEST(Walker, walks_on_rubble_that_moves_never_enter_rock_and_never_get_stuck) {
     walk_at_random(world, random, true, 2.0F);
     if (testing::Test::HasFailure()) return;
   }
+}
+
+/// A stone of a metre and a half that comes to a walker on flat ground, from there and with that speed, until
+/// it is at rest or past; where the walker is then.
+Walker struck_by_a_stone(glm::vec3 from_m, glm::vec3 speed_m_s) {
+  World world;
+  PieceTable table;
+  apply(
+      CarveOperation{
+          sphere({0.0F, world.ground_m(0.0F, 0.0F) - 2.0F, 0.0F}, 0.75F), SeedPattern::uniform, 1, 5, {}, 1},
+      world.field, table);
+  const std::shared_ptr<const Volume> stone = table.begin()->second;
+  const MapField flat({TerrainKind::flat, 1, 0.25F});
+  Walker walker({0.0F, 0.1F, 0.0F});
+  ScenePieces pieces;
+  pieces[1] = {stone, {from_m, {1.0F, 0.0F, 0.0F, 0.0F}}};
+  for (float now_s = 0.0F; now_s < 1.5F; now_s += frame_s) {
+    glm::vec3& place_m = pieces[1].pose.position_m;
+    place_m += speed_m_s * frame_s;
+    place_m.y = std::max(place_m.y, 0.75F);
+    SolidGround ground = ground_of_scene(Scene{flat, pieces}, walker.feet_m());
+    walker.step({}, frame_s, ground);
+    EXPECT_LE(Walker::depth_m(walker.feet_m(), ground), depth_max_m) << "at " << now_s << " s";
+  }
+  return walker;
+}
+
+TEST(Walker, is_pushed_aside_by_a_stone_that_rolls_into_the_way) {
+  const Walker walker = struck_by_a_stone({-4.0F, 0.75F, 0.1F}, {3.0F, 0.0F, 0.0F});
+  EXPECT_GT(glm::length(glm::vec2(walker.feet_m().x - 0.5F, walker.feet_m().z - 0.1F)), 0.75F)
+      << "not within it";
+  EXPECT_GT(glm::length(walker.feet_m()), 0.5F);
+  EXPECT_TRUE(walker.stands());
+}
+
+TEST(Walker, is_pushed_aside_by_a_stone_that_falls) {
+  const Walker walker = struck_by_a_stone({-0.5F, 6.0F, 0.2F}, {0.0F, -8.0F, 0.0F});
+  EXPECT_GT(glm::distance(walker.feet_m(), glm::vec3(-0.5F, walker.feet_m().y, 0.2F)), 0.75F)
+      << "not under it";
+  EXPECT_TRUE(walker.stands());
 }
 
 TEST(Walker, climbs_a_step_and_is_stopped_by_a_wall) {

@@ -102,4 +102,13 @@ inline constexpr size_t model_meshes_bytes_max = size_t{128} << 20;
 /// Models that were read, or could not be: more are forgotten likewise.
 inline constexpr size_t models_known_max = 1024;
 
+/// Distance up to which grass and stones lie about, in chunks: 1,400 patches, 5 MiB. Farther, with small
+/// voxels, there are none.
+inline constexpr float detail_range_chunks_max = 6.0F;
+
+/// Patches of them that one frame scatters, and details that it lights: bound the main thread's part (about
+/// 0.5 ms). The rest waits, nearest first.
+inline constexpr size_t detail_patches_a_frame = 2;
+inline constexpr size_t details_lit_a_frame = 64;
+
 }  // namespace scree::limits

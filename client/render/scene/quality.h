@@ -16,6 +16,7 @@ struct Fineness {
   int shadow_map_side = limits::shadow_map_side;  ///< texels; 0: nothing casts a shadow
   int samples = 4;                                ///< a pixel, of polygons' edges; 0: its middle alone
   bool contacts = true;                           ///< loose pieces darken what they lie on
+  float details_m = 40.0F;                        ///< as far as grass and stones lie about; 0: none do
 
   bool operator==(const Fineness&) const = default;
 };
@@ -33,11 +34,15 @@ constexpr QualityRow row_of(Quality quality) {
     case Quality::low:
       return {.name = "low",
               .view_radius_m = 32.0F,
-              .fineness = {.render_scale = 0.5F, .shadow_map_side = 0, .samples = 0, .contacts = false}};
+              .fineness = {.render_scale = 0.5F,
+                           .shadow_map_side = 0,
+                           .samples = 0,
+                           .contacts = false,
+                           .details_m = 0.0F}};
     case Quality::medium:
       return {.name = "medium",
               .view_radius_m = 48.0F,
-              .fineness = {.render_scale = 0.75F, .shadow_map_side = 1024, .samples = 0}};
+              .fineness = {.render_scale = 0.75F, .shadow_map_side = 1024, .samples = 0, .details_m = 20.0F}};
     case Quality::high:
       return {.name = "high", .view_radius_m = 96.0F, .fineness = {}};
   }

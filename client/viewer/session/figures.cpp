@@ -1,12 +1,12 @@
 #include "client/viewer/session/figures.h"
 
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
-#include <numbers>
 
+#include "client/render/scene/limits.h"
+#include "client/viewer/session/person_body.h"
 #include "shared/person/walker.h"
 
 namespace scree {
@@ -15,69 +15,51 @@ namespace {
 constexpr double follow_s = 0.12;  ///< time in which a figure goes two thirds of the way to its cursor
 constexpr float jump_m = 20.0F;    ///< farther, it does not go but is there
 constexpr float cross_m = 0.25F;
-constexpr int sides = 10;
+/// Above the ground, who comes so near stands on it.
+constexpr float stands_m = 0.35F;
+/// Time in which a speed goes two thirds of the way to another.
+constexpr float speed_s = 0.12F;
 
-/// Half the outline of a body, from the feet up: radius, and height below or above the eye, metres.
-constexpr float foot_m = -Walker::eye_above_m;
-constexpr std::array outline{
-    glm::vec2(0.00F, foot_m),         glm::vec2(0.17F, foot_m + 0.02F), glm::vec2(0.15F, foot_m + 0.55F),
-    glm::vec2(0.19F, foot_m + 0.85F), glm::vec2(0.24F, -0.34F),         glm::vec2(0.20F, -0.24F),
-    glm::vec2(0.07F, -0.19F),         glm::vec2(0.07F, -0.14F),         glm::vec2(0.12F, -0.06F),
-    glm::vec2(0.13F, 0.02F),          glm::vec2(0.10F, 0.11F),          glm::vec2(0.00F, 0.15F)};
-
-void add_body(LineList& lines, glm::vec3 eye_m, LineColour colour) {
-  const auto at = [&](glm::vec2 ring, int side) {
-    const float angle = 2.0F * std::numbers::pi_v<float> * static_cast<float>(side) / sides;
-    return eye_m + glm::vec3(ring.x * std::cos(angle), ring.y, ring.x * std::sin(angle));
-  };
-  const auto add = [&](glm::vec3 a, glm::vec3 b, glm::vec3 c) {
-    const glm::vec3 across = glm::cross(b - a, c - a);
-    const float size = glm::length(across);
-    if (size > 1e-9F) lines.triangle(a, b, c, shaded(colour, across / size));
-  };
-  for (size_t ring = 0; ring + 1 < outline.size(); ++ring)
-    for (int side = 0; side < sides; ++side) {
-      add(at(outline[ring], side), at(outline[ring + 1], side), at(outline[ring + 1], side + 1));
-      add(at(outline[ring], side), at(outline[ring + 1], side + 1), at(outline[ring], side + 1));
-    }
-}
-
-/// A dark visor on the side of the head that looks.
-void add_visor(LineList& lines, glm::vec3 eye_m, glm::vec3 forward) {
-  const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0.0F, 1.0F, 0.01F)));
-  const glm::vec3 up = glm::cross(right, forward);
-  const glm::vec3 middle_m = eye_m + forward * 0.15F;
-  const glm::vec3 low = middle_m - up * 0.03F, high = middle_m + up * 0.04F, side = right * 0.09F;
-  constexpr LineColour glass{25, 30, 40, 255};
-  lines.triangle(low - side, low + side, high + side, glass);
-  lines.triangle(low - side, high + side, high - side, glass);
+bool is_on_ground(const Field& field, glm::vec3 feet_m) {
+  const float voxel_m = field.source().voxel_size_m;
+  const glm::vec3 place = feet_m / voxel_m;
+  const VoxelCoord voxel{floor_to_int(place.x), floor_to_int(place.y), floor_to_int(place.z)};
+  // Nothing is generated for the sake of a figure.
+  if (!field.has_generated(chunk_of(voxel))) return false;
+  return sample(field, place).distance_voxels * voxel_m < stands_m;
 }
 
 }  // namespace
 
-LineColour colour_of_person(uint64_t session) {
-  constexpr std::array<LineColour, 8> colours{{{90, 170, 240, 255},
-                                               {240, 150, 60, 255},
-                                               {120, 210, 110, 255},
-                                               {230, 110, 150, 255},
-                                               {180, 140, 240, 255},
-                                               {240, 220, 90, 255},
-                                               {90, 210, 200, 255},
-                                               {220, 220, 220, 255}}};
-  return colours[session % colours.size()];
+/// Forwards by the way over the ground, backwards where the person walks so.
+void Figures::walk(Figure& figure, const Figure& before, float passed_s) {
+  const glm::vec3 way_m = figure.eye_m - before.eye_m, ahead_m = figure.aim_m - figure.eye_m;
+  const float far_m = glm::length(glm::vec2(way_m.x, way_m.z));
+  const float along = way_m.x * ahead_m.x + way_m.z * ahead_m.z < 0.0F ? -far_m : far_m;
+  figure.walked_m = before.walked_m + along;
+  const float part = 1.0F - std::exp(-passed_s / speed_s);
+  figure.speed_m_s = glm::mix(before.speed_m_s, far_m / std::max(passed_s, 1e-3F), part);
 }
 
-void Figures::step(const std::vector<PlayerCursor>& cursors, double now_s) {
+void Figures::step(const std::vector<PlayerCursor>& cursors, double now_s, const PersonFacts& facts) {
   std::map<uint64_t, Figure> next;
   for (const PlayerCursor& cursor : cursors) {
     const auto before = figures_.find(cursor.session);
     Figure figure{cursor.name, cursor.eye_m, cursor.aim_m, now_s};
-    if (before != figures_.end() && glm::distance(before->second.eye_m, cursor.eye_m) < jump_m) {
+    if (facts.colours != nullptr) figure.colour = facts.colours->of(cursor.session);
+    const glm::vec3 eye_above_m(0.0F, Walker::eye_above_m, 0.0F);
+    const auto body = facts.feet_m.find(cursor.session);
+    figure.on_foot = body != facts.feet_m.end();
+    if (figure.on_foot) figure.eye_m = body->second + eye_above_m;
+    if (before != figures_.end() && glm::distance(before->second.eye_m, figure.eye_m) < jump_m) {
       const double passed_s = std::max(now_s - before->second.since_s, 0.0);
       const auto part = static_cast<float>(1.0 - std::exp(-passed_s / follow_s));
-      figure.eye_m = glm::mix(before->second.eye_m, cursor.eye_m, part);
+      if (!figure.on_foot) figure.eye_m = glm::mix(before->second.eye_m, figure.eye_m, part);
       figure.aim_m = glm::mix(before->second.aim_m, cursor.aim_m, part);
+      walk(figure, before->second, static_cast<float>(passed_s));
     }
+    figure.stands =
+        figure.on_foot || (facts.field != nullptr && is_on_ground(*facts.field, figure.eye_m - eye_above_m));
     next.emplace(cursor.session, std::move(figure));
   }
   figures_ = std::move(next);
@@ -90,16 +72,34 @@ std::optional<glm::vec2> Figures::place_of_name(const Figure& figure, const glm:
   return glm::vec2(place.x / place.w * 0.5F + 0.5F, 0.5F - place.y / place.w * 0.5F);
 }
 
-void Figures::add_to(LineList& lines, glm::vec3 eye_m, std::optional<uint64_t> looked_through) const {
+void Figures::add_to(LineList& lines) const {
+  for (const auto& [session, figure] : figures_) lines.cross(figure.aim_m, cross_m, figure.colour);
+}
+
+std::vector<Limb> Figures::limbs(glm::vec3 eye_m, std::optional<uint64_t> looked_through,
+                                 bool on_foot_alone) const {
+  std::vector<Limb> limbs;
   for (const auto& [session, figure] : figures_) {
-    const LineColour colour = colour_of_person(session);
-    lines.cross(figure.aim_m, cross_m, colour);
     if (session == looked_through || glm::distance(figure.eye_m, eye_m) < 2.0F * Walker::radius_m) continue;
-    add_body(lines, figure.eye_m, colour);
+    if (on_foot_alone && !figure.on_foot) continue;
     const glm::vec3 way_m = figure.aim_m - figure.eye_m;
     const float far_m = glm::length(way_m);
-    if (far_m > 0.1F) add_visor(lines, figure.eye_m, way_m / far_m);
+    PersonPose pose;
+    pose.eye_m = figure.eye_m;
+    if (far_m > 0.1F) pose.look = way_m / far_m;
+    pose.walked_m = figure.walked_m;
+    pose.speed_m_s = figure.speed_m_s;
+    pose.stands = figure.stands;
+    add_person(limbs, pose, figure.colour);
   }
+  return limbs;
+}
+
+void Figures::add_to(std::vector<Contact>& contacts) const {
+  constexpr float radius_m = 0.22F;
+  for (const auto& [session, figure] : figures_)
+    if (figure.stands && contacts.size() < limits::contacts_max)
+      contacts.push_back({figure.eye_m - glm::vec3(0.0F, Walker::eye_above_m - radius_m, 0.0F), radius_m});
 }
 
 }  // namespace scree

@@ -34,6 +34,7 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
   if (step.new_mirror) {
     if (step.other_world) methods_.forget_world();
     methods_.begin_world();
+    renderer_->forget_details();
     renderer_->set_terrain(session.mirror()->terrain());
   }
   if (step.jumped) methods_.forget_stones();
@@ -46,6 +47,7 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
   if (models_.follow(scene.props, [&](const Digest& model) { return session.model(model); }))
     renderer_->set_models(models_.meshes());
   TRY(renderer_->set_props(scene.props));
+  TRY(renderer_->follow_details(scene.field, step.changes.bricks, camera.eye_m));
   return methods_.follow(step.changes, scene, camera);
 }
 

@@ -105,6 +105,8 @@ class ViewerSession {
   /// The other persons within interest, as of this moment, and those who were there in a recording, whose
   /// numbers are recorded_person() of the recorded session.
   const Figures& figures(double now_s);
+  /// The colours of all persons who are known here, as of the last figures().
+  const PersonColours& colours() const { return colours_; }
   /// Who is in the world, and what they said.
   const Conversation& conversation() const { return conversation_; }
   /// Whether the server moves persons on foot, as far as it has told so.
@@ -161,6 +163,8 @@ class ViewerSession {
   void settle(const ReplyMessage& reply, double arrived_s, double now_s);
   void show_notice(std::string words, double now_s);
   std::optional<float> reach_m() const;
+  void add_bodies(double now_s, std::vector<PlayerCursor>& all, PersonFacts& facts);
+  std::optional<uint64_t> person_of(PieceId body, const Prop& prop) const;
   void set_recorded_cursors(const RecordedCursorsMessage& recorded);
   void measure_rate(double now_s);
   void report(double now_s, glm::vec3 eye_m);
@@ -187,6 +191,7 @@ class ViewerSession {
   std::vector<PlayerCursor> recorded_cursors_;  ///< by numbers of recorded_person()
   Timeline timeline_;
   Figures figures_;
+  PersonColours colours_;
   Conversation conversation_;
   std::optional<WalkPrediction> foreseen_walk_;
   bool wants_physics_ = false;

@@ -99,6 +99,11 @@ void declare_input(CLI::App& app, ViewerOptions& options, Texts& texts) {
   app.add_option("--particles", options.particles,
                  "Show dust, grit and splinters where rock breaks, strikes and settles: true or false")
       ->envname("SCREE_PARTICLES");
+  app.add_option("--details", options.details,
+                 "Show grass, bushes and stones on the ground, where the quality has them: true or false")
+      ->envname("SCREE_DETAILS");
+  app.add_option("--shake", options.shake, "Blows shake the eye, in a window: true or false")
+      ->envname("SCREE_SHAKE");
   app.add_option("--sound", options.sound,
                  "Play the sounds of rock that breaks, strikes and settles, in a window with a sound device: "
                  "true or false")
@@ -248,6 +253,8 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
                      .quality = given("--quality"),
                      .method_options = {},
                      .particles = given("--particles"),
+                     .details = given("--details"),
+                     .shake = given("--shake"),
                      .predict = given("--predict")};
     for (const DrawOption* option : all_draw_options())
       if (given("--" + std::string(option->name))) options.given.method_options.insert(option->name);

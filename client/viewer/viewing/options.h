@@ -39,6 +39,8 @@ struct ViewerOptions : ServerEndpoint {
     bool quality = false;
     std::set<std::string_view> method_options;  ///< by name
     bool particles = false;
+    bool details = false;
+    bool shake = false;
     bool predict = false;
   } given;
   OverlayChoice overlay;                ///< shown from the start, and in pictures
@@ -48,6 +50,8 @@ struct ViewerOptions : ServerEndpoint {
   float render_scale = 1.0F;
   DrawOptionValues method_options;     ///< the methods' own
   bool particles = true;               ///< dust, grit and splinters
+  bool details = true;                 ///< grass, bushes and stones, where the quality has them
+  bool shake = true;                   ///< blows shake the eye, in a window
   std::optional<SeedPattern> pattern;  ///< of the tool's pieces, in a window; nothing: as it was kept
   bool sound = false;                  ///< by the device, in a window
   std::string sound_file;              ///< WAV of what there is to hear; empty: none

@@ -132,6 +132,8 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.choice("pattern", settings.tool.pattern, tool_patterns);
   reader.number("seeds", settings.tool.seeds, 0U, tool_seeds_max);
   reader.flag("particles", settings.particles);
+  reader.flag("details", settings.details);
+  reader.flag("shake", settings.shake);
   reader.flag("predict", settings.predict);
   if (!reader.error().empty()) return fail(reader.error());
   return settings;
@@ -163,6 +165,8 @@ std::string to_text(const Settings& settings) {
                    {"pattern", name_of(settings.tool.pattern)},
                    {"seeds", settings.tool.seeds},
                    {"particles", settings.particles},
+                   {"details", settings.details},
+                   {"shake", settings.shake},
                    {"predict", settings.predict}};
   for (const DrawOption* option : all_draw_options()) {
     const int value = settings.method_options.of(*option);
@@ -181,6 +185,8 @@ void apply_settings(const Settings& settings, ViewerOptions& options) {
     if (!options.given.method_options.contains(option->name))
       options.method_options.set(*option, settings.method_options.of(*option));
   if (!options.given.particles) options.particles = settings.particles;
+  if (!options.given.details) options.details = settings.details;
+  if (!options.given.shake) options.shake = settings.shake;
   if (!options.given.predict) options.predict = settings.predict;
   const MethodEntry* method = method_named(settings.method);
   if (!options.given.method && method != nullptr) options.method = method;
@@ -211,6 +217,8 @@ void SettingsFile::save(const Settings& start, const Settings& end) const {
                                merged(loaded_.method_options.of(*option), start.method_options.of(*option),
                                       end.method_options.of(*option)));
   changed.particles = merged(loaded_.particles, start.particles, end.particles);
+  changed.details = merged(loaded_.details, start.details, end.details);
+  changed.shake = merged(loaded_.shake, start.shake, end.shake);
   changed.predict = merged(loaded_.predict, start.predict, end.predict);
   changed.hud = end.hud;
   changed.hand = end.hand;

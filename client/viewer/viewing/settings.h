@@ -32,6 +32,8 @@ struct Settings {
   OverlayChoice overlay;
   Tool tool;
   bool particles = true;
+  bool details = true;
+  bool shake = true;
   bool predict = true;
 
   bool operator==(const Settings&) const = default;

@@ -35,6 +35,7 @@ VisitChoice visit_of(const ViewerOptions& options, Quality quality) {
   if (options.given.render_scale) choice.render_scale = options.render_scale;
   if (options.given.camera) choice.camera = options.camera;
   choice.particles = options.particles;
+  choice.details = options.details;
   choice.predict = options.predict;
   return choice;
 }
@@ -93,8 +94,8 @@ Result<void> Viewing::finish() {
 Moment Viewing::moment(double now_s) {
   Moment moment;
   moment.now_s = now_s;
-  moment.current = view->methods().complete() && view->images_complete() &&
-                   view->models().complete(session.content_settled());
+  moment.current = view->methods().complete() && view->renderer().details_settled() &&
+                   view->images_complete() && view->models().complete(session.content_settled());
   moment.joined = joined(now_s);
   moment.carved = session.carved();
   if (Mirror* mirror = session.mirror()) {
@@ -113,8 +114,10 @@ Result<Image> Viewing::picture(double now_s, int width, int height) {
   if (options.overlay.shown) {
     add_overlay(lines, options.overlay, now_s);
     add_regions_of(session, lines, camera.eye_m);
-    session.figures(now_s).add_to(lines, camera.eye_m);
+    session.figures(now_s).add_to(lines);
   }
+  // Who only looks on is no part of the world.
+  view->renderer().set_limbs(session.figures(now_s).limbs(camera.eye_m, {}, !options.overlay.shown));
   return view->renderer().draw_image(*view->methods().shown(), camera, width, height, lines);
 }
 

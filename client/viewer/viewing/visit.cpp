@@ -31,6 +31,7 @@ Visit::Visit(std::unique_ptr<Connector> connector, SessionChoice session_choice,
       session(std::move(connector), std::move(session_choice)),
       view(std::move(drawn)),
       particles_(choice.particles),
+      details_(choice.details),
       quality_(choice.quality),
       chosen_radius_m_(choice.view_radius_m),
       render_scale_(choice.render_scale) {
@@ -44,6 +45,7 @@ Visit::Visit(std::unique_ptr<Connector> connector, SessionChoice session_choice,
 void Visit::use(Quality quality) {
   quality_ = quality;
   Fineness fineness = traits_of(quality).fineness;
+  if (!details_) fineness.details_m = 0.0F;
   if (render_scale_) fineness.render_scale = *render_scale_;
   view->set_fineness(fineness, view_radius_m());
   session.set_interest_radius(view_radius_m());
@@ -104,15 +106,18 @@ Result<void> Visit::step(double now_s) {
   TRY(view->follow(step, session, camera, now_s));
   if (session.mirror() == nullptr) return {};
   const Scene scene = session.scene(now_s);
-  view->renderer().set_contacts(
-      contacts_of({scene.field, view->methods().pieces(), scene.props}, camera.eye_m));
+  std::vector<Contact> contacts =
+      contacts_of({scene.field, view->methods().pieces(), scene.props}, camera.eye_m);
+  session.figures(now_s).add_to(contacts);
+  view->renderer().set_contacts(std::move(contacts));
   return {};
 }
 
 /// What they do is heard and seen.
 void Visit::follow_pieces(double now_s) {
-  if (!listens_ && !particles_) return;
+  if (!listens_ && !particles_ && !shakes_) return;
   events_ = piece_events_.step(session.scene(now_s), now_s, session.palette());
+  if (shakes_) shake_.add(events_, camera.eye_m, now_s);
   if (!particles_) return;
   dust_.add(events_, now_s);
   view->renderer().set_particles(dust_.at(now_s, camera.eye_m));
@@ -125,6 +130,15 @@ void Visit::show_particles(bool on) {
   view->renderer().set_particles({});
 }
 
+void Visit::show_details(bool on) {
+  if (std::exchange(details_, on) != on) use(quality_);
+}
+
+void Visit::shake(bool on) {
+  shakes_ = on;
+  if (!on) shake_.end();
+}
+
 LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
                       double now_s) {
   LineList lines;
@@ -135,7 +149,9 @@ LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optio
     const bool is_far = session.is_beyond_reach(shape, camera.eye_m) || is_in_closed_region(session, shape);
     lines.shape(shape, is_far ? beyond_reach_colour : preview_colour(tool, session.palette()));
   }
-  session.figures(now_s).add_to(lines, camera.eye_m, looked_through);
+  const Figures& figures = session.figures(now_s);
+  figures.add_to(lines);
+  view->renderer().set_limbs(figures.limbs(camera.eye_m, looked_through, false));
   add_joints_of(session, lines, camera.eye_m, now_s);
   add_regions_of(session, lines, camera.eye_m);
   add_overlay(lines, overlay, now_s);

@@ -12,6 +12,7 @@
 #include "client/viewer/session/view.h"
 #include "client/viewer/session/viewer_session.h"
 #include "client/viewer/viewing/auto_quality.h"
+#include "client/viewer/viewing/shake.h"
 #include "shared/base/trace.h"
 
 namespace scree {
@@ -22,6 +23,7 @@ struct VisitChoice {
   std::optional<float> render_scale;   ///< the same
   std::optional<Camera> camera;        ///< instead of where the world's visitors begin
   bool particles = true;               ///< dust, grit and splinters
+  bool details = true;                 ///< grass, bushes and stones, where the quality has them
   bool predict = true;                 ///< carves are shown before the server answers
 };
 
@@ -37,8 +39,8 @@ class Visit {
   const std::vector<PieceEvent>& events() const { return events_; }
   void listen(bool on) { listens_ = on; }
 
-  /// Lines over the world: the shape of the tool's next strike, other persons but the one through whose eye
-  /// one looks, the overlay.
+  /// Lines over the world: the shape of the tool's next strike, where others aim, the overlay. The renderer
+  /// gets the bodies of the other persons, but of the one through whose eye one looks.
   LineList lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
                  double now_s);
   /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.
@@ -56,6 +58,11 @@ class Visit {
   float view_radius_m() const { return chosen_radius_m_.value_or(traits_of(quality_).view_radius_m); }
   /// Whether breaks, blows and merges raise dust; not any more: it is gone at once.
   void show_particles(bool on);
+  /// Whether grass, bushes and stones lie about, where the quality has them.
+  void show_details(bool on);
+  /// Whether blows shake the eye of a picture that is drawn by shaken_camera().
+  void shake(bool on);
+  Camera shaken_camera(double now_s) const { return shake_.of(camera, now_s); }
   /// Whether everything around the camera has arrived and is shown.
   bool joined(double now_s) const { return view->methods().loaded() && session.joined(now_s); }
 
@@ -73,6 +80,9 @@ class Visit {
   std::vector<PieceEvent> events_;
   bool listens_ = false;
   bool particles_;
+  bool details_;
+  Shake shake_;
+  bool shakes_ = false;
   Quality quality_;
   AutoQuality auto_quality_;
   std::optional<float> chosen_radius_m_;

@@ -122,13 +122,14 @@ void Hud::names(const Figures& figures, const glm::mat4& view_projection,
   }
 }
 
-void Hud::lower_right(const HudFacts& facts, const PersonsMessage* persons, bool with_graphs) {
+void Hud::lower_right(const HudFacts& facts, const PersonsMessage* persons, const PersonColours& colours,
+                      bool with_graphs) {
   if (persons == nullptr && !with_graphs) return;
   panels_.begin(PanelPlace::lower_right);
   if (persons != nullptr) {
     ImGui::Text("persons: %zu", persons->persons.size() + persons->more);
     for (const Person& person : persons->persons) {
-      const LineColour colour = colour_of_person(person.session);
+      const LineColour colour = colours.of(person.session);
       ImGui::PushStyleColor(ImGuiCol_Text, IM_COL32(colour.red, colour.green, colour.blue, 255));
       ImGui::TextUnformatted(called(person.session, person.name).c_str());
       ImGui::PopStyleColor();

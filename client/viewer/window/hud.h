@@ -27,6 +27,8 @@ struct PanelValues {
   OverlayChoice& overlay;
   DrawOptionValues& method_options;
   bool& particles;
+  bool& details;
+  bool& shake;
   bool& predict;
   HandChoice& hand;
   std::optional<Quality>& quality;  ///< nothing: by the first frames
@@ -41,7 +43,8 @@ class Hud {
   /// A few lines; with `all`, everything that is known.
   void figures(const HudFacts& facts, bool all);
   /// On the lower right: who is in the world, and graphs; either may be left out.
-  void lower_right(const HudFacts& facts, const PersonsMessage* persons, bool graphs);
+  void lower_right(const HudFacts& facts, const PersonsMessage* persons, const PersonColours& colours,
+                   bool graphs);
   /// The chosen method; null if none was chosen. Sliders and boxes change the values.
   const MethodEntry* panel(const MethodEntry& chosen, const PanelValues& values);
   void help(Telling telling, bool gamepad, ControlsOf of);

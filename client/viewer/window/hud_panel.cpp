@@ -112,13 +112,15 @@ void choose_use(Tool& tool, const Palette& palette) {
 }  // namespace
 
 const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values) {
-  auto& [tool, palette, overlay, method_options, particles, predict, hand, quality] = values;
+  auto& [tool, palette, overlay, method_options, particles, details, shake, predict, hand, quality] = values;
   panels_.begin(PanelPlace::upper_right);
   ImGui::PushItemWidth(slider_width_in_text * ImGui::GetFontSize());
   const MethodEntry* picked = choose_method(chosen);
   for (const DrawOption& option : options_of(chosen)) choose_option(option, method_options);
   choose_quality(quality);
   ImGui::Checkbox("dust, grit and splinters", &particles);
+  ImGui::Checkbox("grass, bushes and stones", &details);
+  ImGui::Checkbox("blows shake the eye", &shake);
   ImGui::Separator();
   choose(tool.use, all_kinds<ToolUse>);
   choose(tool.kind, all_kinds<ToolKind>);

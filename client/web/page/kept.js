@@ -29,6 +29,8 @@ export const token = {
 
 /** Tells the client what was kept; what it does not know any more it leaves out. */
 export function restore(client) {
+  // Who asks for little motion sees no shaking, unless they switched it on here.
+  if (globalThis.matchMedia?.('(prefers-reduced-motion: reduce)').matches) client.set('shake', false);
   const kept = load();
   for (const [name, value] of Object.entries({ ...kept.tool, ...kept.view }))
     if (typeof value === 'string' || typeof value === 'number' || typeof value === 'boolean') SETTERS[name]?.(client, value);
@@ -36,12 +38,12 @@ export function restore(client) {
 
 const SETTERS = Object.fromEntries(Object.entries({
   kind: 'tool', use: 'use', material: 'material', pattern: 'pattern', radius_m: 'radius', blast_speed_m_s: 'blast', seeds: 'seeds',
-  particles: 'particles', predict: 'predict', field_of_view_degrees: 'field_of_view', look_speed: 'look_speed',
+  particles: 'particles', details: 'details', shake: 'shake', predict: 'predict', field_of_view_degrees: 'field_of_view', look_speed: 'look_speed',
 }).map(([name, wish]) => [name, (client, value) => client.set(wish, value)]));
 
 /** Of a state (bridge.h), what restore() takes. */
 export function choices_of({ tool, view }) {
   const { kind, use, material, pattern, radius_m, blast_speed_m_s, seeds } = tool;
-  const { particles, predict, field_of_view_degrees, look_speed } = view;
-  return { tool: { kind, use, material, pattern, radius_m, blast_speed_m_s, seeds }, view: { particles, predict, field_of_view_degrees, look_speed } };
+  const { particles, details, shake, predict, field_of_view_degrees, look_speed } = view;
+  return { tool: { kind, use, material, pattern, radius_m, blast_speed_m_s, seeds }, view: { particles, details, shake, predict, field_of_view_degrees, look_speed } };
 }

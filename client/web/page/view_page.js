@@ -22,6 +22,8 @@ export function view_page(wish, catalogue, act) {
   const lens = range('Field of view', 'field_of_view', limits.field_of_view_degrees, 1, (value) => `${value.toFixed(0)}°`);
   const hand = range('Mouse and thumb', 'look_speed', [Math.max(limits.look_speed[0], 0.1), Math.min(limits.look_speed[1], 4)], 0.1, (value) => `× ${value.toFixed(1)}`);
   const dust = check('Dust', 'of breaks, blows and merges', (on) => set('particles')(on));
+  const details = check('Grass and stones', 'on the ground, but at low quality', (on) => set('details')(on));
+  const shake = check('Blows shake the eye', 'the stronger, the nearer', (on) => set('shake')(on));
   const predict = check('Own carves at once', 'shown before the server has answered', (on) => set('predict')(on));
   const overlay = check('Borders', 'chunks, interest, bodies, contacts', (on) => set('overlay')(on));
   const does = (text, action) => {
@@ -30,7 +32,7 @@ export function view_page(wish, catalogue, act) {
     return one;
   };
   const element = make('section', {}, make('div', {}, make('h3', {}, 'Method'), list), quality.element, far.element, lens.element, hand.element,
-    make('div', { className: 'checks' }, dust.element, predict.element, overlay.element),
+    make('div', { className: 'checks' }, dust.element, details.element, shake.element, predict.element, overlay.element),
     make('div', { className: 'wide' }, does('Copy link', 'copy_place'), does('Picture', 'picture'), does('Full screen', 'full_screen'), does('Hide all', 'hide')));
   return {
     title: 'View', icon: 'view', element,
@@ -42,6 +44,8 @@ export function view_page(wish, catalogue, act) {
       lens.show(view.field_of_view_degrees);
       hand.show(view.look_speed);
       dust.show(view.particles);
+      details.show(view.details);
+      shake.show(view.shake);
       predict.show(view.predict);
       overlay.show(view.overlay);
     },
