@@ -165,17 +165,26 @@ Marks plain_at(vec3 p, float pores, float pixel, vec4 small) {
   return marks;
 }
 
+// So turned that no face of what people build lies along the lattice.
+const mat3 grain_turn = mat3(0.66, 0.47, -0.58, -0.74, 0.53, -0.42, 0.11, 0.71, 0.70);
+
 // What a centimetre shows of a surface, as near as a pixel can tell: fibres along a board, thin layers of a bed, and
-// grains of everything else. Polished surfaces have none.
+// grains and pits of everything else. Polished surfaces have none.
 void add_grains(inout Marks marks, vec3 p, int pattern, float rough, float variation, float pixel) {
   const float grain_m = 0.011;
   float near = rough * rough * (1.0 - smoothstep(0.20 * grain_m, 0.44 * grain_m, pixel));
-  vec3 along = pattern == pattern_planks ? vec3(0.10, 1.0, 1.0) : pattern == pattern_strata ? vec3(0.6, 1.6, 0.6) : vec3(1.0);
-  vec4 grain = noise(p * along / grain_m + 31.0);
-  float pit = smoothstep(0.70, 0.88, grain.x);
-  marks.shade *= 1.0 + near * ((0.16 + 0.5 * variation) * (grain.x - 0.5) - 0.22 * pit);
-  marks.bump += near * 0.16 * along * grain.yzw;
-  marks.open *= 1.0 - 0.25 * pit * near;
+  bool drawn_out = pattern == pattern_planks || pattern == pattern_strata;
+  vec3 along = pattern == pattern_planks ? vec3(0.10, 1.0, 1.0) : vec3(0.6, 1.6, 0.6);
+  vec3 q = (drawn_out ? p * along : grain_turn * p) / grain_m;
+  vec4 grain = noise(q + 31.0);
+  vec4 finer = noise(q * 2.3);
+  float closer = near * (1.0 - smoothstep(0.08 * grain_m, 0.2 * grain_m, pixel));
+  float even = grain.x + 0.5 * closer * (finer.x - 0.5);
+  float pit = drawn_out ? 0.0 : smoothstep(0.74, 0.92, even);
+  vec3 slope = grain.yzw * 0.15 + finer.yzw * (0.12 * closer);
+  marks.shade *= 1.0 + near * ((0.20 + 0.5 * variation) * (even - 0.5) - 0.15 * pit);
+  marks.bump += near * (drawn_out ? along * slope : slope * grain_turn);
+  marks.open *= 1.0 - 0.2 * pit * near;
 }
 
 #if SURFACES > 1
