@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <optional>
@@ -31,22 +32,6 @@ const glm::vec3 sun = glm::normalize(glm::vec3(0.72F, 0.62F, 0.42F));
 /// The far plane, in reaches: beyond the terrain that a method keeps, and the corners of its box.
 constexpr float far_per_reach = limits::view_radius_hysteresis * 2.0F;
 
-std::string describe() {
-  const auto text = [](GLenum what) {
-    const auto* found = reinterpret_cast<const char*>(glGetString(what));
-    return std::string(found == nullptr ? "unknown" : found);
-  };
-  return (epoxy_is_desktop_gl() ? "OpenGL " : "") + text(GL_VERSION) + " (" + text(GL_RENDERER) + ")";
-}
-
-Result<void> check_version() {
-  const int version = epoxy_gl_version();
-  const bool desktop = epoxy_is_desktop_gl();
-  if (version >= (desktop ? 33 : 30)) return {};
-  return fail("found " + describe() + "; OpenGL 3.3 or OpenGL ES 3.0 is needed: install a newer driver, " +
-              "or Mesa's software one (libgl1-mesa-dri) and set LIBGL_ALWAYS_SOFTWARE=1");
-}
-
 glm::mat4 projection_of(const Camera& camera, float reach_m, int width, int height) {
   const float aspect = static_cast<float>(width) / static_cast<float>(height);
   return camera.projection(aspect, reach_m * far_per_reach);
@@ -73,6 +58,7 @@ struct Renderer::Parts {
   std::vector<Limb> limbs;
   Details details;
   bool draws_details = true;  ///< depths have none
+  float wind_s = 0.0F;
   float view_radius_m;
   MaterialHeights layers{-limits::world_half_height_m, limits::world_half_height_m};
   std::shared_ptr<const Palette> palette = plain_palette();
@@ -99,7 +85,7 @@ struct Renderer::Parts {
         contact_drawer(std::move(of_contacts)),
         limb_drawer(std::move(of_limbs)),
         view_radius_m(radius_m),
-        description(describe()) {}
+        description(gl::describe_context()) {}
 
   void show_materials() {
     images.set(*palette, come);
@@ -139,7 +125,7 @@ Renderer::~Renderer() {
 }
 
 Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
-  if (const Result<void> version = check_version(); !version) return fail(version.error().message);
+  if (const Result<void> version = gl::check_context(); !version) return fail(version.error().message);
   Result<gl::Program> sky =
       gl::Program::link("sky", std::array{shader_source("sky.vert")},
                         std::array{shader_source("atmosphere.glsl"), shader_source("noise.glsl"),
@@ -197,6 +183,7 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
   pass.timers = &timers;
   pass.render_scale = std::max(fineness.render_scale, 1.0F);
   pass.eye_m = camera.eye_m;
+  pass.wind_s = wind_s;
   pass.lighting = {sun,
                    reach_m,
                    nowhere_in_shadow(),
@@ -310,6 +297,11 @@ Result<void> Renderer::follow_details(const Field& field, std::span<const BrickC
   constexpr float finest_part = 0.45F;
   const float range_m = std::min(parts_->fineness.details_m, finest_part * parts_->view_radius_m);
   return parts_->details.follow(field, changed, eye_m, range_m, sun);
+}
+
+void Renderer::set_wind_time(double seconds) {
+  constexpr double hour_s = 3600.0;  // a float has parts of a second of it
+  parts_->wind_s = static_cast<float>(std::fmod(seconds, hour_s));
 }
 
 bool Renderer::details_settled() const {

@@ -47,6 +47,8 @@ class Renderer {
   /// any; `changed`: its bricks since the last call. Some work of each frame. Fails if the driver cannot make
   /// what draws them.
   Result<void> follow_details(const Field& field, std::span<const BrickCoord> changed, glm::vec3 eye_m);
+  /// The time by which wind bends plants from now on, seconds; 0, as at first: nothing moves.
+  void set_wind_time(double seconds);
   /// Whether all of them within their range are there.
   bool details_settled() const;
   /// Another world's ground follows.

@@ -8,6 +8,7 @@ layout(location = 4) in vec4 a_turn;      // w: part of the range
 
 uniform mat4 u_view_projection;
 uniform float u_range_m;
+uniform float u_wind_s;  // the wind's time; 0: it is still
 
 // At the surface of the shadow map once: there are many, and they are small.
 float lit_once(vec3 world) {
@@ -57,6 +58,10 @@ void main() {
   float up = sqrt(max(1.0 - dot(slope, slope), 0.25));
   p.y -= dot(slope, p.xz) / up;
   normal = normalize(normal + vec3(slope.x, 0.0, slope.y) * 0.5);
+  // Gusts go over the land, in the wind's direction; what is high bends.
+  float gust = sin(1.1 * u_wind_s - dot(a_place.xz, vec2(0.30, 0.17))) * sin(0.37 * u_wind_s - 0.11 * a_place.x);
+  float sway = sin(4.3 * u_wind_s + 1.7 * a_place.x + 2.3 * a_place.z);
+  p.xz += vec2(0.87, 0.49) * (a_position.y * a_position.y * size * step(0.0001, u_wind_s) * (0.10 * gust + 0.035 * sway));
   vec3 world = a_place.xyz + p;
   float sunlight = max(dot(normal, u_sun), 0.0) * sunlit;
   if (sunlight > 0.0) sunlight *= lit_once(world + vec3(0.0, 0.05, 0.0));

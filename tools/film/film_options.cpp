@@ -151,6 +151,9 @@ void FilmOptionParser::declare_pictures(CLI::App& app) {
   app.add_option("--particles", options_.drawn.particles,
                  "draw dust, grit and splinters where rock breaks, strikes and settles: true or false")
       ->capture_default_str();
+  app.add_option("--details", options_.drawn.details,
+                 "draw grass, bushes and stones on the ground, where the quality has them: true or false")
+      ->capture_default_str();
   encoder_quality_given_ =
       bounded(
           app.add_option(

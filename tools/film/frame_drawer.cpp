@@ -14,7 +14,9 @@ Result<std::unique_ptr<FrameDrawer>> FrameDrawer::create(const DrawChoice& drawn
                                                          const RecordedScene& scene) {
   auto context = TRY(EglContext::create(false));
   auto renderer = TRY(Renderer::create(drawn.view_radius_m));
-  renderer->set_fineness(traits_of(drawn.quality).fineness);
+  Fineness fineness = traits_of(drawn.quality).fineness;
+  if (!drawn.details) fineness.details_m = 0.0F;
+  renderer->set_fineness(fineness);
   renderer->set_terrain(scene.field().source());
   renderer->set_palette(scene.palette());
   std::unique_ptr<FrameDrawer> drawer(new FrameDrawer(drawn, std::move(context), std::move(renderer)));
@@ -36,14 +38,17 @@ Result<void> FrameDrawer::prepare(RecordedScene& scene, const MirrorChanges& cha
   const Scene shown = scene.scene();
   TRY(renderer_->set_props(shown.props));
   TRY(methods_.follow(changes, shown, camera));
+  if (std::exchange(field_, &shown.field) != &shown.field) renderer_->forget_details();
+  TRY(renderer_->follow_details(shown.field, changes.bricks, camera.eye_m));
   const double until_s = steady_now_s() + limits::film_frame_s_max;
-  while (!methods_.complete()) {
+  while (!methods_.complete() || !renderer_->details_settled()) {
     if (stopped()) return fail("stopped");
     if (steady_now_s() > until_s)
       return fail(fmt::format("the terrain in view is not ready after {} s (limits.film_frame_s_max)",
                               limits::film_frame_s_max));
     std::this_thread::sleep_for(std::chrono::milliseconds(limits::film_pause_ms));
     TRY(methods_.follow({}, shown, camera));
+    TRY(renderer_->follow_details(shown.field, {}, camera.eye_m));
   }
   return {};
 }

@@ -22,6 +22,7 @@ struct DrawChoice {
   Quality quality = Quality::high;
   float view_radius_m = 0.0F;
   bool particles = true;
+  bool details = true;  ///< grass, bushes and stones, where the quality has them
 };
 
 class FrameDrawer {
@@ -46,6 +47,7 @@ class FrameDrawer {
   std::unique_ptr<Renderer> renderer_;
   WorkPool pool_;
   MethodSwitch methods_;
+  const Field* field_ = nullptr;  ///< whose details are drawn
 };
 
 }  // namespace scree

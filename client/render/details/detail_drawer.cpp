@@ -87,6 +87,7 @@ void DetailDrawer::draw(const DetailLists& lists, float range_m, const DrawPass&
     program.set("u_view_projection", pass.view_projection);
     program.set("u_range_m", range_m);
     program.set("u_eye", pass.eye_m);
+    program.set("u_wind_s", pass.wind_s);
     if (!is_shadow) set_lighting(program, pass, 0);
     const Shape& shape = shapes_.at(kind);
     glBindVertexArray(shape.array.name());

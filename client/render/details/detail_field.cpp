@@ -46,7 +46,8 @@ void DetailField::set_range(const Field& field, float range_m) {
         const glm::vec3 gap = glm::max(glm::abs(glm::vec3(x, y, z)) - 1.0F, 0.0F) * chunk_m;
         if (glm::dot(gap, gap) < range_m_ * range_m_) offsets_.push_back({x, y, z});
       }
-  std::ranges::stable_sort(offsets_, {}, [](ChunkCoord o) { return o.x * o.x + o.y * o.y + o.z * o.z; });
+  std::ranges::sort(offsets_, {},
+                    [](ChunkCoord o) { return std::pair(o.x * o.x + o.y * o.y + o.z * o.z, o); });
 }
 
 void DetailField::drop_far(glm::vec3 eye_m) {

@@ -1,10 +1,9 @@
 #include "client/render/details/detail_meshes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numbers>
-#include <utility>
 
 namespace scree {
 namespace {
@@ -107,11 +106,14 @@ DetailMesh broken_stone() {
             glm::dot(glm::cross(points[b] - points[a], points[c] - points[a]), points[a]) > 0.0F;
         faces.push_back(outwards ? std::array{a, b, c} : std::array{a, c, b});
       }
-  std::map<std::pair<size_t, size_t>, size_t> halves;
+  // Two faces share an edge: its middle may be there.
   const auto half = [&](size_t a, size_t b) {
-    const auto [at, is_new] = halves.emplace(std::minmax(a, b), points.size());
-    if (is_new) points.push_back(glm::normalize(points[a] + points[b]));
-    return at->second;
+    const glm::vec3 middle = glm::normalize(points[a] + points[b]);
+    const auto known =
+        std::ranges::find_if(points, [&](glm::vec3 p) { return glm::dot(p, middle) > 0.999F; });
+    const auto at = static_cast<size_t>(known - points.begin());
+    if (known == points.end()) points.push_back(middle);
+    return at;
   };
   DetailMesh mesh;
   const std::vector<std::array<size_t, 3>> large = faces;

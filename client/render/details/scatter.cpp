@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
 #include "client/render/details/ground_cover.h"
 #include "client/render/levels/block_windows.h"
@@ -231,8 +232,8 @@ std::vector<PlacedDetail> scatter_details(const Field& field, ChunkCoord chunk) 
       made->cell = ground->cell;
       placed.push_back(*made);
     }
-  std::ranges::stable_sort(placed, std::ranges::greater(),
-                           [](const PlacedDetail& one) { return one.detail.turn[3]; });
+  std::ranges::sort(placed, std::ranges::greater(),
+                    [](const PlacedDetail& one) { return std::pair(one.detail.turn[3], one.cell); });
   return placed;
 }
 

@@ -32,6 +32,23 @@ Result<GLuint> compile(GLenum stage, std::string_view name, std::span<const std:
 
 }  // namespace
 
+std::string describe_context() {
+  const auto text = [](GLenum what) {
+    const auto* found = reinterpret_cast<const char*>(glGetString(what));
+    return std::string(found == nullptr ? "unknown" : found);
+  };
+  return (epoxy_is_desktop_gl() ? "OpenGL " : "") + text(GL_VERSION) + " (" + text(GL_RENDERER) + ")";
+}
+
+Result<void> check_context() {
+  const int version = epoxy_gl_version();
+  const bool desktop = epoxy_is_desktop_gl();
+  if (version >= (desktop ? 33 : 30)) return {};
+  return fail("found " + describe_context() +
+              "; OpenGL 3.3 or OpenGL ES 3.0 is needed: install a newer driver, " +
+              "or Mesa's software one (libgl1-mesa-dri) and set LIBGL_ALWAYS_SOFTWARE=1");
+}
+
 Result<void> Program::attach(GLenum stage, std::string_view name,
                              std::span<const std::string_view> parts) const {
   const Result<GLuint> shader = compile(stage, name, parts);

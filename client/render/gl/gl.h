@@ -17,6 +17,11 @@
 
 namespace scree::gl {
 
+/// The context's version and driver, for people.
+std::string describe_context();
+/// Fails without OpenGL 3.3 or OpenGL ES 3.0; the error names what was found.
+Result<void> check_context();
+
 /// Owns one name; Traits say how it is made and freed.
 template <typename Traits>
 class Object {

@@ -152,6 +152,7 @@ LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optio
   const Figures& figures = session.figures(now_s);
   figures.add_to(lines);
   view->renderer().set_limbs(figures.limbs(camera.eye_m, looked_through, false));
+  view->renderer().set_wind_time(now_s);
   add_joints_of(session, lines, camera.eye_m, now_s);
   add_regions_of(session, lines, camera.eye_m);
   add_overlay(lines, overlay, now_s);

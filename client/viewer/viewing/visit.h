@@ -40,7 +40,7 @@ class Visit {
   void listen(bool on) { listens_ = on; }
 
   /// Lines over the world: the shape of the tool's next strike, where others aim, the overlay. The renderer
-  /// gets the bodies of the other persons, but of the one through whose eye one looks.
+  /// gets the bodies of the other persons, but of the one through whose eye one looks, and the wind's time.
   LineList lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
                  double now_s);
   /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.
