@@ -184,6 +184,7 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
   pass.render_scale = std::max(fineness.render_scale, 1.0F);
   pass.eye_m = camera.eye_m;
   pass.wind_s = wind_s;
+  pass.pixel = 2.0F * std::tan(0.5F * camera.field_of_view) / static_cast<float>(height);
   pass.lighting = {sun,
                    reach_m,
                    nowhere_in_shadow(),

@@ -1,4 +1,5 @@
-// Grass, bushes and stones, an instance each (client/render/details/detail.h). STONES says which.
+// Grass, bushes and stones, an instance each (client/render/details/detail.h). STONES says which. CASTS: for the shadow
+// map, which must not be read while it is drawn.
 
 layout(location = 0) in vec3 a_position;  // parts of the size
 layout(location = 1) in vec4 a_normal;    // w: how bright
@@ -9,6 +10,9 @@ layout(location = 4) in vec4 a_turn;      // w: part of the range
 uniform mat4 u_view_projection;
 uniform float u_range_m;
 uniform float u_wind_s;  // the wind's time; 0: it is still
+uniform float u_pixel;   // metres that it covers at one metre; 0: it draws no blades
+
+#if !CASTS
 
 // At the surface of the shadow map once: there are many, and they are small.
 float lit_once(vec3 world) {
@@ -16,6 +20,8 @@ float lit_once(vec3 world) {
   if (max(abs(p.x - 0.5), abs(p.y - 0.5)) > 0.46 || p.z >= 1.0) return 1.0;
   return texture(u_shadow_map, vec3(p.xy, p.z - 0.0008));
 }
+
+#endif
 
 #if STONES
 
@@ -53,6 +59,11 @@ void main() {
   float angle = 3.14159 * a_turn.x, c = cos(angle), s = sin(angle);
   vec3 p = vec3(c * a_position.x - s * a_position.z, a_position.y, s * a_position.x + c * a_position.z) * size;
   vec3 normal = vec3(c * a_normal.x - s * a_normal.z, a_normal.y, s * a_normal.x + c * a_normal.z);
+  if (u_pixel > 0.0) {
+    // The normals of blades are the ways from their middles to their edges: none is so thin that pixels miss it.
+    p += normal * (max(0.55 * u_pixel * away - 0.027 * size, 0.0) * min(2.0 * size / a_place.w, 1.0));
+    normal = vec3(0.0, 1.0, 0.0);
+  }
   // Its foot follows the ground's slope.
   vec2 slope = a_turn.yz;
   float up = sqrt(max(1.0 - dot(slope, slope), 0.25));
@@ -63,11 +74,13 @@ void main() {
   float sway = sin(4.3 * u_wind_s + 1.7 * a_place.x + 2.3 * a_place.z);
   p.xz += vec2(0.87, 0.49) * (a_position.y * a_position.y * size * step(0.0001, u_wind_s) * (0.10 * gust + 0.035 * sway));
   vec3 world = a_place.xyz + p;
+#if !CASTS
   float sunlight = max(dot(normal, u_sun), 0.0) * sunlit;
   if (sunlight > 0.0) sunlight *= lit_once(world + vec3(0.0, 0.05, 0.0));
   albedo *= u_soil_tint * a_normal.w;
   vec3 lit_colour = albedo * (sun_colour * sunlight + ambient(normal) * open * open * a_normal.w);
   v_colour = in_fog(lit_colour, world, away);
+#endif
   gl_Position = u_view_projection * vec4(world, 1.0);
 #endif
 }

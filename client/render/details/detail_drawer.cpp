@@ -4,6 +4,7 @@
 #include <span>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "client/render/details/detail_meshes.h"
 #include "client/render/gl/lighting.h"
@@ -13,27 +14,33 @@
 namespace scree {
 namespace {
 
-Result<gl::Program> link_detail(bool stones, std::span<const std::string_view> fragment) {
-  const std::array vertex{std::string_view(stones ? "#define STONES 1\n" : "#define STONES 0\n"),
-                          std::string_view("#define AT_CORNERS\n"),
-                          shader_source("rotation.glsl"),
-                          shader_source("atmosphere.glsl"),
-                          shader_source("noise.glsl"),
-                          shader_source("clouds.glsl"),
-                          shader_source("haze.glsl"),
-                          shader_source("shadow.glsl"),
-                          shader_source("detail.vert")};
+/// `casts`: for the shadow map.
+Result<gl::Program> link_detail(bool stones, bool casts, std::span<const std::string_view> fragment) {
+  std::vector<std::string_view> vertex{stones ? "#define STONES 1\n" : "#define STONES 0\n",
+                                       casts ? "#define CASTS 1\n" : "#define CASTS 0\n",
+                                       "#define AT_CORNERS\n"};
+  for (const std::string_view part :
+       {"rotation.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl", "haze.glsl"})
+    vertex.push_back(shader_source(part));
+  if (!casts) vertex.push_back(shader_source("shadow.glsl"));
+  vertex.push_back(shader_source("detail.vert"));
   return gl::Program::link("detail", vertex, fragment);
+}
+
+Result<gl::Program> link_detail_shadow(bool stones) {
+  return link_detail(stones, true, std::array{shader_source("surface_shadow.frag")});
 }
 
 Result<gl::Program> link_detail_colour(bool stones) {
   if (!stones)
-    return link_detail(stones, std::array{shader_source("atmosphere.glsl"), shader_source("detail.frag")});
-  return link_detail(stones, std::array{define_of(Surfaces::ground), shader_source("rotation.glsl"),
-                                        shader_source("atmosphere.glsl"), shader_source("noise.glsl"),
-                                        shader_source("clouds.glsl"), shader_source("haze.glsl"),
-                                        shader_source("stones.glsl"), shader_source("material.glsl"),
-                                        shader_source("rock.glsl"), shader_source("detail_stone.frag")});
+    return link_detail(stones, false,
+                       std::array{shader_source("atmosphere.glsl"), shader_source("detail.frag")});
+  return link_detail(
+      stones, false,
+      std::array{define_of(Surfaces::ground), shader_source("rotation.glsl"),
+                 shader_source("atmosphere.glsl"), shader_source("noise.glsl"), shader_source("clouds.glsl"),
+                 shader_source("haze.glsl"), shader_source("stones.glsl"), shader_source("material.glsl"),
+                 shader_source("rock.glsl"), shader_source("detail_stone.frag")});
 }
 
 void describe_detail(GLuint index, GLint size, GLenum type, size_t stride, size_t offset, GLuint divisor) {
@@ -52,9 +59,8 @@ void upload_buffer(GLenum target, const gl::Buffer& buffer, const std::vector<T>
 }  // namespace
 
 Result<DetailDrawer> DetailDrawer::create() {
-  const std::array shadow{shader_source("surface_shadow.frag")};
   return DetailDrawer({TRY(link_detail_colour(false)), TRY(link_detail_colour(true))},
-                      {TRY(link_detail(false, shadow)), TRY(link_detail(true, shadow))});
+                      {TRY(link_detail_shadow(false)), TRY(link_detail_shadow(true))});
 }
 
 DetailDrawer::DetailDrawer(Programs&& colour, Programs&& shadow)
@@ -88,6 +94,7 @@ void DetailDrawer::draw(const DetailLists& lists, float range_m, const DrawPass&
     program.set("u_range_m", range_m);
     program.set("u_eye", pass.eye_m);
     program.set("u_wind_s", pass.wind_s);
+    program.set("u_pixel", static_cast<DetailKind>(kind) == DetailKind::grass ? pass.pixel : 0.0F);
     if (!is_shadow) set_lighting(program, pass, 0);
     const Shape& shape = shapes_.at(kind);
     glBindVertexArray(shape.array.name());

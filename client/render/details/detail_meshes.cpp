@@ -35,7 +35,8 @@ void add_triangle(DetailMesh& mesh, size_t a, size_t b, size_t c) {
   for (const size_t corner : {a, b, c}) mesh.corners.push_back(static_cast<uint16_t>(corner));
 }
 
-/// Blades that bend outwards: two cuts across each, and a tip.
+/// Blades that bend outwards: two cuts across each, and a tip. In place of normals they have the ways to
+/// their edges.
 DetailMesh tuft() {
   constexpr int blades = 13;
   DetailMesh mesh;
@@ -48,13 +49,13 @@ DetailMesh tuft() {
     const glm::vec3 wide = (across + 0.5F * (draws.next() - 0.5F) * out) * (0.020F + 0.014F * draws.next());
     const glm::vec3 middle = root + out * (0.30F * bend) + glm::vec3(0.0F, 0.6F * high, 0.0F);
     const glm::vec3 tip = root + out * bend + glm::vec3(0.0F, high, 0.0F);
-    const glm::vec3 up = glm::normalize(out * 0.35F + glm::vec3(0.0F, 1.0F, 0.0F));
+    const glm::vec3 side = glm::normalize(wide);
     const size_t first = mesh.vertices.size();
-    add_vertex(mesh, root - wide, up, 0.55F);
-    add_vertex(mesh, root + wide, up, 0.55F);
-    add_vertex(mesh, middle - wide * 0.75F, up, 0.85F);
-    add_vertex(mesh, middle + wide * 0.75F, up, 0.85F);
-    add_vertex(mesh, tip, up, 1.0F);
+    add_vertex(mesh, root - wide, -side, 0.55F);
+    add_vertex(mesh, root + wide, side, 0.55F);
+    add_vertex(mesh, middle - wide * 0.75F, -0.8F * side, 0.85F);
+    add_vertex(mesh, middle + wide * 0.75F, 0.8F * side, 0.85F);
+    add_vertex(mesh, tip, glm::vec3(0.0F), 1.0F);
     add_triangle(mesh, first, first + 1, first + 2);
     add_triangle(mesh, first + 2, first + 1, first + 3);
     add_triangle(mesh, first + 2, first + 3, first + 4);

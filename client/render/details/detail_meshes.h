@@ -12,7 +12,7 @@ namespace scree {
 
 struct DetailVertex {
   glm::vec3 place{0.0F};
-  std::array<int8_t, 4> normal{};  ///< of 127; the last: how open it is, and how bright
+  std::array<int8_t, 4> normal{};  ///< in 127ths; of a blade the way to its edge; the last: how bright
 };
 
 struct DetailMesh {

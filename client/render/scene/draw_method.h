@@ -69,6 +69,7 @@ struct DrawPass {
   glm::mat4 view_projection{1.0F};
   glm::vec3 eye_m{0.0F};
   Lighting lighting;
+  float pixel = 0.001F;         ///< metres that a pixel covers at one metre
   float wind_s = 0.0F;          ///< the wind's time; 0: it is still
   float render_scale = 1.0F;    ///< pixels that are marched, along a side, for one that is shown
   GpuTimers* timers = nullptr;  ///< for a method's own measurements; may be null

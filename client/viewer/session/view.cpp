@@ -47,8 +47,9 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
   if (models_.follow(scene.props, [&](const Digest& model) { return session.model(model); }))
     renderer_->set_models(models_.meshes());
   TRY(renderer_->set_props(scene.props));
-  TRY(renderer_->follow_details(scene.field, step.changes.bricks, camera.eye_m));
-  return methods_.follow(step.changes, scene, camera);
+  TRY(methods_.follow(step.changes, scene, camera));
+  // Afterwards: they stand on the ground that the method has generated.
+  return renderer_->follow_details(scene.field, step.changes.bricks, camera.eye_m);
 }
 
 }  // namespace scree
