@@ -92,15 +92,15 @@ void tumble(Detail& detail, Draws& draws, float seen) {
                  as_signed(seen)};
 }
 
-constexpr glm::vec3 grass_green{0.235F, 0.260F, 0.095F};
-constexpr glm::vec3 grass_dry{0.56F, 0.44F, 0.23F};
+constexpr glm::vec3 grass_green{0.205F, 0.228F, 0.085F};
+constexpr glm::vec3 grass_dry{0.47F, 0.37F, 0.19F};
 constexpr glm::vec3 leaf_green{0.150F, 0.180F, 0.075F};
 constexpr glm::vec3 leaf_dry{0.27F, 0.22F, 0.12F};
 
 PlacedDetail grass_of(const Surface& ground, const GroundCover& cover, Draws& draws) {
   PlacedDetail made;
   made.kind = DetailKind::grass;
-  const float dry = std::clamp(1.15F - cover.green + 0.7F * (draws.next() - 0.5F), 0.0F, 1.0F);
+  const float dry = std::clamp(1.08F - cover.green + 0.7F * (draws.next() - 0.5F), 0.0F, 1.0F);
   made.detail.size_m = (0.26F + 0.30F * draws.next() * draws.next()) * (0.65F + 0.35F * cover.green);
   set_colour(made.detail, glm::mix(grass_green, grass_dry, dry) * (0.75F + 0.5F * cover.fine));
   stand(made.detail, ground.normal, draws.next(), 0.35F + 0.65F * std::sqrt(draws.next()));
