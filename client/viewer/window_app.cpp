@@ -45,6 +45,7 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded
       details_(viewing.options.details),
       shake_(viewing.options.shake),
       predict_(viewing.options.predict),
+      sound_(viewing.options.sound),
       quality_(viewing.options.quality) {
   overlay_.shown = overlay_.shown || viewing.options.overlay.shown;
   tool_.pattern = viewing.options.pattern.value_or(tool_.pattern);
@@ -85,6 +86,12 @@ void WindowApp::act_on_view(Action action) {
   flip(Action::panel, choice_.panel);
   flip(Action::persons, choice_.persons);
   flip(Action::hide, hidden_);
+}
+
+void WindowApp::mute_or_play(double now_s) {
+  sound_ = !sound_;
+  viewing_.play_sound(sound_);
+  say(sound_ ? "sound on" : "sound off; U: on", now_s);
 }
 
 /// What cannot be written is said, and nothing else: the world goes on.
@@ -138,6 +145,7 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
   for (const Action action : input.actions) {
     change_hand(action, now_s);
     act_on_view(action);
+    if (action == Action::mute) mute_or_play(now_s);
     viewing_.session.timeline().act(action);
     if (action == Action::next_eye && !whereabouts_.follow_next_eye(viewing_.session, now_s))
       say("nobody else is here, so there is no other view", now_s);
@@ -248,6 +256,7 @@ Settings WindowApp::settings() const {
   settings.details = details_;
   settings.shake = shake_;
   settings.predict = predict_;
+  settings.sound = sound_;
   return settings;
 }
 

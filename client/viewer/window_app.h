@@ -35,6 +35,7 @@ class WindowApp {
   Result<void> choose(const MethodEntry& method);
   void change_hand(Action action, double now_s);
   void act_on_view(Action action);
+  void mute_or_play(double now_s);
   Result<void> act_on_files(Action action, double now_s);
   void record_path(double now_s);
   void end_path(double now_s);
@@ -59,6 +60,7 @@ class WindowApp {
   bool details_;
   bool shake_;
   bool predict_;
+  bool sound_;
   std::optional<Quality> quality_;  ///< as chosen; nothing: by the first frames
   FactFinder facts_;
   std::optional<double> path_begun_s_;

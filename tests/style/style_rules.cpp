@@ -109,7 +109,8 @@ std::vector<Layer> other_layers() {
       {"client/viewer/session/", {"client/viewer/input/", "client/session/"}},
       {"client/viewer/pictures/", {"client/viewer/base/"}},
       {"client/viewer/events/", {"client/viewer/base/"}},
-      {"client/viewer/sound/", {"client/viewer/events/"}},
+      {"client/viewer/synthesis/", {"client/viewer/events/"}},
+      {"client/viewer/sound/", {"client/viewer/synthesis/"}},
       {"client/viewer/viewing/",
        {"client/viewer/session/", "client/viewer/pictures/", "client/viewer/sound/", "content/model/"}},
       {"client/viewer/window/", {"client/viewer/viewing/"}},
@@ -117,7 +118,7 @@ std::vector<Layer> other_layers() {
       {"client/web/", {"client/viewer/viewing/"}},
       {"tools/film/process/", {"shared/base/"}},
       {"tools/film/",
-       {"tools/film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/events/"}},
+       {"tools/film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/synthesis/"}},
       {"tests/", {"bench/", "studies/", "tools/film/", "tools/place/", "cmake/"}},
   };
 }
@@ -315,7 +316,7 @@ Complaints check_class_names(const std::vector<SourceFile>& files) {
 Complaints check_kernel_arithmetic(const SourceFile& file) {
   static const std::regex inexact(
       R"(\b(std|glm)::(a?(sin|cos|tan)h?f?|atan2f?|exp[2m1]*f?|log[210p]*f?|powf?|cbrtf?|hypotf?|fmaf?|slerp|angleAxis|rotate)\s*\()");
-  if (!file.path.starts_with("shared/")) return {};
+  if (!starts_with_any(file.path, {"shared/", "client/viewer/synthesis/"})) return {};
   const std::string code = without_comments_and_literals(file.text);
   Complaints complaints;
   for (std::sregex_iterator it(code.begin(), code.end(), inexact), end; it != end; ++it)

@@ -1,38 +1,22 @@
-// Sound: as loud as it should be, the same every time, and nothing without events or a device.
+// What pieces do is found, and written to a file of sound that is whole at any time.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
-#include <sstream>
 
 #include "client/mirror/predictions.h"
 #include "client/viewer/base/limits.h"
 #include "client/viewer/events/piece_event_detector.h"
 #include "client/viewer/sound/sounds.h"
 #include "shared/operation/operation.h"
+#include "tests/support/wave_samples.h"
 
 namespace scree {
 namespace {
 
 constexpr size_t second = Synthesiser::rate_hz;
-
-/// A blast of some pieces, 6 m ahead.
-std::vector<PieceEvent> blast_events() {
-  std::vector<PieceEvent> events;
-  for (int i = 0; i < 12; ++i)
-    events.push_back({PieceEventKind::crack, {0.2F * static_cast<float>(i), 0.0F, -6.0F}, 0.7F, 2600.0F});
-  events.push_back({PieceEventKind::strike, {1.0F, 0.0F, -5.0F}, 0.7F, 1500.0F, material::rock});
-  return events;
-}
-
-std::vector<float> rendered(const std::vector<PieceEvent>& events, size_t frames, const Ears& ears = {}) {
-  Synthesiser synthesiser;
-  for (const PieceEvent& event : events) synthesiser.add(event, ears);
-  return synthesiser.render(frames);
-}
 
 float peak(const std::vector<float>& samples) {
   float most = 0.0F;
@@ -45,68 +29,6 @@ float loudness(const std::vector<float>& samples) {
   double sum = 0.0;
   for (const float sample : samples) sum += static_cast<double>(sample) * static_cast<double>(sample);
   return static_cast<float>(std::sqrt(sum / static_cast<double>(samples.size())));
-}
-
-TEST(Synthesiser, a_blast_is_within_its_bounds_and_dies_away) {
-  Synthesiser synthesiser;
-  for (const PieceEvent& event : blast_events()) synthesiser.add(event, {});
-  const std::vector<float> first = synthesiser.render(second / 2);
-  EXPECT_GT(peak(first), 0.1F);
-  EXPECT_LE(peak(first), Synthesiser::peak_max);
-  EXPECT_GT(loudness(first), 0.02F);
-  EXPECT_LT(loudness(first), 0.5F);
-  synthesiser.render(6 * second);
-  EXPECT_EQ(synthesiser.voices(), 0U);
-  EXPECT_EQ(peak(synthesiser.render(second)), 0.0F);
-}
-
-TEST(Synthesiser, without_events_there_is_silence) {
-  EXPECT_EQ(peak(rendered({}, second)), 0.0F);
-}
-
-TEST(Synthesiser, the_same_events_make_the_same_samples) {
-  EXPECT_EQ(rendered(blast_events(), second), rendered(blast_events(), second));
-}
-
-TEST(Synthesiser, no_crowd_of_sounds_goes_beyond_the_peak_or_the_voices) {
-  Synthesiser synthesiser;
-  for (int i = 0; i < 1000; ++i) synthesiser.add({PieceEventKind::strike, {}, 2.0F, 1e9F, material::ice}, {});
-  EXPECT_LE(synthesiser.voices(), limits::voices_max);
-  EXPECT_LE(peak(synthesiser.render(second)), Synthesiser::peak_max);
-}
-
-TEST(Synthesiser, a_material_rings_as_its_row_says) {
-  const auto heard = [](float pitch, float damping_s, float noise) {
-    PieceEvent event{PieceEventKind::strike, {0.0F, 0.0F, -2.0F}, 1.0F, 4000.0F};
-    event.sound = {pitch, damping_s, noise};
-    return rendered({event}, second);
-  };
-  const auto later = [](const std::vector<float>& samples) {
-    return loudness({samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2), samples.end()});
-  };
-  EXPECT_GT(later(heard(1.0F, 0.5F, 0.1F)), 4.0F * later(heard(1.0F, 0.05F, 0.1F)));
-  EXPECT_NE(heard(1.0F, 0.1F, 0.5F), heard(2.0F, 0.1F, 0.5F));
-}
-
-TEST(Synthesiser, far_is_quieter_and_later_and_sides_are_heard) {
-  const auto strike = [](glm::vec3 place_m) {
-    return std::vector<PieceEvent>{{PieceEventKind::strike, place_m, 0.5F, 3000.0F, material::rock}};
-  };
-  const std::vector<float> near = rendered(strike({0.0F, 0.0F, -3.0F}), second);
-  const std::vector<float> far = rendered(strike({0.0F, 0.0F, -100.0F}), second);
-  EXPECT_GT(loudness(near), 4.0F * loudness(far));
-  const auto silent_frames = [](const std::vector<float>& samples) {
-    const auto heard = std::ranges::find_if(samples, [](float sample) { return sample != 0.0F; });
-    return static_cast<size_t>(heard - samples.begin()) / Synthesiser::channels;
-  };
-  EXPECT_NEAR(static_cast<double>(silent_frames(far)) / second, 100.0 / 343.0, 0.01);
-  const std::vector<float> right = rendered(strike({5.0F, 0.0F, 0.0F}), second);
-  float left_sum = 0.0F, right_sum = 0.0F;
-  for (size_t i = 0; i < right.size(); i += 2) {
-    left_sum += std::abs(right[i]);
-    right_sum += std::abs(right[i + 1]);
-  }
-  EXPECT_GT(right_sum, 2.0F * left_sum);
 }
 
 /// Pieces of a carve, which a test moves.
@@ -218,17 +140,9 @@ TEST_F(PieceWatchTest, a_blast_written_to_a_file_is_a_wav_of_its_length_and_loud
   for (int i = 0; i <= 120; ++i)
     sounds->step(step(i < 30 ? ScenePieces{} : broken_off_), camera, 50.0 + static_cast<double>(i) * frame_s);
   ASSERT_TRUE(sounds->finish());
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  const std::string bytes = text.str();
+  const std::vector<float> samples = samples_in(path);
   std::filesystem::remove(path);
-  ASSERT_EQ(bytes.substr(0, 4) + bytes.substr(8, 4), "RIFFWAVE");
-  EXPECT_EQ(bytes.size(), 44 + 2 * second * 4);
-  std::vector<float> samples;
-  for (size_t i = 44; i + 1 < bytes.size(); i += 2)
-    samples.push_back(static_cast<float>(static_cast<int16_t>(static_cast<uint8_t>(bytes[i]) |
-                                                              static_cast<uint8_t>(bytes[i + 1]) << 8)) /
-                      32767.0F);
+  EXPECT_EQ(samples.size(), 2 * second * Synthesiser::channels);
   const std::vector<float> before(samples.begin(), samples.begin() + static_cast<long>(second / 2));
   const std::vector<float> blast(samples.begin() + static_cast<long>(second), samples.end());
   EXPECT_EQ(peak(before), 0.0F);
@@ -236,6 +150,21 @@ TEST_F(PieceWatchTest, a_blast_written_to_a_file_is_a_wav_of_its_length_and_loud
   EXPECT_LE(peak(blast), Synthesiser::peak_max + 1e-3F);
   EXPECT_GT(loudness(blast), 0.003F);
   EXPECT_LT(loudness(blast), 0.4F);
+}
+
+TEST(WaveFile, is_whole_after_every_append) {
+  const std::string path = (std::filesystem::path(testing::TempDir()) / "scree_whole.wav").string();
+  Result<WaveFile> file = WaveFile::create(path, Synthesiser::rate_hz, 2);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_TRUE(samples_in(path).empty());
+  for (size_t i = 1; i <= 3; ++i) {
+    file->append(std::vector<float>(10, 0.25F * static_cast<float>(i)));
+    const std::vector<float> samples = samples_in(path);  // as if the program had been killed now
+    ASSERT_EQ(samples.size(), 10 * i);
+    EXPECT_NEAR(samples.back(), 0.25F * static_cast<float>(i), 1e-4F);
+  }
+  EXPECT_TRUE(file->finish());
+  std::filesystem::remove(path);
 }
 
 TEST(Sounds, without_a_device_nothing_is_played_and_nothing_fails) {

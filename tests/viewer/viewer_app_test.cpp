@@ -10,7 +10,10 @@
 #include "client/viewer/pictures/egl_context.h"
 #include "client/viewer/pictures/png.h"
 #include "server/app/live_server.h"
+#include "tests/support/background_program.h"
 #include "tests/support/loaded_libraries.h"
+#include "tests/support/patience.h"
+#include "tests/support/wave_samples.h"
 
 namespace scree {
 namespace {
@@ -121,6 +124,29 @@ TEST_F(ViewerApp, what_there_is_to_hear_is_written_to_a_file) {
   ASSERT_EQ(view({{"--sound-file", file("a.wav")}, {"--screenshot", file("a.png")}}).first, 0);
   EXPECT_GE(fs::file_size(file("a.wav")), 44U);
   EXPECT_EQ(view({{"--sound-file", "/no/such/folder/a.wav"}, {"--screenshot", file("a.png")}}).first, 2);
+}
+
+/// The program itself, ended in the middle.
+TEST_F(ViewerApp, a_file_of_sound_is_whole_after_a_signal) {
+  for (const int signal : {SIGTERM, SIGKILL}) {
+    const std::string sound = file("ended.wav");
+    fs::remove(sound);
+    const BackgroundProgram viewer(
+        {SCREE_VIEWER_PROGRAM, "--host=127.0.0.1", "--port=" + std::to_string(server_->port()), "--offscreen",
+         "--size=96x64", "--view-radius=12", "--cache-mib=0", "--sound-file=" + sound,
+         "--screenshot=" + file("never.png@pieces>=9999")},
+        file("said"));
+    constexpr uintmax_t enough = 100000;
+    const auto deadline = std::chrono::steady_clock::now() + patience;
+    std::error_code missing;
+    while (!fs::exists(sound) || fs::file_size(sound, missing) < enough)
+      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "the viewer writes no sound";
+    ::kill(viewer.number(), signal);
+    siginfo_t ended{};
+    ASSERT_EQ(::waitid(P_PID, static_cast<id_t>(viewer.number()), &ended, WEXITED | WNOWAIT), 0);
+    // The signal may come between samples and their header, which then tells of those before.
+    EXPECT_GE(2 * samples_in(sound).size(), fs::file_size(sound) / 2) << signal;
+  }
 }
 
 TEST_F(ViewerApp, time_demo_prints_a_line_of_frame_times) {

@@ -65,6 +65,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   end.quality = Quality::low;
   end.predict = false;
   end.particles = false;
+  end.sound = false;
   first.save(start, end);
 
   const SettingsFile second(settings_file());
@@ -75,6 +76,7 @@ TEST_F(SettingsTest, what_changed_is_kept_and_what_a_flag_said_is_not) {
   EXPECT_EQ(second.loaded().quality, Quality::low);
   EXPECT_FALSE(second.loaded().predict);
   EXPECT_FALSE(second.loaded().particles);
+  EXPECT_FALSE(second.loaded().sound);
 }
 
 TEST_F(SettingsTest, a_broken_file_is_ignored_and_kept) {
@@ -106,6 +108,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.overlay = {true, false, true, false, true};
   settings.particles = false;
   settings.predict = false;
+  settings.sound = false;
   settings.quality = Quality::high;
   const Result<Settings> again = parse_settings(to_text(settings));
   ASSERT_TRUE(again) << again.error().message;

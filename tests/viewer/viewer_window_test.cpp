@@ -38,6 +38,16 @@ TEST_F(ViewerWindow, shows_what_the_servers_bodies_do_when_the_overlay_asks) {
   EXPECT_TRUE(lines.vertices().empty()) << "nothing is shown that was not asked for";
 }
 
+TEST_F(ViewerHand, turns_sound_off_and_on_by_a_key) {
+  options_.sound = true;
+  join(320, 200);
+  EXPECT_TRUE(app_->settings().sound);
+  hand("key u");
+  run_until([&] { return !app_->settings().sound; }, "silence");
+  hand("key u");
+  run_until([&] { return app_->settings().sound; }, "sound");
+}
+
 TEST_F(ViewerHand, shows_hides_asks_and_ends_by_keys) {
   join(640, 360);
   run_until(

@@ -61,15 +61,8 @@ inline constexpr size_t piece_events_per_step_max = 96;
 /// Seconds that dust stays in the air: less than settled_s, so that pictures of what has settled have none.
 inline constexpr float particle_seconds_max = 1.9F;
 
-/// Sounds at once: more than anybody can tell apart; beyond, the quietest end. And new ones in one frame.
-inline constexpr size_t voices_max = 48;
-inline constexpr size_t sounds_per_step_max = 12;
-
-/// Bytes of samples in a file of sound: twelve minutes. What comes later is left out.
-inline constexpr size_t sound_file_bytes_max = size_t{128} << 20;
-
 /// Frames of sound made for the file at once: five seconds. A longer pause of the program is shortened.
-inline constexpr size_t sound_step_frames_max = 220500;
+inline constexpr size_t sound_step_frames_max = 240000;
 
 /// Wishes for a replay that wait to be sent. Above: more are dropped.
 inline constexpr size_t replay_wishes_waiting_max = 16;

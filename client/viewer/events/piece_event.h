@@ -1,9 +1,9 @@
 // What a piece does that is heard and seen: it cracks off, it strikes something, it becomes ground.
 #pragma once
 
-#include <cstdint>
 #include <glm/vec3.hpp>
 
+#include "client/viewer/events/piece_event_kind.h"
 #include "shared/base/ids.h"
 #include "shared/material/palette.h"
 
@@ -13,8 +13,6 @@ inline constexpr glm::vec3 gravity_m_s2{0.0F, -9.81F, 0.0F};
 
 /// The colour of the dust of the ground's own rock, which is sandstone (client/shaders/rock.glsl).
 inline constexpr glm::vec3 rock_dust{0.58F, 0.37F, 0.21F};
-
-enum class PieceEventKind : uint8_t { strike, crack, settle };
 
 struct PieceEvent {
   PieceEventKind kind = PieceEventKind::strike;

@@ -52,6 +52,7 @@ enum class Action : uint8_t {
   record_path,
   talk,
   persons,
+  mute,
   overlay,
   figures,
   graphs,

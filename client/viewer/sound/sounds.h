@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "client/render/scene/camera.h"
 #include "client/viewer/sound/speaker.h"
-#include "client/viewer/sound/synthesiser.h"
-#include "client/viewer/sound/wave_file.h"
+#include "client/viewer/synthesis/hearing.h"
+#include "client/viewer/synthesis/synthesiser.h"
+#include "client/viewer/synthesis/wave_file.h"
 
 namespace scree {
 
@@ -18,19 +18,22 @@ class Sounds {
   /// `aloud`: by the device, if there is one; `file`: a WAV, empty: none. Fails if that cannot be written.
   static Result<Sounds> begin(bool aloud, const std::string& file);
 
-  /// Plays the events, the greatest impulse first; the first limits::sounds_per_step_max are heard.
-  void step(std::vector<PieceEvent> events, const Camera& camera, double now_s);
+  /// By the device, if there is one, or not any more.
+  void play_aloud(bool on);
+  /// Plays the events, the greatest impulse first.
+  void step(const std::vector<PieceEvent>& events, const Camera& camera, double now_s);
   /// Whether nobody hears anything: then step() costs nothing.
   bool silent() const { return !speaker_ && !file_; }
-  /// The file is whole.
+  /// The file gets no more.
   Result<void> finish();
 
  private:
   Sounds() = default;
+  void write_until(double now_s);
 
   std::unique_ptr<Speaker> speaker_;
   std::optional<WaveFile> file_;
-  Synthesiser of_file_;
+  std::unique_ptr<Synthesiser> of_file_;  ///< null: there is none
   std::optional<double> begun_s_;
   size_t written_ = 0;  ///< frames of the file
 };

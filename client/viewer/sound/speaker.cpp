@@ -2,6 +2,7 @@
 
 #include <AL/al.h>
 #include <AL/alc.h>
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -11,22 +12,15 @@
 #include <mutex>
 #include <thread>
 
-#include "client/viewer/sound/synthesiser.h"
+#include "client/viewer/synthesis/synthesiser.h"
 
 namespace scree {
 namespace {
 
-/// Samples of a buffer, and how many wait: 90 ms, within which an event is heard.
+/// Samples of a buffer, and how many wait: 85 ms, within which an event is heard.
 constexpr size_t buffer_frames = 1024;
 constexpr size_t buffer_count = 4;
 constexpr std::chrono::milliseconds pause{8};
-
-/// Before other threads begin, for it sets variables of the environment. Where there is no card, ALSA says so
-/// in ten lines on the standard error, and OpenAL in one; a person's own choice stays.
-void silence_library_log() {
-  ::setenv("ALSOFT_LOGLEVEL", "0", 0);
-  if (!std::filesystem::exists("/dev/snd")) ::setenv("ALSOFT_DRIVERS", "-alsa,", 0);
-}
 
 }  // namespace
 
@@ -37,15 +31,19 @@ struct Speaker::Parts {
   Synthesiser synthesiser;  ///< guarded by mutex
   std::jthread thread;      ///< the only one that calls OpenAL after the start
 
-  std::vector<int16_t> next();
+  std::array<int16_t, buffer_frames * Synthesiser::channels> next();
   void run(const std::stop_token& stop);
 };
 
-std::vector<int16_t> Speaker::Parts::next() {
-  const std::scoped_lock lock(mutex);
-  std::vector<int16_t> steps;
-  for (const float sample : synthesiser.render(buffer_frames))
-    steps.push_back(static_cast<int16_t>(std::lround(sample * 32767.0F)));
+std::array<int16_t, buffer_frames * Synthesiser::channels> Speaker::Parts::next() {
+  std::array<float, buffer_frames * Synthesiser::channels> samples;
+  {
+    const std::scoped_lock lock(mutex);
+    synthesiser.render(samples.data(), buffer_frames);
+  }
+  std::array<int16_t, samples.size()> steps;
+  std::ranges::transform(samples, steps.begin(),
+                         [](float sample) { return static_cast<int16_t>(std::lround(sample * 32767.0F)); });
   return steps;
 }
 
@@ -55,7 +53,7 @@ void Speaker::Parts::run(const std::stop_token& stop) {
   alGenSources(1, &source);
   alGenBuffers(static_cast<ALsizei>(buffers.size()), buffers.data());
   const auto fill = [&](ALuint buffer) {
-    const std::vector<int16_t> steps = next();
+    const auto steps = next();
     alBufferData(buffer, AL_FORMAT_STEREO16, steps.data(),
                  static_cast<ALsizei>(steps.size() * sizeof(int16_t)), Synthesiser::rate_hz);
     alSourceQueueBuffers(source, 1, &buffer);
@@ -78,8 +76,12 @@ void Speaker::Parts::run(const std::stop_token& stop) {
   alDeleteBuffers(static_cast<ALsizei>(buffers.size()), buffers.data());
 }
 
+void Speaker::silence_library_log() {
+  ::setenv("ALSOFT_LOGLEVEL", "0", 0);
+  if (!std::filesystem::exists("/dev/snd")) ::setenv("ALSOFT_DRIVERS", "-alsa,", 0);
+}
+
 Result<std::unique_ptr<Speaker>> Speaker::open() {
-  silence_library_log();
   auto parts = std::make_unique<Parts>();
   parts->device.reset(alcOpenDevice(nullptr));
   if (!parts->device) return fail("there is no device to play sound on");
@@ -99,9 +101,9 @@ Speaker::~Speaker() {
   alcMakeContextCurrent(nullptr);
 }
 
-void Speaker::play(const std::vector<PieceEvent>& events, const Ears& ears) {
+void Speaker::play(std::span<const SoundEvent> events) {
   const std::scoped_lock lock(parts_->mutex);
-  for (const PieceEvent& event : events) parts_->synthesiser.add(event, ears);
+  for (const SoundEvent& event : events) parts_->synthesiser.add(event);
 }
 
 }  // namespace scree

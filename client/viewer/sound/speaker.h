@@ -2,20 +2,23 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+#include <span>
 
-#include "client/viewer/sound/synthesiser.h"
+#include "client/viewer/synthesis/sound_event.h"
 #include "shared/base/result.h"
 
 namespace scree {
 
 class Speaker {
  public:
+  /// Before other threads begin, for it sets variables of the environment: where there is no card, ALSA says
+  /// so in ten lines on the standard error, and OpenAL in one. A person's own choice stays.
+  static void silence_library_log();
   /// Fails where there is no device, saying so.
   static Result<std::unique_ptr<Speaker>> open();
   ~Speaker();
 
-  void play(const std::vector<PieceEvent>& events, const Ears& ears);
+  void play(std::span<const SoundEvent> events);
 
  private:
   struct Parts;

@@ -106,7 +106,7 @@ void declare_input(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_SHAKE");
   app.add_option("--sound", options.sound,
                  "Play the sounds of rock that breaks, strikes and settles, in a window with a sound device: "
-                 "true or false")
+                 "true or false; key U changes it")
       ->envname("SCREE_SOUND");
   app.add_option("--sound-file", options.sound_file,
                  "FILE (WAV) for the sound at the camera, written until the program ends")
@@ -255,7 +255,8 @@ std::variant<ViewerOptions, ExitNow> parse_options(int argc, const char* const* 
                      .particles = given("--particles"),
                      .details = given("--details"),
                      .shake = given("--shake"),
-                     .predict = given("--predict")};
+                     .predict = given("--predict"),
+                     .sound = given("--sound")};
     for (const DrawOption* option : all_draw_options())
       if (given("--" + std::string(option->name))) options.given.method_options.insert(option->name);
   } catch (const CLI::ParseError& error) {

@@ -42,6 +42,7 @@ struct ViewerOptions : ServerEndpoint {
     bool details = false;
     bool shake = false;
     bool predict = false;
+    bool sound = false;
   } given;
   OverlayChoice overlay;                ///< shown from the start, and in pictures
   const MethodEntry* method = nullptr;  ///< never null once parsed

@@ -135,6 +135,7 @@ Result<Settings> parse_settings(const std::string& text) {
   reader.flag("details", settings.details);
   reader.flag("shake", settings.shake);
   reader.flag("predict", settings.predict);
+  reader.flag("sound", settings.sound);
   if (!reader.error().empty()) return fail(reader.error());
   return settings;
 }
@@ -167,7 +168,8 @@ std::string to_text(const Settings& settings) {
                    {"particles", settings.particles},
                    {"details", settings.details},
                    {"shake", settings.shake},
-                   {"predict", settings.predict}};
+                   {"predict", settings.predict},
+                   {"sound", settings.sound}};
   for (const DrawOption* option : all_draw_options()) {
     const int value = settings.method_options.of(*option);
     json[key_of(*option)] = option->is_number() ? OrderedJson(value) : OrderedJson(text_of(*option, value));
@@ -188,6 +190,7 @@ void apply_settings(const Settings& settings, ViewerOptions& options) {
   if (!options.given.details) options.details = settings.details;
   if (!options.given.shake) options.shake = settings.shake;
   if (!options.given.predict) options.predict = settings.predict;
+  if (!options.given.sound) options.sound = settings.sound;
   const MethodEntry* method = method_named(settings.method);
   if (!options.given.method && method != nullptr) options.method = method;
 }
@@ -220,6 +223,7 @@ void SettingsFile::save(const Settings& start, const Settings& end) const {
   changed.details = merged(loaded_.details, start.details, end.details);
   changed.shake = merged(loaded_.shake, start.shake, end.shake);
   changed.predict = merged(loaded_.predict, start.predict, end.predict);
+  changed.sound = merged(loaded_.sound, start.sound, end.sound);
   changed.hud = end.hud;
   changed.hand = end.hand;
   changed.overlay = end.overlay;

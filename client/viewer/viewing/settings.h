@@ -35,6 +35,7 @@ struct Settings {
   bool details = true;
   bool shake = true;
   bool predict = true;
+  bool sound = true;  ///< by the device
 
   bool operator==(const Settings&) const = default;
 };

@@ -71,6 +71,11 @@ Result<void> Viewing::step(double now_s) {
   return check_gl_errors();
 }
 
+void Viewing::play_sound(bool on) {
+  sounds_.play_aloud(on);
+  listen(!sounds_.silent());
+}
+
 /// Each once: what is drawn instead is no reason to stop.
 void Viewing::tell_content_faults() {
   for (const std::string& fault : view->models().drain_faults())

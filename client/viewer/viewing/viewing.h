@@ -19,6 +19,8 @@ class Viewing : public Visit {
 
   /// As a visit; what happens is heard, and with --gl-debug a GL error is an error.
   Result<void> step(double now_s);
+  /// What happens is heard by the device, if there is one, or not any more. To a file it goes in any case.
+  void play_sound(bool on);
   /// Takes the screenshots that are due.
   Result<void> shoot_due(double now_s);
   /// The picture of this moment, of --size or of so many pixels; with --overlay, all of the overlay in it.

@@ -1,10 +1,10 @@
-#include "client/viewer/sound/wave_file.h"
+#include "client/viewer/synthesis/wave_file.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 
-#include "client/viewer/base/limits.h"
+#include "client/viewer/synthesis/limits.h"
 
 namespace scree {
 namespace {
@@ -35,6 +35,7 @@ Result<WaveFile> WaveFile::create(const std::string& path, int rate_hz, int chan
   put(header, 16, 2);
   header += "data" + length_of(0);
   out << header;
+  out << std::flush;
   if (!out) return fail(path + " cannot be written");
   return WaveFile(std::move(out), path);
 }
@@ -46,15 +47,22 @@ void WaveFile::append(std::span<const float> samples) {
     const auto step = static_cast<int16_t>(std::lround(std::clamp(sample, -1.0F, 1.0F) * 32767.0F));
     put(bytes, static_cast<uint16_t>(step), 2);
   }
-  out_ << bytes;
+  if (bytes.empty()) return;
+  // The samples come first: a header never tells of more than there is.
+  out_ << bytes << std::flush;
   bytes_ += bytes.size();
+  write_lengths();
 }
 
-Result<void> WaveFile::finish() {
+void WaveFile::write_lengths() {
   out_.seekp(4);
   out_ << length_of(header_bytes - 8 + bytes_);
   out_.seekp(header_bytes - 4);
-  out_ << length_of(bytes_);
+  out_ << length_of(bytes_) << std::flush;
+  out_.seekp(0, std::ios::end);
+}
+
+Result<void> WaveFile::finish() {
   out_.close();
   if (!out_) return fail(path_ + " cannot be written");
   return {};

@@ -1,4 +1,5 @@
-// A WAV file of 16-bit samples that grows.
+// A WAV file of 16-bit samples that grows. It is whole after every append(), whatever ends the program then.
+// Within one, the header tells of the samples before.
 #pragma once
 
 #include <fstream>
@@ -16,11 +17,12 @@ class WaveFile {
 
   /// Samples from −1 to 1, the channels in turn. Beyond limits::sound_file_bytes_max they are left out.
   void append(std::span<const float> samples);
-  /// Writes the lengths: the file is whole. Fails if anything could not be written.
+  /// There are no more. Fails if anything could not be written.
   Result<void> finish();
 
  private:
   WaveFile(std::ofstream out, std::string path) : out_(std::move(out)), path_(std::move(path)) {}
+  void write_lengths();
 
   std::ofstream out_;
   std::string path_;
