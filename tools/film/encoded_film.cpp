@@ -53,9 +53,9 @@ std::vector<std::string> gif_arguments(int /*quality*/) {
 }
 
 constexpr std::array encodings = {
-    Encoding{".mp4", true, true, mp4_arguments},
-    Encoding{".webp", true, false, webp_arguments},
-    Encoding{".gif", false, false, gif_arguments},
+    Encoding{".mp4", true, true, true, mp4_arguments},
+    Encoding{".webp", true, false, false, webp_arguments},
+    Encoding{".gif", false, false, false, gif_arguments},
 };
 
 /// Each film of the same frames has the same bytes: nothing in it says when or by what it was made.
@@ -75,11 +75,11 @@ std::vector<std::string> command_of(const Encoding& encoding, const FilmFormat& 
                                       "-framerate",
                                       fmt::format("{}", format.frames_per_s),
                                       "-i",
-                                      "pipe:0",
-                                      "-fflags",
-                                      "+bitexact",
-                                      "-flags:v",
-                                      "+bitexact"};
+                                      "pipe:0"};
+  if (!format.sound.empty())
+    command.insert(command.end(), {"-f", "wav", "-i", "file:" + format.sound, "-c:a", "aac", "-b:a", "192k",
+                                   "-flags:a", "+bitexact"});
+  command.insert(command.end(), {"-fflags", "+bitexact", "-flags:v", "+bitexact"});
   for (std::string& argument : encoding.arguments(format.quality)) command.push_back(std::move(argument));
   command.push_back("file:" + partial);
   return command;

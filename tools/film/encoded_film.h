@@ -14,6 +14,7 @@ struct Encoding {
   std::string_view ending;  ///< of its files' names
   bool has_quality;         ///< FilmFormat::quality says something
   bool even;                ///< its sides are even: colours have half the resolution
+  bool has_sound;
   /// ffmpeg's arguments between its input and its output.
   std::vector<std::string> (*arguments)(int quality);
 };

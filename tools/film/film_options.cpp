@@ -74,6 +74,7 @@ class FilmOptionParser {
   float view_radius_m_ = 0.0F;  ///< 0: the quality's
   int encoder_quality_ = 80;
   CLI::Option* encoder_quality_given_ = nullptr;
+  CLI::Option* sound_given_ = nullptr;
 };
 
 FilmOptionParser::FilmOptionParser(CLI::App& app) {
@@ -154,6 +155,10 @@ void FilmOptionParser::declare_pictures(CLI::App& app) {
   app.add_option("--details", options_.drawn.details,
                  "draw grass, bushes and stones on the ground, where the quality has them: true or false")
       ->capture_default_str();
+  sound_given_ =
+      app.add_option("--sound", options_.sound,
+                     "the sound at the camera, in .mp4 and as sound.wav in a folder of PNGs: true or false")
+          ->capture_default_str();
   encoder_quality_given_ =
       bounded(
           app.add_option(
@@ -190,6 +195,10 @@ Result<FilmOptions> FilmOptionParser::understand() {
   const Encoding* encoding = encoding_of(format.file);
   if (encoder_quality_given_->count() > 0 && (encoding == nullptr || !encoding->has_quality))
     return fail("--encoder-quality is only for .mp4 and .webp");
+  const bool can = can_sound(format.file);
+  if (options_.sound && !can && sound_given_->count() > 0)
+    return fail("--sound is only for .mp4 and folders of PNGs");
+  options_.sound = options_.sound && can;
   format.width = drawn.size.width;
   format.height = drawn.size.height;
   format.frames_per_s = options_.order.frames_per_s;

@@ -15,7 +15,8 @@ struct FilmOptions {
   std::string ground{};  ///< its ground file; empty: looked for
   FilmOrder order{};
   DrawChoice drawn{};
-  FilmFormat format{};
+  FilmFormat format{};  ///< without its sound, which is made first
+  bool sound = true;    ///< false also where the format has none
 };
 
 /// Nothing is opened but a file of --path. The exit status, if the program should end now; what it says is

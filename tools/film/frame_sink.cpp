@@ -14,6 +14,11 @@ bool is_folder(const std::string& file) {
 
 }  // namespace
 
+bool can_sound(const std::string& file) {
+  const Encoding* const encoding = encoding_of(file);
+  return encoding == nullptr || encoding->has_sound;
+}
+
 Result<void> check_film_name(const std::string& file) {
   std::error_code unknown;
   if (!is_folder(file) && std::filesystem::is_directory(file, unknown))
@@ -24,7 +29,7 @@ Result<void> check_film_name(const std::string& file) {
 }
 
 Result<std::unique_ptr<FrameSink>> open_sink(const FilmFormat& format, Stopped stopped) {
-  if (is_folder(format.file)) return open_picture_folder(format.file);
+  if (is_folder(format.file)) return open_picture_folder(format.file, format.sound);
   return open_encoded_film(format, std::move(stopped));
 }
 

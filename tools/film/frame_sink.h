@@ -29,9 +29,12 @@ struct FilmFormat {
   int width = 0;
   int height = 0;
   double frames_per_s = 0.0;
-  int quality = 0;  ///< of the encoder, 1 to 100; of .mp4 and .webp
+  int quality = 0;      ///< of the encoder, 1 to 100; of .mp4 and .webp
+  std::string sound{};  ///< a WAV, which a folder takes; empty: none
 };
 
+/// Whether a film of that name can have sound.
+bool can_sound(const std::string& file);
 /// Refuses a name that says no format.
 Result<void> check_film_name(const std::string& file);
 

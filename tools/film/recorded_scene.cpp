@@ -42,6 +42,7 @@ RecordedScene::RecordedScene(std::unique_ptr<ReplaySource> source, std::shared_p
 Result<MirrorChanges> RecordedScene::go_to(double tick) {
   CHECK(tick >= moment_ && tick <= static_cast<double>(source_->last_tick()));
   const auto whole = static_cast<Tick>(tick);
+  events_.clear();
   while (now_->tick < whole) {
     TRY(read_ahead());
     show(std::exchange(ahead_, nullptr), unseen_);
@@ -73,7 +74,9 @@ void RecordedScene::show(std::shared_ptr<const TickDelta> delta, MirrorChanges& 
   for (const AddedJoint& added : now_->joints_added) joints_.insert_or_assign(added.id, *added.joint);
   for (const EndedJoint& ended : now_->joints_removed) joints_.erase(ended.id);
   const double now_s = seconds_of(static_cast<double>(now_->tick));
-  dust_.add(piece_events_.step(scene(), now_s, *palette()), now_s);
+  std::vector<PieceEvent> events = piece_events_.step(scene(), now_s, *palette());
+  dust_.add(events, now_s);
+  if (!events.empty()) events_.push_back({static_cast<double>(now_->tick), std::move(events)});
 }
 
 /// The pieces alive after the tick, where they are then.

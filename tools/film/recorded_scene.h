@@ -17,6 +17,12 @@
 
 namespace scree {
 
+/// What pieces did from one tick to the next.
+struct TickEvents {
+  double tick = 0.0;  ///< the later one
+  std::vector<PieceEvent> events;
+};
+
 class RecordedScene {
  public:
   /// Opens a recording, to be shown from a moment on, which lies within its ticks.
@@ -35,6 +41,8 @@ class RecordedScene {
   const SceneJoints& joints() const { return joints_; }
   /// The recording's, as it starts. Not null.
   const std::shared_ptr<const Palette>& palette() const { return source_->header().world.palette; }
+  /// What pieces did since the moment before, in order.
+  const std::vector<TickEvents>& events() const { return events_; }
   /// In the air; the farthest from the eye first.
   std::vector<Particle> particles(glm::vec3 eye_m) { return dust_.at(seconds_of(moment_), eye_m); }
 
@@ -58,6 +66,7 @@ class RecordedScene {
   SceneJoints joints_;
   PieceEventDetector piece_events_;
   Dust dust_;
+  std::vector<TickEvents> events_;
   MirrorChanges unseen_;                    ///< since the last moment that was asked for
   std::shared_ptr<const TickDelta> now_;    ///< the last whole tick
   std::shared_ptr<const TickDelta> ahead_;  ///< the tick after it, once it was read
