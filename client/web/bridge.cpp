@@ -5,8 +5,10 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "client/viewer/base/camera_text.h"
+#include "client/viewer/synthesis/hearing.h"
 #include "client/web/page_client.h"
 #include "client/web/page_state.h"
 #include "client/web/socket_bridge.h"
@@ -22,6 +24,7 @@ struct Page {
   std::unique_ptr<PageClient> client;
   std::string error;
   std::string camera, asked, catalogue, state, names, marks;
+  std::vector<SoundEvent> sounds;
 };
 
 Page& page() {
@@ -295,6 +298,20 @@ int scree_set_seeds(int seeds) {
 
 int scree_say(const char* text) {
   return say(text);
+}
+
+// ---- sound
+
+uint32_t scree_sounds() {
+  Visit& visit = client().visit();
+  visit.listen(true);
+  page().sounds.clear();
+  for (const PieceEvent& event : visit.events()) page().sounds.push_back(heard(event, visit.camera));
+  return static_cast<uint32_t>(page().sounds.size() * sizeof(SoundEvent));
+}
+
+const uint8_t* scree_sounds_bytes() {
+  return reinterpret_cast<const uint8_t*>(page().sounds.data());
 }
 
 // ---- a replay

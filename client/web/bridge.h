@@ -117,7 +117,7 @@ void scree_gamepad(float left_x, float left_y, float right_x, float right_y, flo
 int scree_act(const char* action);
 /// Actions that keys or buttons asked for and that are the page's to do, as JSON, ["talk", "panel"]; takes
 /// them. They are: end, figures, free_mouse, full_screen, graphs, help, hide, panel, persons, picture,
-/// copy_place, talk, larger_text, smaller_text.
+/// copy_place, talk, mute, larger_text, smaller_text.
 const char* scree_asked();
 
 /// The tool, by the names in scree_catalogue().
@@ -135,6 +135,13 @@ int scree_set_seeds(int seeds);  ///< pieces that a carve makes; 0: by its volum
 
 /// A line to all persons. 0: it is empty, too long (limits.line_bytes_max), or there is no connection.
 int scree_say(const char* text);
+
+// ---- sound
+
+/// What there is to hear of the last frame, for sound.wasm (sound_module.cpp): how many bytes, and then
+/// where. The first call begins to listen: what pieces do is looked for from then on, without dust, too.
+uint32_t scree_sounds();
+const uint8_t* scree_sounds_bytes();
 
 // ---- a replay; each does nothing where it is none, or where this person may not control it
 

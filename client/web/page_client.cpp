@@ -92,6 +92,7 @@ void PageClient::act(Action action, double now_s) {
     case Action::picture:
     case Action::copy_place:
     case Action::talk:
+    case Action::mute:
     case Action::persons:
     case Action::figures:
     case Action::graphs:

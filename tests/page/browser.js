@@ -5,11 +5,12 @@ const CHROMIUM = '/usr/bin/chromium';
 /** Milliseconds until anything that is waited for counts as missed; a browser on two busy cores is slow. */
 export const WAIT_MS = 240000;
 
-export function launch() {
+/** `options`: more of Chromium's own. */
+export function launch(options = []) {
   return puppeteer.launch({
     executablePath: CHROMIUM, headless: true, protocolTimeout: 2 * WAIT_MS,
     args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist',
-      '--disable-dev-shm-usage', '--disable-background-networking', '--disable-component-update', '--no-first-run', '--mute-audio'],
+      '--disable-dev-shm-usage', '--disable-background-networking', '--disable-component-update', '--no-first-run', '--mute-audio', ...options],
   });
 }
 

@@ -87,7 +87,7 @@ export default async function createScree({ canvas }) {
       pen.fillRect(0, 0, canvas.width, canvas.height);
       return fake.frame();
     }
-    return ['outgoing', 'incoming'].includes(name) ? 0 : 1;
+    return ['outgoing', 'incoming', 'sounds'].includes(name) ? 0 : 1;
   };
   const ccall = (name, _result, _types, values) => call(name.replace('scree_', ''), values);
   return new Proxy({ ccall, HEAPU8: new Uint8Array(16) }, {

@@ -1,4 +1,4 @@
-// Puts the web client together: scree.js and scree.wasm with the page's files, each under a name that has its content's
+// Puts the web client together: scree.js, scree.wasm and sound.wasm with the page's files, each under a name that has its content's
 // hash, so that browsers may keep them for ever; pages, whose names are in addresses, keep theirs.
 // Beside each lies the same compressed, NAME.gz. Where one file names another in quotes ("main.js", './main.js'), the
 // name becomes the one with the hash.
@@ -18,7 +18,7 @@ const enter = (folder, name) => {
   files.set(name, extname(name) === '.js' ? small(content) : content);
 };
 for (const name of readdirSync(page)) enter(page, name);
-for (const name of ['scree.js', 'scree.wasm']) enter(build, name);
+for (const name of ['scree.js', 'scree.wasm', 'sound.wasm']) enter(build, name);
 
 const quoted = (name) => new RegExp(`(["'\`])((?:\\./)?)${name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')}\\1`, 'g');
 const isPage = (name) => extname(name) === '.html';

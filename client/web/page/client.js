@@ -79,6 +79,14 @@ export class Client {
   act(action) { return this.#tell('act', action) !== 0; }
   asked() { return JSON.parse(this.#text('asked')); }
 
+  /** What there is to hear of the last frame, as bytes for sound.wasm; null: nothing. */
+  take_sounds() {
+    const length = this.#number('sounds');
+    if (!length) return null;
+    const place = this.#number('sounds_bytes');
+    return this.#wasm.HEAPU8.slice(place, place + length);
+  }
+
   say(line) { return this.#tell('say', line) !== 0; }
   play(on) { this.#number('replay_play', Number(on)); }
   speed(factor) { return this.#number('replay_speed', factor) !== 0; }

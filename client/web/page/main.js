@@ -53,6 +53,8 @@ class Page {
   #talk;
   #timeline;
   #notices = new Notices();
+  #sound = null;
+  #sound_comes = null;
   #mouse;
   #touch;
   #address;
@@ -78,7 +80,7 @@ class Page {
     this.#make_panels();
     this.#listen();
     // For a browser's console, and for tests.
-    globalThis.scree = { state: () => client.state(), camera: (text) => client.set('camera', text) };
+    globalThis.scree = { state: () => client.state(), camera: (text) => client.set('camera', text), sound: () => this.#sound?.peak() ?? -1 };
     requestAnimationFrame((now_ms) => this.#frame(now_ms));
     setInterval(() => { if (document.hidden) this.#step(performance.now()); }, HIDDEN_MS);
   }
@@ -155,6 +157,7 @@ class Page {
     this.#mouse = new Mouse(canvas, client, () => this.#hint());
     this.#touch = new Touch(canvas, client, () => this.#show_all());
     listen(client, (action) => this.#act(action));
+    for (const gesture of ['pointerdown', 'keydown']) addEventListener(gesture, () => this.#with_sound(), { once: true, passive: true });
     addEventListener('hashchange', () => this.#follow_address());
     addEventListener('pagehide', () => {
       client.leave();
@@ -163,6 +166,15 @@ class Page {
     new ResizeObserver(() => this.#resize()).observe(canvas);
     matchMedia(`(resolution: ${devicePixelRatio}dppx)`).addEventListener('change', () => this.#resize());
     this.#resize();
+  }
+
+  /** Browsers play nothing before a gesture, so nothing of sound is loaded before. */
+  #with_sound() {
+    this.#sound_comes ??= import('./sound.js').then(({ Sound }) => {
+      this.#sound = new Sound(this.#client, (text) => this.#notices.say(text));
+      return this.#sound;
+    });
+    return this.#sound_comes;
   }
 
   #resize() {
@@ -192,6 +204,7 @@ class Page {
     else if (action === 'copy_place') this.#copy_link();
     else if (action === 'talk') this.#talk_to_all();
     else if (action === 'full_screen') this.#full_screen();
+    else if (action === 'mute') this.#with_sound().then((sound) => sound.toggle());
   }
 
   #talk_to_all() {
@@ -235,6 +248,7 @@ class Page {
     this.#pad = step_pad(this.#client) || this.#pad;
     if (!this.#client.frame()) return this.#end();
     if (this.#wants_picture) this.#take_picture();
+    this.#sound?.step();
     this.#socket.step();
     for (const action of this.#client.asked()) this.#act(action);
     this.#draw_names();
@@ -268,7 +282,7 @@ class Page {
     this.#talk.follow(state);
     this.#timeline.follow(state);
     this.#pages.figures.note(state);
-    this.#panel.follow(state);
+    this.#panel.follow({ ...state, sound: this.#sound?.on ?? load().sound !== false });
     show_brief(state);
     this.#filling(state);
     if (!gate.open) return;

@@ -26,17 +26,18 @@ export function view_page(wish, catalogue, act) {
   const shake = check('Blows shake the eye', 'the stronger, the nearer', (on) => set('shake')(on));
   const predict = check('Own carves at once', 'shown before the server has answered', (on) => set('predict')(on));
   const overlay = check('Borders', 'chunks, interest, bodies, contacts', (on) => set('overlay')(on));
+  const sound = check('Sound', 'of breaks, blows and merges', () => act('mute'));
   const does = (text, action) => {
     const one = make('button', { type: 'button' }, text);
     one.addEventListener('click', () => act(action));
     return one;
   };
   const element = make('section', {}, make('div', {}, make('h3', {}, 'Method'), list), quality.element, far.element, lens.element, hand.element,
-    make('div', { className: 'checks' }, dust.element, details.element, shake.element, predict.element, overlay.element),
+    make('div', { className: 'checks' }, dust.element, details.element, shake.element, sound.element, predict.element, overlay.element),
     make('div', { className: 'wide' }, does('Copy link', 'copy_place'), does('Picture', 'picture'), does('Full screen', 'full_screen'), does('Hide all', 'hide')));
   return {
     title: 'View', icon: 'view', element,
-    show({ view }) {
+    show({ view, sound: sounds }) {
       const chosen = methods.get(view.method);
       if (chosen) chosen.checked = true;
       quality.show(view.quality_auto ? 'auto' : view.quality);
@@ -46,6 +47,7 @@ export function view_page(wish, catalogue, act) {
       dust.show(view.particles);
       details.show(view.details);
       shake.show(view.shake);
+      sound.show(sounds);
       predict.show(view.predict);
       overlay.show(view.overlay);
     },
