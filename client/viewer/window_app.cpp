@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <tuple>
+#include <utility>
 
 #include "client/viewer/app.h"
 #include "client/viewer/base/camera_text.h"
@@ -32,7 +33,8 @@ std::string new_file(const char* what, const char* ending) {
 
 }  // namespace
 
-WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded)
+WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded, const Hints& hints,
+                     bool rewinds)
     : window_(window),
       viewing_(viewing),
       screen_(window),
@@ -40,6 +42,8 @@ WindowApp::WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded
       hand_(loaded.hand),
       overlay_(loaded.overlay),
       tool_(loaded.tool),
+      hints_(hints),
+      rewinds_(rewinds),
       method_options_(viewing.options.method_options),
       particles_(viewing.options.particles),
       details_(viewing.options.details),
@@ -82,6 +86,7 @@ void WindowApp::act_on_view(Action action) {
   if (action == Action::help) choice_.help = after(choice_.help);
   flip(Action::overlay, overlay_.shown);
   flip(Action::figures, choice_.figures);
+  flip(Action::all_figures, choice_.all_figures);
   flip(Action::graphs, choice_.graphs);
   flip(Action::panel, choice_.panel);
   flip(Action::persons, choice_.persons);
@@ -91,7 +96,7 @@ void WindowApp::act_on_view(Action action) {
 void WindowApp::mute_or_play(double now_s) {
   sound_ = !sound_;
   viewing_.play_sound(sound_);
-  say(sound_ ? "sound on" : "sound off; U: on", now_s);
+  say(sound_ ? "sound on" : "sound off; X: on", now_s);
 }
 
 /// What cannot be written is said, and nothing else: the world goes on.
@@ -130,11 +135,15 @@ void WindowApp::end_path(double now_s) {
   recorder_.reset();
 }
 
-/// Says what changed: with the panel hidden, nothing else does.
+/// Says what changed, but for what the tool line shows.
 void WindowApp::change_hand(Action action, double now_s) {
-  const Tool tool = tool_;
-  change(tool_, action, viewing_.session.palette());
-  if (tool != tool_ && !viewing_.session.is_replay()) say(describe(tool_), now_s);
+  if (!viewing_.session.is_replay()) {
+    const ToolHolder holder = viewing_.session.holder();
+    Tool shown = tool_;
+    change(tool_, action, holder.palette, holder.carried);
+    std::tie(shown.use, shown.kind, shown.radius_m) = std::tie(tool_.use, tool_.kind, tool_.radius_m);
+    if (shown != tool_) say(describe(tool_), now_s);
+  }
   const HandChoice hand = hand_;
   change(hand_, action);
   if (hand != hand_) say(describe(hand_, action), now_s);
@@ -146,25 +155,58 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
     change_hand(action, now_s);
     act_on_view(action);
     if (action == Action::mute) mute_or_play(now_s);
-    viewing_.session.timeline().act(action);
-    if (action == Action::next_eye && !whereabouts_.follow_next_eye(viewing_.session, now_s))
-      say("nobody else is here, so there is no other view", now_s);
-    if (action == Action::walk) {
-      whereabouts_.walk_or_fly(viewing_.camera, viewing_.session, now_s);
-      say(flies() ? "you fly; Q: walk" : "you walk, and Space jumps; Q: fly", now_s);
-    }
+    act_on_session(action, now_s);
     TRY(act_on_files(action, now_s));
     if (action == Action::next_method) TRY(choose(next_available(methods.chosen())));
   }
   if (input.said) viewing_.session.say(*input.said);
   grow(tool_, input.wheel);
-  if (input.strike) viewing_.session.strike(tool_, viewing_.camera.eye_m, viewing_.camera.forward(), now_s);
+  strike(input, now_s);
   return {};
 }
 
+void WindowApp::act_on_session(Action action, double now_s) {
+  ViewerSession& session = viewing_.session;
+  session.timeline().act(action);
+  if (action == Action::next_eye && !whereabouts_.follow_next_eye(session, now_s))
+    say("nobody else is here, so there is no other view", now_s);
+  if (action == Action::walk) {
+    whereabouts_.walk_or_fly(viewing_.camera, session, now_s);
+    say(flies() ? "you fly; Q: walk" : "you walk, and Space jumps; Q: fly", now_s);
+  }
+  if (action == Action::give_away && !session.is_replay()) session.give_away(now_s);
+  if (viewing_.options.past_port && action == (session.is_replay() ? Action::present : Action::replay_play))
+    leaves_ = true;
+  // The window passes it on where nothing can be written.
+  if (action == Action::talk && session.next_try_s(now_s)) session.try_now();
+}
+
+/// Once the replay has said where it stands.
+void WindowApp::rewind() {
+  Timeline& timeline = viewing_.session.timeline();
+  if (!rewinds_ || !timeline.is_known()) return;
+  rewinds_ = false;
+  timeline.act(Action::replay_end);
+  timeline.ask({.play = ReplayPlay::play, .speed = -1.0F});
+}
+
+/// At the aim of each: what the one before has taken is gone.
+void WindowApp::strike(const AppInput& input, double now_s) {
+  const int times = strike_.step(input.strikes, input.strike_held, traits_of(tool_.use).repeat_s, now_s);
+  if (times > 0 && !viewing_.session.is_replay() && viewing_.aim()) hints_.note(tool_.use);
+  for (int i = 0; i < times; ++i)
+    viewing_.session.strike(tool_, viewing_.camera.eye_m, viewing_.camera.forward(), now_s);
+}
+
+void WindowApp::choose(MenuChoice choice) {
+  if (choice == MenuChoice::none) return;
+  window_.close_menu();
+  if (choice == MenuChoice::tell_keys) choice_.help = Telling::all;
+  if (choice == MenuChoice::end) window_.end();
+}
+
 /// The last ones are those that are shown in any case.
-std::vector<std::string> WindowApp::messages(double now_s) const {
-  if (window_.asks_to_end()) return {"End? Escape or Enter: yes. Any other key or button: no."};
+std::vector<std::string> WindowApp::messages(double now_s) {
   std::vector<std::string> lines = viewing_.session.conversation().lines(now_s, window_.writes().has_value());
   MethodSwitch& methods = viewing_.view->methods();
   if (const DrawMethod* shown = methods.shown();
@@ -174,13 +216,28 @@ std::vector<std::string> WindowApp::messages(double now_s) const {
                     " m far, because its cells end there; the panel has more cells, and larger ones");
   if (eye().follows()) lines.push_back(eye().description(viewing_.session.figures(now_s)));
   if (recorder_) lines.emplace_back("recording the camera's path; K ends it");
-  if (!window_.holds_mouse())
-    lines.emplace_back(viewing_.session.is_replay()
-                           ? "click the picture to look around with the mouse; Tab frees it"
-                           : "click the picture to look around with the mouse; then a click strikes");
-  if (now_s < said_until_s_) lines.push_back(said_);
+  if (now_s < said_until_s_)
+    lines.push_back(said_);
+  else if (std::string advice = hint(now_s); !advice.empty())
+    lines.push_back(std::move(advice));
   if (const auto& line = window_.writes()) lines.push_back("say: " + line->text() + "_");
   return lines;
+}
+
+/// The one line that helps now; empty: none does.
+std::string WindowApp::hint(double now_s) {
+  const ViewerSession& session = viewing_.session;
+  if (!session.connected() || choice_.help != Telling::nothing) return {};
+  if (session.is_replay() && viewing_.options.past_port)
+    return "J holds or plays, Y turns time round, Left and Right jump; Backspace: back to the present";
+  if (session.is_replay())
+    return window_.holds_mouse() ? "" : "click, and the mouse looks around; J plays, or holds; H: all keys";
+  if (!hints_.has_begun())
+    return window_.holds_mouse() ? "click, or press E, to dig where the cross is; hold it to dig on"
+                                 : "click, and the mouse looks around, or use the arrow keys; E digs where "
+                                   "the cross is; H: all keys";
+  return std::string(
+      hints_.text(!session.holder().carried.empty(), viewing_.options.past_port.has_value(), now_s));
 }
 
 Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
@@ -190,24 +247,29 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
   hud_.note(facts, parts);
   const MethodEntry* picked = nullptr;
   if (!hidden_) {
-    hud_.crosshair(!facts.notice.empty());
+    hud_.crosshair(facts);
     const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
     const Camera& camera = viewing_.camera;
     hud_.names(viewing_.session.figures(now_s),
                camera.projection(aspect, viewing_.view_radius_m()) * camera.view(), eye().person());
-    hud_.figures(facts, choice_.figures);
+    if (choice_.figures || choice_.all_figures) hud_.figures(facts, choice_.all_figures);
     hud_.lower_right(facts, choice_.persons ? &viewing_.session.conversation().persons() : nullptr,
                      viewing_.session.colours(), choice_.graphs);
     if (choice_.panel)
       picked = hud_.panel(viewing_.view->methods().chosen(),
-                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, details_,
-                           shake_, predict_, hand_, quality_});
+                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, predict_,
+                           hand_, quality_},
+                          {facts.is_replay, choice_.all_figures});
     hud_.help(choice_.help, window_.has_gamepad(),
               viewing_.session.is_replay() ? ControlsOf::replay : ControlsOf::live);
-    hud_.timeline(viewing_.session.timeline(), now_s);
-    if (facts.lost) hud_.banner(facts.connection);
+    if (facts.is_replay)
+      hud_.timeline(viewing_.session.timeline(), now_s);
+    else if (viewing_.session.mirror() != nullptr)
+      hud_.tool_line(tool_, viewing_.aim(), facts, viewing_.session.palette());
+    if (facts.lost && hud_.lost(facts)) viewing_.session.try_now();
+    hud_.messages(facts, messages(now_s));
   }
-  if (!hidden_ || window_.asks_to_end()) hud_.messages(facts, messages(now_s));
+  if (window_.has_menu()) choose(hud_.menu(window_.menu()));
   screen_.end();
   viewing_.show_particles(particles_);
   viewing_.show_details(details_);
@@ -221,11 +283,15 @@ Result<void> WindowApp::frame() {
   AppInput input = window_.poll();
   const double now_s = steady_now_s();
   input.fly.turn *= hand_.mouse_speed;
+  // In a replay, these keys move the moment.
+  if (!viewing_.session.is_replay()) input.fly.turn += turn_by_keys(input.turn_keys, input.elapsed_s);
+  window_.let_write(viewing_.session.connected());
   viewing_.camera.field_of_view = glm::radians(hand_.field_of_view_degrees);
   whereabouts_.step(viewing_.camera, input.fly, input.elapsed_s, viewing_.session, now_s);
   if (viewing_.options.path) follow_path(now_s);
   record_path(now_s);
   TRY(act(input, now_s));
+  rewind();
   FrameParts parts{input.elapsed_s * 1000.0F, 0.0F, 0.0F};
   Stopwatch stopwatch;
   TRY(viewing_.step(now_s));
@@ -262,6 +328,36 @@ Settings WindowApp::settings() const {
 
 namespace {
 
+/// What stays with a person who goes from the present to the past and back.
+struct Person {
+  Settings settings;
+  std::optional<Settings> start;  ///< of the first app
+  Hints hints;
+};
+
+/// Shows the place until the person closes the window or leaves; true: leaves. `other`: the place that goes
+/// on meanwhile, so that its server keeps the session; null: none.
+Result<bool> stay(AppWindow& window, Viewing& viewing, Visit* other, Person& person) {
+  WindowApp app(window, viewing, person.settings, person.hints, other != nullptr);
+  if (!person.start) person.start = app.settings();
+  while (!window.should_close() && !app.leaves()) {
+    TRY(app.frame());
+    if (other != nullptr) TRY(other->step(steady_now_s()));
+  }
+  person.settings = app.settings();
+  person.hints = app.hints();
+  return app.leaves();
+}
+
+/// The replay, seen from where the person is.
+ViewerOptions past_of(ViewerOptions options, const Camera& camera) {
+  std::swap(options.port, *options.past_port);
+  options.camera = camera;
+  options.given.camera = true;
+  options.screenshots.clear();
+  return options;
+}
+
 Result<void> run(ViewerOptions options) {
   const SettingsFile saved(settings_file());
   apply_settings(saved.loaded(), options);
@@ -270,13 +366,18 @@ Result<void> run(ViewerOptions options) {
   if (!window) return fail(window.error().message);
   // The driver may lack a feature that an earlier run's driver had.
   if (!options.given.method && options.method->missing()) options.method = &all_methods().front();
-  const Result<std::unique_ptr<Viewing>> viewing = Viewing::begin(options);
-  if (!viewing) return fail(viewing.error().message);
-  WindowApp app(**window, **viewing, saved.loaded());
-  const Settings start = app.settings();
-  while (!(*window)->should_close()) TRY(app.frame());
-  saved.save(start, app.settings());
-  return (*viewing)->finish();
+  const Result<std::unique_ptr<Viewing>> present = Viewing::begin(options);
+  if (!present) return fail(present.error().message);
+  Person person{saved.loaded(), {}, {}};
+  while (TRY(stay(**window, **present, nullptr, person))) {
+    const ViewerOptions there = past_of(options, (*present)->camera);
+    const Result<std::unique_ptr<Viewing>> past = Viewing::begin(there);
+    if (!past) return fail(past.error().message);
+    TRY(stay(**window, **past, present->get(), person));
+    (*present)->place_camera((*past)->camera);
+  }
+  saved.save(*person.start, person.settings);
+  return (*present)->finish();
 }
 
 }  // namespace

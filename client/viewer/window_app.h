@@ -3,7 +3,9 @@
 
 #include <optional>
 
+#include "client/viewer/input/repeat.h"
 #include "client/viewer/pictures/path_recorder.h"
+#include "client/viewer/session/hints.h"
 #include "client/viewer/session/whereabouts.h"
 #include "client/viewer/viewing/settings.h"
 #include "client/viewer/viewing/viewing.h"
@@ -15,13 +17,18 @@ namespace scree {
 
 class WindowApp {
  public:
-  /// `window` and `viewing` must outlive the app.
-  WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded);
+  /// `window` and `viewing` must outlive the app. `hints`: what the person was told so far. `rewinds`: a
+  /// replay plays backwards from its end.
+  WindowApp(AppWindow& window, Viewing& viewing, const Settings& loaded, const Hints& hints = {},
+            bool rewinds = false);
 
   /// From the person's input to the picture.
   Result<void> frame();
   /// The current settings, to be kept.
   Settings settings() const;
+  const Hints& hints() const { return hints_; }
+  /// The person wants to look back at this world, or to come back from there (ViewerOptions::past_port).
+  bool leaves() const { return leaves_; }
   /// Rather than walks.
   bool flies() const { return !whereabouts_.walks(); }
   /// Through whose eye the person looks.
@@ -32,6 +39,10 @@ class WindowApp {
  private:
   void follow_path(double now_s);
   Result<void> act(const AppInput& input, double now_s);
+  void strike(const AppInput& input, double now_s);
+  void act_on_session(Action action, double now_s);
+  void rewind();
+  void choose(MenuChoice choice);
   Result<void> choose(const MethodEntry& method);
   void change_hand(Action action, double now_s);
   void act_on_view(Action action);
@@ -42,7 +53,8 @@ class WindowApp {
   /// Draws by the preset that is wanted, or by that which the first frames suggest.
   void choose_quality(float frame_ms, double now_s);
   void say(const std::string& text, double now_s);
-  std::vector<std::string> messages(double now_s) const;
+  std::vector<std::string> messages(double now_s);
+  std::string hint(double now_s);
   Result<void> draw_hud(const FrameParts& parts, double now_s);
 
   AppWindow& window_;
@@ -54,6 +66,10 @@ class WindowApp {
   HandChoice hand_;
   OverlayChoice overlay_;
   Tool tool_;
+  Repeat strike_;
+  Hints hints_;
+  bool rewinds_;
+  bool leaves_ = false;
   Whereabouts whereabouts_;
   DrawOptionValues method_options_;
   bool particles_;

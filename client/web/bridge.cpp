@@ -215,6 +215,11 @@ int scree_set_overlay(int on) {
   return 1;
 }
 
+int scree_set_past(int on) {
+  client().has_past = on != 0;
+  return 1;
+}
+
 // ---- the hand
 
 void scree_look(float right, float down) {
@@ -228,6 +233,10 @@ void scree_move(float right, float up, float forward, int fast) {
 
 void scree_strike() {
   client().input.strike();
+}
+
+void scree_hold(int on) {
+  client().input.hold(on != 0);
 }
 
 void scree_grow(float notches) {
@@ -265,7 +274,10 @@ int scree_set_tool(const char* kind) {
 }
 
 int scree_set_use(const char* use) {
-  return set_kind(client().tool.use, use);
+  ToolUse wanted = client().tool.use;
+  const int known = set_kind(wanted, use);
+  take_up(client().tool, wanted);
+  return known;
 }
 
 int scree_set_material(const char* name) {
@@ -295,6 +307,10 @@ int scree_set_seeds(int seeds) {
 }
 
 // ---- others
+
+void scree_reconnect() {
+  client().visit().session.try_now();
+}
 
 int scree_say(const char* text) {
   return say(text);

@@ -89,6 +89,7 @@ int scree_set_details(int on);               ///< grass, bushes and stones, wher
 int scree_set_shake(int on);                 ///< blows shake the eye
 int scree_set_predict(int on);               ///< own carves are shown before the server has answered
 int scree_set_overlay(int on);               ///< borders, interest, bodies, contacts
+int scree_set_past(int on);                  ///< the page knows a replay of this world: hints tell of it
 
 // ---- the hand
 
@@ -98,8 +99,10 @@ void scree_look(float right, float down);
 /// What is held down now, until it is said again: right, up, forward as parts of the full speed, from −1
 /// to 1. On foot any `up` above 0 is a jump. `fast`: as with Shift.
 void scree_move(float right, float up, float forward, int fast);
-/// The tool strikes what is in the middle of the picture.
+/// The tool strikes what is in the middle of the picture; and again and again while a button or a finger is
+/// held down, until it is said again.
 void scree_strike();
+void scree_hold(int on);
 /// The wheel, notches: a larger tool, or a smaller one.
 void scree_grow(float notches);
 /// A key went down or up: `code` as of KeyboardEvent, "KeyW". Moves (W A S D, Space, C, Shift), and does the
@@ -116,15 +119,15 @@ void scree_gamepad(float left_x, float left_y, float right_x, float right_y, flo
 /// back there.
 int scree_act(const char* action);
 /// Actions that keys or buttons asked for and that are the page's to do, as JSON, ["talk", "panel"]; takes
-/// them. They are: end, figures, free_mouse, full_screen, graphs, help, hide, panel, persons, picture,
-/// copy_place, talk, mute, larger_text, smaller_text.
+/// them. They are: figures, free_mouse, full_screen, graphs, help, hide, panel, persons, picture,
+/// copy_place, talk, mute, larger_text, smaller_text, all_figures, present, and replay_play where it is no replay.
 const char* scree_asked();
 
 /// The tool, by the names in scree_catalogue().
 int scree_set_tool(const char* kind);  ///< its shape: "crater"
-int scree_set_use(const char* use);    ///< "carve", "fill", "paint"
-/// To fill or paint with, by its name in "materials" of scree_state(). "": as the ground. A name that the
-/// world's palette lacks stands for the first.
+int scree_set_use(const char* use);    ///< "dig", "place", "carve", "fill", "paint"
+/// To place, fill or paint with, by its name in "materials" of scree_state(). "": as the ground. A name that
+/// the world's palette lacks stands for the first.
 int scree_set_material(const char* name);
 int scree_set_pattern(const char* name);  ///< of the cracks
 int scree_set_radius(float metres);
@@ -132,6 +135,9 @@ int scree_set_blast(float metres_per_second);
 int scree_set_seeds(int seeds);  ///< pieces that a carve makes; 0: by its volume
 
 // ---- others
+
+/// The next attempt to connect is now, and not after "retry_s".
+void scree_reconnect();
 
 /// A line to all persons. 0: it is empty, too long (limits.line_bytes_max), or there is no connection.
 int scree_say(const char* text);
@@ -161,16 +167,21 @@ void scree_replay_seek(double tick);
 ///             "field_of_view_degrees": […], "look_speed": […], "replay_speed": […],
 ///             "line_bytes": n, "name_bytes": n},
 ///  "events": [{"kind", "what"}],
-///  "controls": [{"action", "key", "button", "does", "of_replay"}]}
+///  "controls": [{"action", "key", "button", "does", "of_replay", "of_world"}]}
 const char* scree_catalogue();
 /// What changes, for panels, a few times a second:
 ///
 /// {"connection": {"phase": "connecting", "connected", "lost", or "refused", which is for good,
 ///                 "text", "replay", "role", "session", "retry_s": until the next attempt, when lost},
-///  "notice": why the last request did nothing, for some seconds, or "",
+///  "notice": why the last request did nothing, or news, for some seconds, or "",
+///  "hint": what a newcomer may try next, or "",
+///  "mark": what became of the last strike: {"number": of the answers so far, "refused": in three words, or
+///  ""}, "aim": null or what a click does: {"beyond": it would be refused, "material": that it puts, or "",
+///  "m3": of
+///         rock that it takes or puts, or null},
 ///  "camera": as scree_camera(), "walks", "eye": whose eye one looks through, in words, or "",
 ///  "tick", "tick_rate_hz", "pace": 1 is as fast as the clock, "lost_ticks", "pieces_near", "props_near",
-///  "carried": "1.25 m³ rock, 0.50 m³ soil", or "", "predictions",
+///  "carried": [{"name", "m3"}] in the own store, "store_m3": what it holds at most, or null, "predictions",
 ///  "joined": the edits around the camera have come, "loaded": and are drawn,
 ///  "complete": in their newest state,
 ///  "traffic": {"received_bytes", "sent_bytes", "received_bytes_per_s", "waiting_bytes"},

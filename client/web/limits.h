@@ -38,6 +38,6 @@ inline constexpr size_t page_cache_bytes = size_t{16} << 20;
 inline constexpr size_t page_frames_max = 120;
 
 /// Longest frame that moves the camera, seconds: a page that was hidden does not jump.
-inline constexpr float page_elapsed_max_s = 0.25F;
+inline constexpr float page_elapsed_max_s = 0.5F;
 
 }  // namespace scree::limits

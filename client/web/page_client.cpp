@@ -73,14 +73,20 @@ float PageClient::aspect() const {
 }
 
 void PageClient::act(Action action, double now_s) {
-  change(tool, action, visit_.session.palette());
+  const ToolHolder holder = visit_.session.holder();
+  change(tool, action, holder.palette, holder.carried);
   change(hand, action);
   visit_.session.timeline().act(action);
   switch (action) {
     case Action::walk:
       return whereabouts_.walk_or_fly(visit_.camera, visit_.session, now_s);
+    case Action::give_away:
+      return visit_.session.give_away(now_s);
     case Action::next_eye:
       static_cast<void>(whereabouts_.follow_next_eye(visit_.session, now_s));
+      return;
+    case Action::replay_play:
+      if (!visit_.session.is_replay()) asked_.push_back(action);
       return;
     case Action::next_method:
       // It is one that this context can draw.
@@ -95,20 +101,34 @@ void PageClient::act(Action action, double now_s) {
     case Action::mute:
     case Action::persons:
     case Action::figures:
+    case Action::all_figures:
     case Action::graphs:
     case Action::panel:
     case Action::help:
     case Action::hide:
     case Action::full_screen:
     case Action::free_mouse:
-    case Action::end:
     case Action::smaller_text:
     case Action::larger_text:
+    case Action::present:
       asked_.push_back(action);
       return;
     default:  // done above, or not here
       return;
   }
+}
+
+/// At the aim of each: what the one before has taken is gone.
+void PageClient::strike(const PageIntents& intents, double now_s) {
+  const int times = strike_.step(intents.strikes, intents.strike_held, traits_of(tool.use).repeat_s, now_s);
+  if (visit_.session.is_replay()) return;
+  if (times > 0 && visit_.aim()) hints_.note(tool.use);
+  for (int i = 0; i < times; ++i)
+    visit_.session.strike(tool, visit_.camera.eye_m, visit_.camera.forward(), now_s);
+}
+
+std::string_view PageClient::hint(double now_s) {
+  return hints_.text(!visit_.session.holder().carried.empty(), has_past, now_s);
 }
 
 Result<void> PageClient::frame() {
@@ -118,11 +138,13 @@ Result<void> PageClient::frame() {
   const float moved_s = std::min(static_cast<float>(elapsed_s), limits::page_elapsed_max_s);
   PageIntents intents = input.drain(moved_s);
   intents.fly.turn *= hand.mouse_speed;
+  // In a replay, these keys move the moment.
+  if (!visit_.session.is_replay()) intents.fly.turn += turn_by_keys(intents.turn_keys, moved_s);
   visit_.camera.field_of_view = glm::radians(hand.field_of_view_degrees);
   whereabouts_.step(visit_.camera, intents.fly, moved_s, visit_.session, now_s);
   for (const Action action : intents.actions) act(action, now_s);
   grow(tool, intents.wheel);
-  if (intents.strike) visit_.session.strike(tool, visit_.camera.eye_m, visit_.camera.forward(), now_s);
+  strike(intents, now_s);
   visit_.show_particles(particles);
   visit_.show_details(details);
   visit_.shake(shake);

@@ -10,6 +10,8 @@
 #include <vector>
 
 #include "client/viewer/input/hand_choice.h"
+#include "client/viewer/input/repeat.h"
+#include "client/viewer/session/hints.h"
 #include "client/viewer/session/whereabouts.h"
 #include "client/viewer/viewing/hud_facts.h"
 #include "client/viewer/viewing/visit.h"
@@ -40,6 +42,8 @@ class PageClient {
   /// Actions that are the page's to do; takes them.
   std::vector<Action> drain_asked() { return std::exchange(asked_, {}); }
   FrameTimes frame_times() const;
+  /// What a newcomer may try next; empty: nothing.
+  std::string_view hint(double now_s);
   HudFacts facts();
   float aspect() const;
 
@@ -51,6 +55,7 @@ class PageClient {
   bool particles = true;
   bool details = true;
   bool shake = true;
+  bool has_past = false;  ///< the page knows who replays this world
   bool predicts = true;
 
   Visit& visit() { return visit_; }
@@ -61,6 +66,7 @@ class PageClient {
  private:
   PageClient(std::unique_ptr<View> view, std::unique_ptr<SocketConnector> connector);
   void act(Action action, double now_s);
+  void strike(const PageIntents& intents, double now_s);
   void work_later();
   void work();
   void note(double elapsed_ms, double update_ms, double draw_ms);
@@ -68,6 +74,8 @@ class PageClient {
   SocketConnector* connector_;  ///< the session's
   Visit visit_;
   Whereabouts whereabouts_;
+  Repeat strike_;
+  Hints hints_;
   FactFinder facts_;
   std::vector<Action> asked_;
   MarksMessage marks_;

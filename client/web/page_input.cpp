@@ -33,11 +33,14 @@ constexpr std::array codes{CodeRow{"Space", GLFW_KEY_SPACE},
                            CodeRow{"PageDown", GLFW_KEY_PAGE_DOWN},
                            CodeRow{"Home", GLFW_KEY_HOME},
                            CodeRow{"End", GLFW_KEY_END},
+                           CodeRow{"Backspace", GLFW_KEY_BACKSPACE},
                            CodeRow{"F1", GLFW_KEY_F1},
+                           CodeRow{"F3", GLFW_KEY_F3},
                            CodeRow{"ShiftLeft", GLFW_KEY_LEFT_SHIFT}};
 
-constexpr std::array moves{GLFW_KEY_W,     GLFW_KEY_A, GLFW_KEY_S,         GLFW_KEY_D,
-                           GLFW_KEY_SPACE, GLFW_KEY_C, GLFW_KEY_LEFT_SHIFT};
+constexpr std::array moves{GLFW_KEY_W,     GLFW_KEY_A,    GLFW_KEY_S,          GLFW_KEY_D,
+                           GLFW_KEY_SPACE, GLFW_KEY_C,    GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT,
+                           GLFW_KEY_LEFT,  GLFW_KEY_DOWN, GLFW_KEY_UP};
 
 std::optional<int> key_of(std::string_view code) {
   if (code.size() == 4 && code.starts_with("Key") && code[3] >= 'A' && code[3] <= 'Z')
@@ -68,6 +71,11 @@ constexpr std::array<int, 17> standard_buttons{GLFW_GAMEPAD_BUTTON_A,
                                                GLFW_GAMEPAD_BUTTON_GUIDE};
 
 }  // namespace
+
+void PageInput::act(Action action) {
+  if (action == Action::strike) return strike();
+  actions_.push_back(action);
+}
 
 void PageInput::move(const glm::vec3& way, bool fast) {
   move_ = glm::clamp(way, -1.0F, 1.0F);
@@ -111,14 +119,17 @@ PageIntents PageInput::drain(float elapsed_s) {
                                        axis(GLFW_KEY_W, GLFW_KEY_S));
   intents.fly.fast = fast_ || is_down(GLFW_KEY_LEFT_SHIFT);
   intents.fly.turn = std::exchange(turn_, glm::vec2(0.0F));
-  intents.strike = std::exchange(strike_, false);
+  intents.turn_keys = {axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_DOWN, GLFW_KEY_UP)};
+  intents.strikes = std::exchange(strikes_, 0);
+  intents.strike_held = holds_ || is_down(GLFW_KEY_E);
   intents.wheel = std::exchange(wheel_, 0.0F);
   intents.actions = std::exchange(actions_, {});
   if (!pad_) return intents;
   const std::vector<Action> of_pad =
       gamepad_.step(*std::exchange(pad_, std::nullopt), elapsed_s, intents.fly);
   intents.actions.insert(intents.actions.end(), of_pad.begin(), of_pad.end());
-  intents.strike = intents.strike || gamepad_.struck();
+  intents.strikes += static_cast<int>(gamepad_.struck());
+  intents.strike_held = intents.strike_held || gamepad_.holds_trigger();
   return intents;
 }
 

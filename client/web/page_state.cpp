@@ -179,6 +179,19 @@ Json playback_json(const PageClient& client, const Timeline& timeline, double no
           {"refusal", playback.refusal},      {"marks", client.marks_told()}};
 }
 
+Json carried_json(const HudFacts& facts) {
+  Json list = Json::array();
+  for (const CarriedRow& row : facts.carried) list.push_back({{"name", row.material}, {"m3", row.volume_m3}});
+  return list;
+}
+
+Json aim_json(const std::optional<ToolAim>& aim, const Palette& palette) {
+  if (!aim) return nullptr;
+  return {{"beyond", aim->is_beyond},
+          {"material", aim->material ? palette.row_or_first(*aim->material).name : std::string()},
+          {"m3", aim->volume_m3 ? Json(*aim->volume_m3) : Json()}};
+}
+
 Json frame_json(PageClient& client) {
   const FrameTimes times = client.frame_times();
   Visit& visit = client.visit();
@@ -223,7 +236,8 @@ std::string catalogue_text() {
                         {"key", binding.key_name},
                         {"button", binding.button_name},
                         {"does", binding.does},
-                        {"of_replay", binding.of_replay}});
+                        {"of_replay", binding.of == ControlsOf::replay},
+                        {"of_world", binding.of == ControlsOf::live}});
   Json events = Json::array();
   for (const EventKind kind : all_kinds<EventKind>)
     events.push_back({{"kind", name_of(kind)}, {"what", traits_of(kind).what}});
@@ -244,6 +258,9 @@ std::string state_text(PageClient& client) {
   const HudFacts facts = client.facts();
   Json json{{"connection", connection_json(session, now_s)},
             {"notice", facts.notice},
+            {"hint", client.hint(now_s)},
+            {"mark", {{"number", session.answer().number}, {"refused", session.answer().refused}}},
+            {"aim", aim_json(visit.aim(), session.palette())},
             {"camera", camera_text(visit.camera)},
             {"walks", client.whereabouts().walks()},
             {"eye", client.whereabouts().eye().description(session.figures(now_s))},
@@ -253,7 +270,8 @@ std::string state_text(PageClient& client) {
             {"lost_ticks", facts.lost_ticks},
             {"pieces_near", facts.pieces_near},
             {"props_near", facts.props_near},
-            {"carried", facts.carried},
+            {"carried", carried_json(facts)},
+            {"store_m3", facts.store_room_m3 ? Json(*facts.store_room_m3) : Json()},
             {"predictions", facts.predictions},
             {"joined", session.joined(now_s)},
             {"loaded", visit.joined(now_s)},

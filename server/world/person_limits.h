@@ -6,8 +6,9 @@
 
 namespace scree::limits {
 
-/// Inputs of a person that wait to be carried out: a quarter of a second of them. Above: refused.
-inline constexpr size_t walk_inputs_max = 16;
+/// Inputs of a person that wait to be carried out: half a second of them at 60 ticks a second, which a viewer
+/// of three frames a second sends at once. Above: refused.
+inline constexpr size_t walk_inputs_max = 32;
 
 /// How far the number of an input may be ahead of the last one that came: ten seconds of them, which a link
 /// may have lost. Above: refused, as is one that is not ahead.

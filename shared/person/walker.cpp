@@ -10,7 +10,7 @@ namespace scree {
 namespace {
 
 constexpr float tick_s = 1.0F / 120.0F;
-constexpr float frame_max_s = 0.1F;  ///< a longer one is shortened: after a stall, nobody has walked on
+constexpr float frame_max_s = 0.5F;  ///< a longer one is shortened: after a stall, nobody has walked on
 constexpr float fall_m_s2 = 9.81F;
 constexpr float walk_m_s = 4.0F;
 constexpr float run_m_s = 7.5F;

@@ -8,19 +8,19 @@ const catalogue = {
     { name: 'raymarch', summary: 'rays through an atlas of bricks; edits do not slow it down', missing: null },
     { name: 'grid', summary: 'marching cubes by a geometry shader, from a grid of points about the camera', missing: 'this OpenGL has no geometry shaders' },
   ],
-  qualities: ['low', 'medium', 'high'], tools: ['sphere', 'box', 'tunnel', 'crater'], uses: ['carve', 'fill', 'paint'],
+  qualities: ['low', 'medium', 'high'], tools: ['sphere', 'box', 'tunnel', 'crater'], uses: ['dig', 'place', 'carve', 'fill', 'paint'],
   patterns: ['radial', 'even', 'random', 'slabs', 'columns'],
   limits: { view_radius_m: [8, 128], tool_radius_m: [0.5, 4], blast_speed_m_s: [0, 40], seeds: [0, 256], field_of_view_degrees: [20, 110],
     look_speed: [0.1, 10], replay_speed: [0.1, 16], line_bytes: 200, name_bytes: 32 },
   events: [],
   controls: [
-    { action: 'crater', key: '4', button: '', does: 'tool: crater, a ball of rough rock', of_replay: false },
-    { action: 'next_use', key: 'F', button: 'pad B', does: 'carve, fill or paint with it', of_replay: false },
+    { action: 'dig', key: '1', button: '', does: 'dig: rock goes into your store', of_replay: false },
+    { action: 'next_use', key: 'F', button: 'pad B', does: 'the next of these five', of_replay: false },
     { action: 'next_method', key: 'M', button: 'pad Y', does: 'draw by the next method', of_replay: false },
     { action: 'walk', key: 'Q', button: '', does: 'walk, or fly', of_replay: false },
     { action: 'replay_play', key: 'J', button: '', does: 'replay: play, or hold', of_replay: true },
     { action: 'picture', key: 'F12', button: '', does: 'take a picture (a PNG in this folder)', of_replay: false },
-    { action: 'end', key: 'Esc', button: '', does: 'end (asks first)', of_replay: false },
+    { action: 'menu', key: 'Esc', button: '', does: 'free the mouse; then the menu, which ends', of_replay: false },
   ],
 };
 
@@ -31,7 +31,8 @@ const status = {
 
 export const state = {
   connection: { phase: 'connected', text: 'fake', replay: false, role: 'player', session: 1 },
-  notice: '', camera: '30,9,19,63,-7', walks: false, eye: '', tick: 67611, tick_rate_hz: 60, pace: 1, lost_ticks: 0, pieces_near: 96, props_near: 0,
+  notice: '', hint: '', mark: { number: 0, refused: '' }, aim: { beyond: false, material: '', m3: 6.2 },
+  carried: [{ name: 'rock', m3: 8.1 }, { name: 'brick', m3: 4.3 }], store_m3: 1000, camera: '30,9,19,63,-7', walks: false, eye: '', tick: 67611, tick_rate_hz: 60, pace: 1, lost_ticks: 0, pieces_near: 96, props_near: 0,
   predictions: 0, joined: true, loaded: true, complete: true,
   traffic: { received_bytes: 1250000, sent_bytes: 8123, received_bytes_per_s: 10240, waiting_bytes: 0 },
   mirror: { frames: 900, pieces_made: 512, pieces_merged: 384, checks: 120, mismatches: 0, repairs: 0, held_chunks: 444, edited_bricks: 812 },
@@ -39,7 +40,7 @@ export const state = {
   draw: { method: 'mesh', draws: 210, triangles: 812345, pieces: 96, kept: 420, waiting: 0, driver: 'a driver of a fake, with a long name', gl_errors: 0, first_gl_error: '' },
   preparing: null, latency_ms: 21.4, status,
   materials: [{ name: 'rock', colour: '#938e8b' }, { name: 'brick', colour: '#99543f' }, { name: 'glass', colour: '#bdd5d2' }],
-  tool: { kind: 'crater', use: 'carve', material: '', radius_m: 2, blast_speed_m_s: 6, pattern: 'radial', seeds: 0, seeds_now: 34 },
+  tool: { kind: 'crater', use: 'dig', material: '', radius_m: 2, blast_speed_m_s: 6, pattern: 'radial', seeds: 0, seeds_now: 34 },
   view: { method: 'mesh', quality: 'medium', quality_auto: true, view_radius_m: 48, particles: true, details: true, shake: true, predict: true, overlay: false,
     field_of_view_degrees: 60, look_speed: 1 },
   persons: { list: [{ session: 1, name: 'Ann', role: 'player' }], more: 0, chat: true },
@@ -69,7 +70,7 @@ const texts = {
 };
 
 const KEYS = ['KeyW', 'KeyA', 'KeyS', 'KeyD', 'Space', 'Enter', 'F1'];
-const ACTIONS = { KeyH: 'help', KeyP: 'panel', KeyL: 'persons', KeyI: 'figures', Enter: 'talk', F1: 'hide' };
+const ACTIONS = { KeyH: 'help', KeyP: 'panel', KeyL: 'persons', KeyI: 'figures', F3: 'all_figures', Enter: 'talk', F1: 'hide' };
 
 export default async function createScree({ canvas }) {
   const pen = canvas.getContext('2d');

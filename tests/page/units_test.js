@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { AddressBar, format, parse } from './page/address.js';
+import { AddressBar, at_port, format, parse } from './page/address.js';
 import { Backoff } from './page/backoff.js';
 import { all, brief } from './page/figures.js';
 import { STICK, TAP, Thumbs, tilt } from './page/gestures.js';
@@ -16,7 +16,8 @@ import { picture_name } from './page/picture.js';
 import { Socket, ask_why, session_url, told_url, why_closed } from './page/socket.js';
 import { is_read_on_the_way, is_withheld, insist, token_to_send } from './page/secrets.js';
 import { points } from './page/spark.js';
-import { materials_for } from './page/tools.js';
+import { rows } from './page/help.js';
+import { aim_text, bar_parts, carried_text, materials_for } from './page/tools.js';
 import { budget_text, heads, latency_bars, lists, session_row, stage_bars } from './page/status_figures.js';
 import { bytes, span, time, whole } from './page/words.js';
 
@@ -24,6 +25,9 @@ test('an address says the view and says it back', () => {
   const state = { camera: '30,9,19,63.5,-7', method: 'raymarch', quality: 'low', view: '64' };
   assert.deepEqual(parse(format(state)), state);
   assert.equal(format(state), '#camera=30,9,19,63.5,-7&method=raymarch&quality=low&view=64');
+  assert.deepEqual(parse(format({ past: '4178', now: '4177' })), { past: '4178', now: '4177' });
+  assert.deepEqual(parse('#past=//evil&now=0'), {});
+  assert.equal(at_port(new URL('http://localhost:4177/x/'), '4178', '#now=4177'), 'http://localhost:4178/x/#now=4177');
 });
 
 test('an address takes nothing that is not well formed', () => {
@@ -291,6 +295,31 @@ test('a page joins its own server', () => {
   assert.equal(why_closed(1008, 'no'), 'no');
 });
 
+test('a tool says what a click does, and what one carries', () => {
+  const aim = { beyond: false, material: '', m3: 6.24 };
+  assert.equal(aim_text({ use: 'dig' }, aim), 'takes 6.2 m³');
+  assert.equal(aim_text({ use: 'place' }, { ...aim, material: 'rock' }), 'puts 6.2 m³ of rock');
+  assert.equal(aim_text({ use: 'place' }, { ...aim, m3: null }), 'nothing to place');
+  assert.equal(aim_text({ use: 'dig' }, { ...aim, beyond: true }), 'too far away');
+  assert.equal(aim_text({ use: 'dig' }, null), 'nothing to aim at');
+  const carried = [{ name: 'rock', m3: 8.14 }, { name: 'soil', m3: 4 }];
+  assert.deepEqual(carried_text([], 1000), { full: false, text: 'You carry nothing' });
+  assert.deepEqual(carried_text(carried, 1000), { full: false, text: 'You carry 12.1 m³ of 1000 m³: rock 8.1 m³, soil 4.0 m³' });
+  assert.equal(carried_text(carried, 12.5).full, true);
+  assert.match(carried_text(carried, 12.5).text, /full: 2 places rock, U gives all to the world/);
+  assert.deepEqual(bar_parts(carried, 40), [['rock', 20.35], ['soil', 10]]);
+  assert.deepEqual(bar_parts([{ name: 'rock', m3: 1 }], 1000), [['rock', 0.8]], 'a little is seen');
+});
+
+test('the keys of a replay have no tool among them, and those of a world no timeline', () => {
+  const controls = [{ action: 'dig', key: '1', button: '', does: 'dig', of_replay: false, of_world: true }, { action: 'replay_play', key: 'J', button: '', does: 'hold', of_replay: true },
+    { action: 'menu', key: 'Esc', button: '', does: 'menu', of_replay: false }];
+  const keys = (replay) => rows(controls, replay).map(([key]) => key);
+  assert.ok(keys(false).includes('1') && keys(false).includes('left click') && !keys(false).includes('J'));
+  assert.ok(!keys(true).includes('1') && !keys(true).includes('left click') && keys(true).includes('J'));
+  assert.ok(!keys(false).includes('Esc'), 'a page does not end');
+});
+
 test('how much of the terrain is there is between none and all', () => {
   assert.equal(terrain_part({ draw: { kept: 0, waiting: 0 }, preparing: null, complete: false }), 0);
   assert.equal(terrain_part({ draw: { kept: 30, waiting: 10 }, preparing: null, complete: false }), 0.75);
@@ -419,6 +448,7 @@ test('a fill may be as the ground, paint may not, and what a world lacks is its 
   const chosen = (use, material) => materials_for({ use, material }, materials).chosen;
   assert.equal(materials_for({ use: 'fill', material: '' }, materials).list.length, 3);
   assert.equal(materials_for({ use: 'paint', material: '' }, materials).list.length, 2);
+  assert.deepEqual(materials_for({ use: 'place', material: '' }, materials, [{ name: 'brick', m3: 1 }], { material: 'brick' }), { list: [materials[1]], chosen: 'brick' });
   assert.equal(chosen('fill', ''), '');
   assert.equal(chosen('paint', ''), 'rock');
   assert.equal(chosen('fill', 'brick'), 'brick');

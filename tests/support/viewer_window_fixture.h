@@ -54,6 +54,13 @@ class VirtualScreen {
   std::string display_;
 };
 
+/// What breaks rock, where a person begins with digging.
+inline Tool carving_tool() {
+  Tool tool;
+  take_up(tool, ToolUse::carve);
+  return tool;
+}
+
 class ViewerWindow : public testing::Test {
  protected:
   void SetUp() override {
@@ -86,10 +93,7 @@ class ViewerWindow : public testing::Test {
     Result<std::unique_ptr<Viewing>> viewing = Viewing::begin(options_);
     ASSERT_TRUE(viewing) << viewing.error().message;
     viewing_ = std::move(*viewing);
-    Settings settings;
-    settings.hud = {Telling::all, true, true, true};
-    settings.overlay.shown = true;
-    app_ = std::make_unique<WindowApp>(*window_, *viewing_, settings);
+    app_ = std::make_unique<WindowApp>(*window_, *viewing_, settings_);
   }
   void TearDown() override {
     app_.reset();
@@ -107,8 +111,18 @@ class ViewerWindow : public testing::Test {
     }
   }
 
+  /// Everything is shown, and the tool breaks rock.
+  static Settings all_of_the_hud() {
+    Settings settings;
+    settings.hud = {Telling::all, true, true, true};
+    settings.overlay.shown = true;
+    settings.tool = carving_tool();
+    return settings;
+  }
+
   VirtualScreen screen_;
   ViewerOptions options_;
+  Settings settings_ = all_of_the_hud();
   std::unique_ptr<LiveServer> server_;
   std::unique_ptr<AppWindow> window_;
   std::unique_ptr<Viewing> viewing_;
@@ -145,8 +159,7 @@ class ViewerHand : public ViewerWindow {
   /// Takes the mouse, with nothing on the screen that a click could meet.
   void capture_mouse() {
     hand("key p key h key g click 1");
-    run_until([&] { return window_->holds_mouse() && !shown(PanelPlace::bottom); },
-              "the mouse, and nothing to be said any more");
+    run_until([&] { return window_->holds_mouse() && !shown(PanelPlace::upper_right); }, "the mouse");
   }
 };
 

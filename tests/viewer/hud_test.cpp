@@ -73,6 +73,11 @@ HudFacts crowded_facts() {
   facts.notice =
       "the carve is beyond the reach of 8 m of one edit (--edit-reach), which keeps a tick within its "
       "time; ask for smaller ones";
+  facts.mark = StrikeMark::refused;
+  facts.refused = "too far away";
+  facts.carried = {{"rock", {0.3F, 0.3F, 0.3F}, 812.5}, {"soil", {0.2F, 0.1F, 0.1F}, 187.5}};
+  facts.store_room_m3 = 1000.0F;
+  facts.retry_s = 12.3;
   facts.predictions = 3;
   facts.preparing = {"raymarch", 100, 1234};
   facts.driver = "OpenGL 4.5 (Core Profile) Mesa 22.3.6 (llvmpipe (LLVM 15.0.6, 256 bits))";
@@ -118,17 +123,24 @@ class WholeHud {
     screen_.begin(true, hud_.text_px(text_scale));
     hud_.begin(true);
     hud_.note(facts, {16.0F, 2.0F, 3.0F});
-    hud_.crosshair(true);
-    hud_.figures(facts, all);
+    hud_.crosshair(facts);
+    if (all) hud_.figures(facts, all);
     const PersonsMessage persons{
         {{1, "A person with a long name, so it", Role::builder}, {2, "", Role::viewer}}, 3, true};
     hud_.lower_right(facts, all ? &persons : nullptr, {}, all);
-    hud_.panel(*method_named("grid"), {tool_, *plain_palette(), overlay_, method_options_, particles_,
-                                       details_, shake_, predict_, hand_, quality_});
+    if (all)
+      hud_.panel(*method_named("grid"),
+                 {tool_, *plain_palette(), overlay_, method_options_, particles_, details_, shake_, predict_, hand_, quality_},
+                 {false, true});
     hud_.help(all ? Telling::all : Telling::basics, all, all ? ControlsOf::both : ControlsOf::live);
-    if (all) hud_.banner("the server is gone - trying again");
-    if (all) hud_.timeline(timeline_, 10.0);
-    hud_.messages(facts, {"click the picture to look around with the mouse; then a click strikes"});
+    if (all) {
+      hud_.lost(facts);
+      hud_.timeline(timeline_, 10.0);
+    } else {
+      hud_.tool_line(tool_, ToolAim{sphere({}, 1.0F), false, {}, {}, 12.3}, facts, *plain_palette());
+    }
+    hud_.messages(facts,
+                  {"click, and the mouse looks around, or use the arrow keys; E digs where the cross is"});
     screen_.end();
   }
   const HudPanels& panels() const { return hud_.panels(); }
@@ -166,9 +178,10 @@ TEST(Hud, what_a_newcomer_sees_fits_a_small_window) {
   for (const glm::vec2 size : {glm::vec2(960.0F, 540.0F), glm::vec2(1280.0F, 720.0F)}) {
     WholeHud hud(size);
     for (int i = 0; i < 12; ++i) hud.frame({}, 1.0F, false);
-    for (const PanelPlace place :
-         {PanelPlace::upper_left, PanelPlace::lower_left, PanelPlace::upper_right, PanelPlace::bottom})
+    for (const PanelPlace place : {PanelPlace::lower_left, PanelPlace::lowest, PanelPlace::bottom}) {
       EXPECT_FALSE(hud.panels().scrolls(place)) << static_cast<int>(place) << " at " << size.x;
+      EXPECT_FALSE(hud.panels().clips(place)) << static_cast<int>(place) << " at " << size.x;
+    }
   }
 }
 
@@ -180,8 +193,7 @@ TEST(Hud, text_is_as_large_as_asked_for_where_panels_leave_it_room_and_never_goe
       WholeHud hud(size);
       for (int i = 0; i < 12; ++i) hud.frame({}, text_scale, false);
       const PanelRectangles rested = hud.panels().rectangles();
-      for (const PanelPlace place :
-           {PanelPlace::upper_left, PanelPlace::lower_left, PanelPlace::upper_right, PanelPlace::bottom})
+      for (const PanelPlace place : {PanelPlace::lower_left, PanelPlace::bottom})
         EXPECT_TRUE(!hud.panels().clips(place) || HudScreen::shown_px() == HudPanels::text_px_min)
             << static_cast<int>(place);
       for (int i = 0; i < 6; ++i) {
@@ -230,8 +242,10 @@ TEST(Controls, the_basics_are_few_and_buttons_are_told_to_those_who_have_them) {
   const auto tells = [](ControlsOf of, const char* what) {
     return describe_controls(Telling::all, false, of).find(what) != std::string::npos;
   };
-  EXPECT_TRUE(tells(ControlsOf::live, "strike") && !tells(ControlsOf::live, "replay"));
-  EXPECT_TRUE(!tells(ControlsOf::replay, "strike") && tells(ControlsOf::replay, "replay"));
+  EXPECT_TRUE(tells(ControlsOf::live, "use the tool") && !tells(ControlsOf::live, "replay"));
+  for (const char* what : {"use the tool", "dig", "place what", "blast"})
+    EXPECT_FALSE(tells(ControlsOf::replay, what)) << what;
+  EXPECT_TRUE(tells(ControlsOf::replay, "replay"));
   EXPECT_LE(lines(describe_controls(Telling::basics, false, ControlsOf::replay)), 14);
   EXPECT_NE(all.find("pad RB"), std::string::npos);
   EXPECT_EQ(describe_controls(Telling::nothing, true, ControlsOf::both), "");

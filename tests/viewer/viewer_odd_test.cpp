@@ -155,7 +155,9 @@ TEST_F(ViewerOddSession, figures_say_what_is_not_answered_and_how_long_the_last_
   step_until_joined();
   FactFinder facts;
   EXPECT_FALSE(facts.find(*viewing_, steady_now_s()).latency);
-  viewing_->session.strike(Tool{}, viewing_->camera.eye_m, viewing_->camera.forward(), steady_now_s());
+  Tool carves;
+  take_up(carves, ToolUse::carve);
+  viewing_->session.strike(carves, viewing_->camera.eye_m, viewing_->camera.forward(), steady_now_s());
   EXPECT_EQ(facts.find(*viewing_, steady_now_s()).predictions, 1U);
   step_until([&] { return viewing_->session.predictions() == 0; }, "the server's carve");
   const HudFacts answered = facts.find(*viewing_, steady_now_s());

@@ -111,6 +111,16 @@ TEST(Sight, rock_hides_pieces_and_so_does_the_edge_of_the_picture) {
   EXPECT_FALSE(seen_at({0.0F, 1.5F, -80.0F})) << "too far";
 }
 
+TEST(FlyCamera, covers_its_way_at_three_frames_a_second_as_at_sixty) {
+  FlyInput forward;
+  forward.move.z = 1.0F;
+  Camera slow, quick;
+  for (int i = 0; i < 3; ++i) fly(slow, forward, 1.0F / 3.0F);
+  for (int i = 0; i < 60; ++i) fly(quick, forward, 1.0F / 60.0F);
+  EXPECT_NEAR(slow.eye_m.z, quick.eye_m.z, 0.01F);
+  EXPECT_NEAR(quick.eye_m.z, -9.0F, 0.01F);
+}
+
 TEST(FlyCamera, moves_where_it_looks_and_stays_in_the_world) {
   Camera camera;
   FlyInput forward;

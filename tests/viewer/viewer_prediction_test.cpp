@@ -44,7 +44,11 @@ class PredictingViewer : public testing::Test {
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
   }
-  void strike() { session_->strike(Tool{}, camera_.eye_m, glm::vec3(0.0F, -1.0F, 0.0F), steady_now_s()); }
+  void strike() {
+    Tool carves;
+    take_up(carves, ToolUse::carve);
+    session_->strike(carves, camera_.eye_m, glm::vec3(0.0F, -1.0F, 0.0F), steady_now_s());
+  }
   /// Depth of what is shown, and of what the server has told, under the camera; metres from it.
   float shown_m() { return session_->aim(camera_.eye_m, {0.0F, -1.0F, 0.0F}).value_or(glm::vec3(-99.0F)).y; }
   uint64_t exact_hash() { return session_->mirror()->field().hash(); }
@@ -96,7 +100,10 @@ TEST_F(PredictingViewer, what_the_server_refuses_is_taken_back) {
   until("the refusal", true, [&] { return session_->predictions() == 0; });
   EXPECT_NEAR(shown_m(), 0.0F, 0.05F);
   EXPECT_EQ(exact_hash(), 0U);
-  EXPECT_NE(session_->notice(steady_now_s()).find("pieces-max"), std::string::npos);
+  EXPECT_EQ(session_->answer().refused, "too much rubble");
+  const std::string said = session_->notice(steady_now_s());
+  EXPECT_NE(said.find("pieces"), std::string::npos) << said;
+  EXPECT_EQ(said.find("pieces-max"), std::string::npos) << "names of settings are an operator's";
 }
 
 TEST_F(PredictingViewer, beyond_the_servers_reach_nothing_is_asked_for_and_that_is_said) {
@@ -110,7 +117,8 @@ TEST_F(PredictingViewer, beyond_the_servers_reach_nothing_is_asked_for_and_that_
   strike();
   EXPECT_EQ(session_->predictions(), 0U);
   const std::string said = session_->notice(steady_now_s());
-  EXPECT_NE(said.find("10 m from your eye (reach)"), std::string::npos) << said;
+  EXPECT_NE(said.find("you reach 10 m"), std::string::npos) << said;
+  EXPECT_EQ(session_->answer().refused, "too far away");
   camera_.eye_m.y = 5.0F;
   strike();
   EXPECT_EQ(session_->predictions(), 1U);

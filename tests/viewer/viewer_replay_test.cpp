@@ -29,7 +29,7 @@ class ReplayHand : public ViewerHand {
   const PlaybackMessage& playback() { return viewing_->session.timeline().playback(); }
   /// Moves the mouse to a part of the bar.
   void point_at(float part) {
-    const Rectangle& strip = app_->panels()[index_of(PanelPlace::timeline)];
+    const Rectangle& strip = app_->panels()[index_of(PanelPlace::lowest)];
     const glm::vec2 at = strip.at + glm::vec2(8.0F + part * (strip.size.x - 16.0F), 18.0F);
     hand("mousemove " + std::to_string(static_cast<int>(at.x)) + " " +
          std::to_string(static_cast<int>(at.y)));
@@ -50,7 +50,7 @@ TEST_P(ViewerTimeline, stands_apart_from_all_else_is_dragged_and_hides_with_all)
       [&] {
         for (const PanelPlace place :
              {PanelPlace::upper_left, PanelPlace::lower_left, PanelPlace::upper_right,
-              PanelPlace::lower_right, PanelPlace::bottom, PanelPlace::timeline})
+              PanelPlace::lower_right, PanelPlace::bottom, PanelPlace::lowest})
           if (!shown(place)) return false;
         return window_->writes().has_value();
       },

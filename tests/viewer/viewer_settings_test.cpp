@@ -1,19 +1,15 @@
-// What the viewer keeps, what its tools ask for, and what a gamepad does.
+// What the viewer keeps, and what a gamepad does.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
-#include <set>
 #include <sstream>
 
 #include "client/render/grid/grid_shape.h"
 #include "client/viewer/input/gamepad.h"
 #include "client/viewer/viewing/settings.h"
 #include "client/viewer/window/history.h"
-#include "content/builtin_palette.h"
-#include "shared/base/limits.h"
 
 namespace scree {
 namespace {
@@ -103,7 +99,7 @@ TEST_F(SettingsTest, text_is_understood_again) {
   settings.method = all_methods().front().name;
   settings.method_options = values_of(GridShape{64, 4, GridSpacing::growing});
   settings.tool = {ToolKind::box, ToolUse::paint, "ice", 3.25F, 12.0F, SeedPattern::uniform, 40};
-  settings.hud = {Telling::all, true, true, false, true};
+  settings.hud = {Telling::all, true, true, false, true, true};
   settings.hand = {75.0F, 2.5F, 1.5F};
   settings.overlay = {true, false, true, false, true};
   settings.particles = false;
@@ -144,118 +140,6 @@ TEST_F(SettingsTest, flags_win) {
   options.predict = options.given.predict = true;
   apply_settings(settings, options);
   EXPECT_TRUE(options.predict);
-}
-
-TEST(Tool, every_shape_is_within_the_servers_limits) {
-  for (const ToolKind kind : all_kinds<ToolKind>)
-    for (const float radius_m : {tool_radius_min_m, 2.0F, tool_radius_max_m}) {
-      Tool tool;
-      tool.kind = kind;
-      tool.radius_m = radius_m;
-      const glm::vec3 direction = glm::normalize(glm::vec3(1, -2, 3));
-      const auto carve = std::get<CarveRequest>(request_of(tool, {1.0F, 2.0F, 3.0F}, direction, 7));
-      EXPECT_TRUE(validate(carve.shape));
-      EXPECT_LE(reach_of(carve.shape), limits::edit_reach_max_m + 1e-4F) << name_of(kind) << " " << radius_m;
-      EXPECT_GE(reach_of(carve.shape), limits::edit_reach_min_m);
-      EXPECT_LT(distance(carve.shape, carve.impact_m), 0.0F) << "the surface is opened";
-      EXPECT_LE(carve.seeds, limits::seeds_max);
-    }
-}
-
-TEST(Tool, what_is_filled_stands_on_the_rock_and_what_is_painted_is_in_it) {
-  const glm::vec3 hit_m(1.0F, 2.0F, 3.0F), down(0.0F, -1.0F, 0.0F);
-  Tool tool;
-  change(tool, Action::next_use);
-  const auto fill = std::get<FillRequest>(request_of(tool, hit_m, down, 1));
-  EXPECT_LT(distance(fill.shape, hit_m), 0.0F) << "it touches";
-  EXPECT_GT(centre_of(fill.shape).y, hit_m.y) << "and is mostly outside";
-  change(tool, Action::next_use);
-  change(tool, Action::next_material, builtin_palette());
-  const auto paint = std::get<PaintRequest>(request_of(tool, hit_m, down, 1, builtin_palette()));
-  EXPECT_EQ(paint.material, material::soil);
-  EXPECT_LT(distance(paint.shape, hit_m), 0.0F);
-  change(tool, Action::next_use);
-  const auto dig = std::get<DigRequest>(request_of(tool, hit_m, down, 1, builtin_palette()));
-  EXPECT_EQ(dig.store, StoreName{});
-  EXPECT_LT(centre_of(dig.shape).y, hit_m.y);
-  change(tool, Action::next_use);
-  const auto place = std::get<PlaceRequest>(request_of(tool, hit_m, down, 1, builtin_palette()));
-  EXPECT_EQ(place.material, material::soil);
-  EXPECT_GT(centre_of(place.shape).y, hit_m.y);
-  change(tool, Action::next_use);
-  EXPECT_EQ(tool.use, ToolUse::carve);
-}
-
-TEST(Tool, materials_are_known_by_name_and_one_that_the_world_lacks_is_its_first) {
-  const Palette& palette = builtin_palette();
-  Tool tool;
-  tool.use = ToolUse::fill;
-  EXPECT_EQ(material_of(tool, palette), std::nullopt) << "as the ground";
-  for (const MaterialRow& row : palette.rows) {
-    change(tool, Action::next_material, palette);
-    EXPECT_EQ(tool.material, row.name);
-    EXPECT_EQ(std::get<FillRequest>(request_of(tool, {}, {0.0F, -1.0F, 0.0F}, 1, palette)).material,
-              palette.named(row.name));
-  }
-  change(tool, Action::next_material, palette);
-  EXPECT_EQ(tool.material, "");
-  tool.use = ToolUse::paint;
-  EXPECT_EQ(material_of(tool, palette), Material{}) << "paint is always of one";
-  tool.material = "brick";
-  EXPECT_EQ(material_of(tool, *plain_palette()), Material{});
-  EXPECT_EQ(tool.material, "brick") << "for the next world";
-}
-
-TEST(Tool, actions_stay_within_the_ranges) {
-  Tool tool;
-  for (const Action action : {Action::larger, Action::stronger, Action::more_seeds})
-    for (int i = 0; i < 100; ++i) change(tool, action);
-  EXPECT_EQ(tool.radius_m, tool_radius_max_m);
-  EXPECT_EQ(tool.blast_speed_m_s, limits::blast_speed_max_m_s);
-  EXPECT_EQ(tool.seeds, tool_seeds_max);
-  for (const Action action : {Action::smaller, Action::weaker, Action::fewer_seeds})
-    for (int i = 0; i < 100; ++i) change(tool, action);
-  EXPECT_EQ(tool.radius_m, tool_radius_min_m);
-  EXPECT_EQ(tool.blast_speed_m_s, 0.0F);
-  EXPECT_GE(seeds_of(tool), 1U);
-  change(tool, Action::box);
-  change(tool, Action::next_tool);
-  EXPECT_EQ(tool.kind, ToolKind::tunnel);
-  change(tool, Action::next_tool);
-  EXPECT_EQ(tool.kind, ToolKind::crater);
-  change(tool, Action::next_tool);
-  EXPECT_EQ(tool.kind, ToolKind::sphere);
-}
-
-TEST(Tool, is_told_with_what_it_does_and_units) {
-  Tool tool;
-  EXPECT_EQ(describe(tool), "carve: crater, radius 2.00 m, blast 6 m/s, natural, about 20 pieces");
-  tool.use = ToolUse::fill;
-  tool.kind = ToolKind::box;
-  EXPECT_EQ(describe(tool), "fill: box, radius 2.00 m");
-  tool.use = ToolUse::paint;
-  tool.material = "ice";
-  EXPECT_EQ(describe(tool), "paint: box, radius 2.00 m, ice");
-}
-
-TEST(Tool, patterns_and_tools_go_round_and_none_is_offered_that_needs_points) {
-  Tool tool;
-  std::set<SeedPattern> patterns;
-  for (size_t i = 0; i < 2 * kind_count<SeedPattern>; ++i) {
-    change(tool, Action::next_pattern);
-    EXPECT_TRUE(asks_no_points(tool.pattern)) << name_of(tool.pattern);
-    patterns.insert(tool.pattern);
-  }
-  EXPECT_EQ(patterns.size(), pointless_patterns.size());
-  tool.pattern = SeedPattern::authored;
-  change(tool, Action::next_pattern);
-  EXPECT_TRUE(asks_no_points(tool.pattern));
-  std::set<ToolKind> tools;
-  for (size_t i = 0; i < kind_count<ToolKind>; ++i) {
-    change(tool, Action::next_tool);
-    tools.insert(tool.kind);
-  }
-  EXPECT_EQ(tools.size(), kind_count<ToolKind>);
 }
 
 TEST(Gamepad, sticks_fly_and_worn_ones_rest) {

@@ -25,7 +25,8 @@ TEST_F(ViewerWindow, draws_with_all_of_the_hud_and_goes_on_without_a_server) {
 TEST_F(ViewerWindow, shows_what_the_servers_bodies_do_when_the_overlay_asks) {
   open(320, 200);
   run_until([&] { return viewing_->joined(steady_now_s()); }, "the world");
-  viewing_->session.strike(Tool{}, viewing_->camera.eye_m, viewing_->camera.forward(), steady_now_s());
+  viewing_->session.strike(carving_tool(), viewing_->camera.eye_m, viewing_->camera.forward(),
+                           steady_now_s());
   run_until(
       [&] {
         const PhysicsMessage* physics = viewing_->session.physics();
@@ -42,30 +43,30 @@ TEST_F(ViewerHand, turns_sound_off_and_on_by_a_key) {
   options_.sound = true;
   join(320, 200);
   EXPECT_TRUE(app_->settings().sound);
-  hand("key u");
+  hand("key x");
   run_until([&] { return !app_->settings().sound; }, "silence");
-  hand("key u");
+  hand("key x");
   run_until([&] { return app_->settings().sound; }, "sound");
 }
 
-TEST_F(ViewerHand, shows_hides_asks_and_ends_by_keys) {
+TEST_F(ViewerHand, shows_hides_and_ends_by_keys) {
   join(640, 360);
   run_until(
       [&] {
         return shown(PanelPlace::upper_left) && shown(PanelPlace::lower_left) &&
-               shown(PanelPlace::upper_right) && shown(PanelPlace::lower_right) && shown(PanelPlace::bottom);
+               shown(PanelPlace::upper_right) && shown(PanelPlace::lower_right) && shown(PanelPlace::lowest);
       },
       "everything");
   for (size_t i = 0; i < panel_places; ++i)
     for (size_t j = 0; j < i; ++j) EXPECT_FALSE(intersect(app_->panels()[i], app_->panels()[j]));
   hand("key F1");
   run_until([&] { return app_->panels() == PanelRectangles{}; }, "the picture alone");
+  hand("key Escape key m");
+  run_until([&] { return window_->has_menu(); }, "the menu, seen all the same");
   hand("key Escape");
-  run_until([&] { return window_->asks_to_end() && shown(PanelPlace::bottom); },
-            "the question, seen all the same");
-  hand("key m");
-  run_until([&] { return !window_->asks_to_end(); }, "no");
+  run_until([&] { return !window_->has_menu(); }, "the world again");
   EXPECT_FALSE(window_->should_close());
+  EXPECT_EQ(app_->settings().method, options_.method->name) << "a key that the menu got did nothing else";
   hand("key F1 key g key p key h");
   run_until(
       [&] {
@@ -73,9 +74,90 @@ TEST_F(ViewerHand, shows_hides_asks_and_ends_by_keys) {
                !shown(PanelPlace::upper_right) && !shown(PanelPlace::lower_left);
       },
       "figures alone: after all the help comes none");
-  EXPECT_EQ(app_->settings().method, options_.method->name) << "the key that said no did nothing else";
-  hand("key Escape key Return");
-  run_until([&] { return window_->should_close(); }, "the end");
+  hand("key Escape");
+  run_until([&] { return window_->has_menu(); }, "the menu");
+  hand("key Down key Down key Return");
+  run_until([&] { return window_->should_close(); }, "the end, by the menu's last button");
+}
+
+TEST_F(ViewerHand, escape_frees_the_mouse_first) {
+  join(320, 200);
+  capture_mouse();
+  hand("key Escape");
+  run_until([&] { return !window_->holds_mouse(); }, "the mouse's freedom");
+  EXPECT_FALSE(window_->has_menu());
+  EXPECT_FALSE(window_->should_close());
+}
+
+TEST_F(ViewerHand, a_newcomer_sees_the_cross_a_tool_line_and_one_hint) {
+  settings_ = Settings{};
+  join(1280, 720);
+  run_until([&] { return shown(PanelPlace::lowest) && shown(PanelPlace::bottom); }, "line and hint");
+  float shown_pixels = 0.0F;
+  for (const Rectangle& one : app_->panels()) shown_pixels += one.size.x * one.size.y;
+  EXPECT_LT(shown_pixels, 0.08F * 1280.0F * 720.0F);
+  for (const PanelPlace place : {PanelPlace::top, PanelPlace::upper_left, PanelPlace::lower_left,
+                                 PanelPlace::upper_right, PanelPlace::lower_right})
+    EXPECT_FALSE(shown(place)) << static_cast<int>(place);
+  EXPECT_EQ(app_->settings().tool.use, ToolUse::dig);
+}
+
+/// The whole way by keys, from a window that nobody has touched.
+TEST_F(ViewerHand, digs_ten_times_at_one_spot_by_the_keyboard_alone) {
+  settings_ = Settings{};
+  join(640, 360);
+  hand("keydown Down");
+  run_until([&] { return viewing_->camera.pitch < -1.5F; }, "the ground below");
+  hand("keyup Down");
+  const glm::vec3 eye_m = viewing_->camera.eye_m;
+  const auto answers = [&] { return viewing_->session.answer().number; };
+  for (uint32_t strike = 1; strike <= 10; ++strike) {
+    hand("key e");
+    run_until([&] { return answers() == strike; }, "the answer");
+    EXPECT_EQ(viewing_->session.answer().refused, "");
+  }
+  EXPECT_FALSE(window_->holds_mouse());
+  EXPECT_EQ(viewing_->camera.eye_m, eye_m);
+  run_until([&] { return viewing_->session.predictions() == 0; }, "the server's digs");
+  const auto bottom_m = viewing_->session.aim(eye_m, viewing_->camera.forward());
+  ASSERT_TRUE(bottom_m);
+  EXPECT_LT(bottom_m->y, -3.0F) << "dug from flat ground at 0 m";
+  RecordProperty("depth_m", std::to_string(-bottom_m->y));
+  const auto& carried = viewing_->session.holder().carried;
+  const auto& status = viewing_->session.mirror()->status();
+  const auto sum = [&] {
+    MassUnits all = 0;
+    for (const MaterialMass& one : carried) all += one.mass;
+    return all;
+  };
+  run_until([&] { return sum() > 0 && status && status->ledger_stored == sum(); },
+            "the ledger with what is carried");
+  EXPECT_EQ(status->ledger_terrain + status->ledger_pieces + status->ledger_dust + status->ledger_stored,
+            status->ledger_poured);
+  const MassUnits dug = sum();
+  hand("key 2 key e");
+  run_until([&] { return answers() == 11; }, "what was placed");
+  EXPECT_EQ(viewing_->session.answer().refused, "");
+  EXPECT_LT(sum(), dug);
+  hand("key u");
+  run_until([&] { return viewing_->session.holder().carried.empty(); }, "the world's store to have it");
+  hand("key e");
+  run_until([&] { return answers() == 13; }, "that there is nothing to place");
+  EXPECT_EQ(viewing_->session.answer().refused, "you carry nothing");
+}
+
+TEST_F(ViewerHand, a_key_that_is_held_digs_again_and_again) {
+  settings_ = Settings{};
+  join(320, 200);
+  hand("keydown e");
+  run_until([&] { return viewing_->session.answer().number >= 4; }, "four digs");
+  hand("keyup e");
+  frames(3);
+  run_until([&] { return viewing_->session.predictions() == 0; }, "all answers");
+  frames(10);
+  const uint32_t number = viewing_->session.answer().number;
+  frames(10);
+  EXPECT_EQ(viewing_->session.answer().number, number);
 }
 
 TEST_F(ViewerHand, the_first_click_takes_the_mouse_and_the_second_strikes) {

@@ -51,6 +51,16 @@ TEST(Walker, walks_up_what_is_not_too_steep_and_stays_there) {
   EXPECT_LT(glm::distance(walker.feet_m(), top_m), 0.3F);
 }
 
+TEST(Walker, covers_its_way_at_three_frames_a_second_as_at_sixty) {
+  PlaneGround flat(0.0F);
+  Walker slow({0.0F, 0.0F, 0.0F}), quick({0.0F, 0.0F, 0.0F});
+  const WalkInput ahead{.go = {1.0F, 0.0F, 0.0F}};
+  for (int i = 0; i < 9; ++i) slow.step(ahead, 1.0F / 3.0F, flat);
+  for (int i = 0; i < 180; ++i) quick.step(ahead, 1.0F / 60.0F, flat);
+  EXPECT_NEAR(slow.feet_m().x, quick.feet_m().x, 0.1F);
+  EXPECT_GT(quick.feet_m().x, 6.0F);
+}
+
 TEST(Walker, slides_down_what_is_too_steep) {
   PlaneGround slope(65.0F);
   Walker walker({0.0F, 1.0F, 0.0F});

@@ -110,8 +110,14 @@ void keys_move_and_act_once() {
   input.turn(1.0F, 0.0F);
   input.strike();
   intents = input.drain(0.02F);
-  CHECK(intents.fly.turn == glm::vec2(4.0F, -2.0F) && intents.strike);
-  CHECK(!input.drain(0.02F).strike);
+  CHECK(intents.fly.turn == glm::vec2(4.0F, -2.0F) && intents.strikes == 1);
+  CHECK(input.drain(0.02F).strikes == 0);
+  CHECK(input.key("KeyE", true) && input.key("ArrowLeft", true) && input.key("ArrowDown", true));
+  intents = input.drain(0.02F);
+  CHECK(intents.strikes == 1 && intents.strike_held && intents.actions.empty());
+  CHECK(intents.turn_keys == glm::vec2(-1.0F, 1.0F));
+  input.keys_up();
+  CHECK(!input.drain(0.02F).strike_held);
 }
 
 void a_gamepad_of_the_standard_mapping_is_the_viewers() {
@@ -119,12 +125,12 @@ void a_gamepad_of_the_standard_mapping_is_the_viewers() {
   PadState sticks;
   sticks.left_trigger = sticks.right_trigger = 0.0F;
   input.pad(sticks, 0);
-  CHECK(!input.drain(0.02F).strike);
+  CHECK(input.drain(0.02F).strikes == 0);
   sticks.left_y = -1.0F;
   sticks.right_trigger = 1.0F;
   input.pad(sticks, 1U << 12U);  // up, on the cross
   const PageIntents intents = input.drain(0.02F);
-  CHECK(intents.strike && intents.fly.move.z > 0.9F);
+  CHECK(intents.strikes == 1 && intents.strike_held && intents.fly.move.z > 0.9F);
   CHECK(intents.actions == std::vector{Action::stronger});
   CHECK(input.drain(0.02F).fly.move.z == 0.0F);  // it is gone
 }

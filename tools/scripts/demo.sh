@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The demo: a server on the canyon, a viewer, and a bot that carves. `./scree demo` builds the programs first.
-# With a display a window opens, to play in until it is closed. Without one the viewer draws offscreen and
+# With a display a window opens, to play in until it is closed; a second server replays the first one's recording, so that J
+# rewinds there. Without one the viewer draws offscreen and
 # leaves before.png, blast.png and settled.png, and browser.png where Chromium can draw the page. Either way a summary of the session follows.
 set -euo pipefail
 
@@ -16,7 +17,7 @@ area_m=10 stage_m=(9 4) world=(--terrain canyon --spawn 30,9,19,63,-7)
 blast_pieces=100
 
 out="$root/out/demo" scene='' carves=20 seed=7 rate=3 offscreen=auto size=1280x720
-server_pid='' viewer_pid='' bot_pid=''
+server_pid='' past_pid='' viewer_pid='' bot_pid=''
 
 usage() {
   cat <<'TEXT'
@@ -68,7 +69,7 @@ parse() {
 # Ends what is still running, and only that.
 cleanup() {
   local pid
-  for pid in $viewer_pid $bot_pid $server_pid; do
+  for pid in $viewer_pid $bot_pid $past_pid $server_pid; do
     kill -TERM "$pid" 2>/dev/null || true
   done
   wait
@@ -103,8 +104,9 @@ make_scene() {
   mapfile -t stage_m < <(jq -r '.centre[]' "$out/scene.json")
 }
 
+# start_server [OPTIONS…]
 start_server() {
-  "$bin/scree-server" --host 127.0.0.1 --port 0 "${world[@]}" --report "$out/server.json" \
+  "$bin/scree-server" --host 127.0.0.1 --port 0 "${world[@]}" --report "$out/server.json" "$@" \
     >"$out/server.out" 2>"$out/server.log" &
   server_pid=$!
   wait_until "$start_s_max" "$server_pid" "the server should listen" "$out/server.log" \
@@ -112,7 +114,14 @@ start_server() {
   port=$(jq -r 'select(.listening) | .listening' "$out/server.out")
   say "the server listens on port $port"
   page=$(jq -r 'select(.page) | .page' "$out/server.out")
-  [[ -z $page ]] || say "in a browser: $page"
+}
+
+# start_past: another server, which replays what the first one records, a second behind.
+start_past() {
+  "$bin/scree-server" --host 127.0.0.1 --port 0 --replay "$out/session.scree" >"$out/past.out" 2>"$out/past.log" &
+  past_pid=$!
+  wait_until "$start_s_max" "$past_pid" "the replay should listen" "$out/past.log" grep -qs '"listening"' "$out/past.out"
+  past=$(jq -r 'select(.listening) | .listening' "$out/past.out")
 }
 
 # start_bot SECONDS: carves, stays until all has settled, then compares its hash with the server's.
@@ -125,8 +134,10 @@ start_bot() {
 }
 
 play_in_window() {
+  start_past
+  [[ -z $page ]] || say "in a browser: $page#past=$past"
   say "close the window to end the demo"
-  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --size "$size" \
+  "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --past "$past" --size "$size" \
     >"$out/viewer.log" 2>&1 &
   viewer_pid=$!
   start_bot 86400 # the player may go on for as long as they like
@@ -163,6 +174,11 @@ draw_page() {
 }
 
 stop_server() {
+  if [[ -n $past_pid ]]; then
+    kill -TERM "$past_pid"
+    wait_for_exit "$start_s_max" "$past_pid" "the replay" "$out/past.log"
+    past_pid=''
+  fi
   kill -TERM "$server_pid"
   wait_for_exit "$start_s_max" "$server_pid" "the server" "$out/server.log"
   server_pid=''
@@ -194,13 +210,15 @@ main() {
   parse "$@"
   mkdir -p "$out"
   out=$(cd "$out" && pwd)
-  rm -f "$out"/scene.{world,world-wal,world-shm,json} "$out"/{server,bot}.{json,out,log} "$out"/{viewer,browser}.log "$out"/{before,blast,settled,browser}.png
+  rm -f "$out"/scene.{world,world-wal,world-shm,json} "$out"/session.scree{,-wal,-shm} "$out"/{server,bot,past}.{json,out,log} "$out"/{viewer,browser}.log "$out"/{before,blast,settled,browser}.png
   trap cleanup EXIT
   [[ -z $scene ]] || make_scene
-  start_server
   if [[ $offscreen == auto && -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
+    start_server --record "$out/session.scree"
     play_in_window
   else
+    start_server
+    [[ -z $page ]] || say "in a browser: $page"
     draw_pictures
     draw_page
   fi

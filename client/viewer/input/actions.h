@@ -12,14 +12,16 @@
 namespace scree {
 
 enum class Action : uint8_t {
-  next_method,
-  sphere,
-  box,
-  tunnel,
-  crater,
+  strike,
+  dig,
+  place,
+  carve,
+  fill,
+  paint,
   next_tool,
   next_use,
   next_material,
+  give_away,
   larger,
   smaller,
   stronger,
@@ -27,6 +29,7 @@ enum class Action : uint8_t {
   next_pattern,
   more_seeds,
   fewer_seeds,
+  next_method,
   walk,
   narrower_view,
   wider_view,
@@ -47,6 +50,7 @@ enum class Action : uint8_t {
   replay_next_event,
   replay_start,
   replay_end,
+  present,
   picture,
   copy_place,
   record_path,
@@ -55,16 +59,20 @@ enum class Action : uint8_t {
   mute,
   overlay,
   figures,
+  all_figures,
   graphs,
   panel,
   help,
   hide,
   full_screen,
   free_mouse,
-  end,
+  menu,
 };
 
 inline constexpr int unbound = -1;
+
+/// Whose controls are told: a live world has no timeline, and a replay is not changed.
+enum class ControlsOf : uint8_t { live, replay, both };
 
 struct Binding {
   Action action;
@@ -74,7 +82,7 @@ struct Binding {
   std::string_view key_name;
   std::string_view button_name;
   std::string_view does;
-  bool of_replay = false;  ///< it does something in replays alone
+  ControlsOf of = ControlsOf::both;  ///< where alone it does something
 };
 
 /// How much of the controls is told; a key goes through them, round.
@@ -102,9 +110,6 @@ std::optional<Action> action_named(std::string_view name);
 constexpr Telling after(Telling telling) {
   return static_cast<Telling>((static_cast<size_t>(telling) + 1) % kind_count<Telling>);
 }
-
-/// Whose controls are told: a live world has no timeline, and a replay is not changed.
-enum class ControlsOf : uint8_t { live, replay, both };
 
 /// A description of the controls by keys and mouse, and by gamepad if wanted, one line each.
 std::string describe_controls(Telling telling, bool gamepad, ControlsOf of);

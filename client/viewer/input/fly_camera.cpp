@@ -12,10 +12,19 @@ constexpr float speed_m_s = 9.0F;
 constexpr float fast_factor = 4.0F;
 constexpr float radians_per_pixel = 0.0025F;
 constexpr float pitch_max = 1.55F;
-/// Longest step, seconds: after a stall, the camera does not jump.
-constexpr float step_max_s = 0.1F;
+/// Longest step, seconds: after a stall, the camera does not jump. Slow machines draw three frames a second.
+constexpr float step_max_s = 0.5F;
+
+/// Of the mouse's: a quarter of a circle a second.
+constexpr float key_pixels_per_s = 630.0F;
+/// A slower frame turns no farther by a key: a short press must not miss what it is aimed at.
+constexpr float key_step_max_s = 0.1F;
 
 }  // namespace
+
+glm::vec2 turn_by_keys(glm::vec2 keys, float elapsed_s) {
+  return keys * (key_pixels_per_s * glm::min(elapsed_s, key_step_max_s));
+}
 
 void fly(Camera& camera, const FlyInput& input, float elapsed_s) {
   camera.yaw -= input.turn.x * radians_per_pixel;

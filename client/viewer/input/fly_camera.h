@@ -15,6 +15,9 @@ struct FlyInput {
   glm::vec2 turn{0.0F};  ///< mouse, pixels to the right and down
 };
 
+/// The turn of a frame by keys: right and down, −1 to 1.
+glm::vec2 turn_by_keys(glm::vec2 keys, float elapsed_s);
+
 /// Stays within the world and short of straight up and down.
 void fly(Camera& camera, const FlyInput& input, float elapsed_s);
 

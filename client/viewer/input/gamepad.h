@@ -27,6 +27,7 @@ class Gamepad {
   std::vector<Action> step(const PadState& now, float elapsed_s, FlyInput& fly);
   /// The right trigger went down in the last step.
   bool struck() const { return struck_; }
+  bool holds_trigger() const { return before_.right_trigger > 0.0F; }
 
  private:
   PadState before_;

@@ -24,6 +24,14 @@ T next(const std::array<T, n>& all, T one) {
   return found == all.end() || found + 1 == all.end() ? all.front() : *(found + 1);
 }
 
+/// Of those that one carries, the one after that which is placed.
+std::string next_carried(const Tool& tool, const MaterialMasses& carried, const Palette& palette) {
+  const std::optional<Material> now = placed_by(tool, carried, palette);
+  if (!now) return tool.material;
+  const auto after = std::ranges::find_if(carried, [&](const auto& one) { return one.material > *now; });
+  return palette.row_or_first((after == carried.end() ? carried.front() : *after).material).name;
+}
+
 /// Where a click fills, no name at all comes before the first.
 std::string next_material(const Tool& tool, const Palette& palette) {
   const std::optional<Material> now = material_of(tool, palette);
@@ -72,20 +80,28 @@ std::optional<Material> material_of(const Tool& tool, const Palette& palette) {
   return palette.named(tool.material).value_or(Material{});
 }
 
+std::optional<Material> placed_by(const Tool& tool, const MaterialMasses& carried, const Palette& palette) {
+  if (carried.empty()) return std::nullopt;
+  const auto chosen = std::ranges::find_if(
+      carried, [&](const auto& one) { return palette.row_or_first(one.material).name == tool.material; });
+  if (chosen != carried.end()) return chosen->material;
+  return std::ranges::max_element(carried, {}, &MaterialMass::mass)->material;
+}
+
 Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t number,
-                   const Palette& palette) {
+                   const ToolHolder& holder) {
   const Shape shape = shape_of(tool, hit_m, direction);
   switch (tool.use) {
     case ToolUse::carve:
       break;
     case ToolUse::fill:
-      return FillRequest{shape, material_of(tool, palette)};
+      return FillRequest{shape, material_of(tool, holder.palette)};
     case ToolUse::paint:
-      return PaintRequest{shape, *material_of(tool, palette)};
+      return PaintRequest{shape, *material_of(tool, holder.palette)};
     case ToolUse::dig:
       return DigRequest{shape};
     case ToolUse::place:
-      return PlaceRequest{shape, *material_of(tool, palette)};
+      return PlaceRequest{shape, *placed_by(tool, holder.carried, holder.palette), holder.may_build};
   }
   CarveRequest carve;
   carve.shape = shape;
@@ -95,6 +111,11 @@ Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint3
   carve.impact_m = hit_m;
   carve.blast_speed_m_s = tool.blast_speed_m_s;
   return carve;
+}
+
+void take_up(Tool& tool, ToolUse use) {
+  if (tool.radius_m == traits_of(tool.use).usual_radius_m) tool.radius_m = traits_of(use).usual_radius_m;
+  tool.use = use;
 }
 
 void grow(Tool& tool, float notches) {
@@ -113,31 +134,29 @@ std::string describe(const Tool& tool) {
          " pieces";
 }
 
-void change(Tool& tool, Action action, const Palette& palette) {
+void change(Tool& tool, Action action, const Palette& palette, const MaterialMasses& carried) {
   const auto faster = [&](float by_m_s) {
     tool.blast_speed_m_s = std::clamp(tool.blast_speed_m_s + by_m_s, 0.0F, limits::blast_speed_max_m_s);
   };
   switch (action) {
-    case Action::sphere:
-      tool.kind = ToolKind::sphere;
-      break;
-    case Action::box:
-      tool.kind = ToolKind::box;
-      break;
-    case Action::tunnel:
-      tool.kind = ToolKind::tunnel;
-      break;
-    case Action::crater:
-      tool.kind = ToolKind::crater;
-      break;
+    case Action::dig:
+      return take_up(tool, ToolUse::dig);
+    case Action::place:
+      return take_up(tool, ToolUse::place);
+    case Action::carve:
+      return take_up(tool, ToolUse::carve);
+    case Action::fill:
+      return take_up(tool, ToolUse::fill);
+    case Action::paint:
+      return take_up(tool, ToolUse::paint);
     case Action::next_tool:
       tool.kind = next(all_kinds<ToolKind>, tool.kind);
       break;
     case Action::next_use:
-      tool.use = next(all_kinds<ToolUse>, tool.use);
-      break;
+      return take_up(tool, next(all_kinds<ToolUse>, tool.use));
     case Action::next_material:
-      tool.material = next_material(tool, palette);
+      tool.material =
+          tool.use == ToolUse::place ? next_carried(tool, carried, palette) : next_material(tool, palette);
       break;
     case Action::next_pattern:
       tool.pattern = next(tool_patterns, tool.pattern);

@@ -12,8 +12,9 @@ namespace scree {
 namespace {
 
 constexpr double ask_again_s = 1.0;
-/// A longer frame is shortened: after a stall, nobody has walked on.
-constexpr float frame_max_s = 0.1F;
+/// A longer frame is shortened: after a stall, nobody has walked on. Slow machines draw three frames a
+/// second.
+constexpr float frame_max_s = 0.5F;
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <glm/geometric.hpp>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "client/connection/come_again.h"
 #include "client/session/edit_reach.h"
 #include "client/viewer/base/limits.h"
+#include "client/viewer/session/refusal_words.h"
 #include "proto/person_name.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
@@ -37,8 +39,7 @@ std::string told_of_paint(uint32_t bricks) {
 
 std::string told_of_reach(float away_m, float most_m) {
   std::array<char, 128> words{};
-  std::snprintf(words.data(), words.size(),
-                "This lies %.0f m away, and this server lets you edit %g m from your eye (reach): go nearer",
+  std::snprintf(words.data(), words.size(), "This is %.0f m away, and you reach %g m: go nearer",
                 static_cast<double>(away_m), static_cast<double>(most_m));
   return words.data();
 }
@@ -46,9 +47,7 @@ std::string told_of_reach(float away_m, float most_m) {
 }  // namespace
 
 ViewerSession::ViewerSession(std::unique_ptr<Connector> connector, SessionChoice choice)
-    : choice_(std::move(choice)),
-      client_(std::move(connector), {.cache = choice_.cache, .delayed = true}),
-      retry_s_(limits::reconnect_min_s) {
+    : choice_(std::move(choice)), client_(std::move(connector), {.cache = choice_.cache, .delayed = true}) {
   client_.predict(true);
 }
 
@@ -105,6 +104,9 @@ void ViewerSession::begin(const Client::Joined& joined, double now_s, SessionSte
   asked_s_.clear();
   step.new_mirror = true;
   step.other_world = joined.other_world;
+  if (joined.other_world && was_here_)
+    show_notice("This is another world: the server began it while you were away.", now_s);
+  was_here_ = true;
   tick_rate_hz_ = welcome()->tick_rate_hz;
   pace_.start(tick_rate_hz_);
   foreseen_walk_.emplace(welcome()->tick_rate_hz);
@@ -125,13 +127,14 @@ void ViewerSession::lose(double now_s, const ConnectionEnd& end) {
   conversation_.begin();
   timeline_.begin(tick_rate_hz_);
   physics_.reset();
-  trouble_ = end.message;
+  trouble_ = without_options(end.message);
   gave_up_ = !may_come_again(end.refusal);
-  if (connected_since_s_ && now_s - *connected_since_s_ >= limits::reconnect_worth_s)
-    retry_s_ = limits::reconnect_min_s;
+  if (connected_since_s_ && now_s - *connected_since_s_ >= limits::reconnect_worth_s) failures_ = 0;
   connected_since_s_.reset();
-  next_try_s_ = now_s + retry_s_;
-  retry_s_ = std::min(2.0 * retry_s_, limits::reconnect_max_s);
+  const int doubled = static_cast<int>(failures_) + 1 - static_cast<int>(limits::reconnect_first);
+  next_try_s_ = now_s + std::min(std::ldexp(limits::reconnect_min_s, std::clamp(doubled, 0, 30)),
+                                 limits::reconnect_max_s);
+  ++failures_;
   bytes_per_s_ = 0.0;
 }
 
@@ -166,11 +169,17 @@ void ViewerSession::settle(const ReplyMessage& reply, double arrived_s, double n
   if (const auto asked = asked_s_.find(reply.request); asked != asked_s_.end()) {
     latency_ = {(arrived_s - asked->second) * 1000.0, reply.latency};
     asked_s_.erase(asked);
+    if (reply.refusal.empty()) answer_ = {{}, now_s, answer_.number + 1};
   }
   if (reply.refusal.empty() && !reply.painted) return;
   if (reply.refusal.empty()) return show_notice(told_of_paint(*reply.painted), now_s);
   timeline_.refused();
-  show_notice(reply.refusal, now_s);
+  refuse(without_options(reply.refusal), reply.refusal_name, now_s);
+}
+
+void ViewerSession::refuse(std::string words, std::string_view refusal, double now_s) {
+  answer_ = {std::string(in_brief(refusal)), now_s, answer_.number + 1};
+  show_notice(std::move(words), now_s);
 }
 
 void ViewerSession::show_notice(std::string words, double now_s) {
@@ -338,11 +347,32 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
   if (!hit_m) return;
   const Shape shape = shape_of(tool, *hit_m, direction);
   if (is_beyond_reach(shape, from_m))
-    return show_notice(told_of_reach(distance(shape, from_m), *reach_m()), now_s);
+    return refuse(told_of_reach(distance(shape, from_m), *reach_m()), "reach", now_s);
+  const ToolHolder by = holder();
+  if (tool.use == ToolUse::place && by.carried.empty())
+    return refuse("You carry nothing to place: dig some rock first", "store_missing", now_s);
+  ask(request_of(tool, *hit_m, direction, requests_ + 1, by), now_s);
+}
+
+void ViewerSession::ask(const Request& request, double now_s) {
   ++requests_;
   if (asked_s_.size() >= limits::own_requests_timed_max) asked_s_.erase(asked_s_.begin());
   asked_s_[requests_] = now_s;
-  client_.ask(request_of(tool, *hit_m, direction, requests_, palette()), requests_, now_s);
+  client_.ask(request, requests_, now_s);
+}
+
+void ViewerSession::give_away(double now_s) {
+  if (!connected()) return;
+  if (holder().carried.empty()) return refuse("You carry nothing to give away", "store_missing", now_s);
+  ask(TransferRequest{.from = {}, .to = worlds_store()}, now_s);
+  show_notice("What you carried is in the world's store now", now_s);
+}
+
+ToolHolder ViewerSession::holder() const {
+  static const MaterialMasses nothing;
+  const Mirror* const mirror = client_.mirror();
+  return {palette(), mirror == nullptr ? nothing : mirror->carried(),
+          welcome() != nullptr && may_act_as(welcome()->role, Role::builder)};
 }
 
 std::string ViewerSession::description() const {

@@ -97,8 +97,19 @@ class ViewerSession {
   /// Who this person is to regions, as far as it is known here: the name counts if a token states it.
   Asker asker() const { return {welcome() == nullptr ? Role::viewer : welcome()->role, choice_.name}; }
   /// Requests what the tool does at the point where the ray meets rock; does nothing if it meets none. Beyond
-  /// the server's reach there is a notice instead.
+  /// the server's reach, or with nothing to place, there is a notice instead.
   void strike(const Tool& tool, glm::vec3 from_m, glm::vec3 direction, double now_s);
+  /// Requests that all of the own store goes to the world's.
+  void give_away(double now_s);
+  /// What one carries, and what one may do with it.
+  ToolHolder holder() const;
+  /// What became of the last strike: why it did nothing, in three words; empty: it was carried out.
+  struct Answer {
+    std::string refused;
+    double at_s = 0.0;
+    uint32_t number = 0;  ///< of the answers so far
+  };
+  const Answer& answer() const { return answer_; }
   /// The way of the last request that was answered, by stages; none before the first.
   const std::optional<RequestLatency>& latency() const { return latency_; }
 
@@ -126,14 +137,16 @@ class ViewerSession {
   glm::vec3 interest_m() const { return client_.eye_m(); }
   float interest_radius_m() const { return choice_.interest_radius_m; }
 
-  /// For display: the state of the connection, in one line; why the last request did nothing, for some
-  /// seconds.
+  /// For display: the state of the connection, in one line; why the last request did nothing, or what else
+  /// there is to know, for some seconds.
   std::string description() const;
   std::string notice(double now_s) const;
   /// Whether the server refused for a reason that stays (may_come_again): there is no other attempt.
   bool gave_up() const { return gave_up_; }
   /// Seconds until the next attempt; nothing while there is a connection, or an attempt.
   std::optional<double> next_try_s(double now_s) const;
+  /// The next attempt is now.
+  void try_now() { next_try_s_ = 0.0; }
   /// What the world is made of, as far as it has come.
   const Palette& palette() const {
     return client_.mirror() == nullptr ? *plain_palette() : *client_.mirror()->palette();
@@ -162,6 +175,8 @@ class ViewerSession {
   void apply(const Client::Applied& applied, double now_s, SessionStep& step);
   void settle(const ReplyMessage& reply, double arrived_s, double now_s);
   void show_notice(std::string words, double now_s);
+  void refuse(std::string words, std::string_view refusal, double now_s);
+  void ask(const Request& request, double now_s);
   std::optional<float> reach_m() const;
   void add_bodies(double now_s, std::vector<PlayerCursor>& all, PersonFacts& facts);
   std::optional<uint64_t> person_of(PieceId body, const Prop& prop) const;
@@ -179,10 +194,11 @@ class ViewerSession {
   double tick_rate_hz_ = 60.0;
   ScenePieces pieces_;
   SceneProps props_;
-  std::string trouble_;   ///< the reason for the missing connection
-  bool gave_up_ = false;  ///< the server refused for a reason that stays (may_come_again)
+  std::string trouble_;    ///< the reason for the missing connection
+  bool was_here_ = false;  ///< connected before
+  bool gave_up_ = false;   ///< the server refused for a reason that stays (may_come_again)
   double next_try_s_ = 0.0;
-  double retry_s_;  ///< from the next loss to the attempt after it
+  uint32_t failures_ = 0;  ///< attempts that led to nothing since a connection that was worth something
   std::optional<double> connected_since_s_;
   double next_report_s_ = 0.0;
   double next_cursor_s_ = 0.0;
@@ -201,6 +217,7 @@ class ViewerSession {
   uint32_t requests_ = 0;
   std::map<uint32_t, double> asked_s_;  ///< when, by request that is not answered
   std::optional<RequestLatency> latency_;
+  Answer answer_;
   std::string notice_;
   double notice_until_s_ = 0.0;
   double rate_since_s_ = 0.0;

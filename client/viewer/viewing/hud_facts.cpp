@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <glm/trigonometric.hpp>
 
+#include "client/session/edit_reach.h"
 #include "client/viewer/base/limits.h"
 #include "shared/field/mass.h"
 
@@ -20,16 +21,25 @@ std::string place_of(const Camera& camera) {
   return text;
 }
 
-std::string carried_text(const Mirror& mirror, const Palette& palette) {
-  std::string text;
+/// Seconds for which a hit is marked at the cross, and a refusal, which has words to read.
+constexpr double hit_shown_s = 0.25, refusal_shown_s = 1.5;
+
+std::vector<CarriedRow> carried_rows(const Mirror& mirror, const Palette& palette) {
+  std::vector<CarriedRow> rows;
   const double voxel_m = mirror.terrain().voxel_size_m;
   for (const MaterialMass& one : mirror.carried()) {
-    char volume[32];
-    std::snprintf(volume, sizeof volume, "%.2f m³ ",
-                  static_cast<double>(one.mass) / units_per_voxel * voxel_m * voxel_m * voxel_m);
-    text += (text.empty() ? "" : ", ") + (volume + palette.row_or_first(one.material).name);
+    const MaterialRow& row = palette.row_or_first(one.material);
+    rows.push_back({row.name, row.look.colour,
+                    static_cast<double>(one.mass) / units_per_voxel * voxel_m * voxel_m * voxel_m});
   }
-  return text;
+  return rows;
+}
+
+void mark_strike(HudFacts& facts, const ViewerSession::Answer& answer, double now_s) {
+  const bool refused = !answer.refused.empty();
+  if (answer.number == 0 || now_s - answer.at_s > (refused ? refusal_shown_s : hit_shown_s)) return;
+  facts.mark = refused ? StrikeMark::refused : StrikeMark::hit;
+  facts.refused = answer.refused;
 }
 
 }  // namespace
@@ -46,6 +56,8 @@ HudFacts FactFinder::find(Visit& visit, double now_s) {
   facts.lost = !session.connected();
   facts.bytes_per_s = session.received_bytes_per_s();
   facts.notice = session.notice(now_s);
+  facts.retry_s = session.next_try_s(now_s);
+  mark_strike(facts, session.answer(), now_s);
   facts.latency = session.latency();
   facts.predictions = session.predictions();
   facts.driver = visit.view->renderer().description();
@@ -60,7 +72,8 @@ HudFacts FactFinder::find(Visit& visit, double now_s) {
     facts.pieces_near = mirror->pieces().size();
     facts.props_near = mirror->props().size();
     facts.kept_near = mirror->kept().size();
-    facts.carried = carried_text(*mirror, session.palette());
+    facts.carried = carried_rows(*mirror, session.palette());
+    facts.store_room_m3 = store_room_m3(mirror->status());
     facts.status = mirror->status();
     facts.mismatches = mirror->mismatches();
   }

@@ -1,9 +1,11 @@
 // The facts of a session and its view that the HUD shows.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "client/viewer/viewing/visit.h"
 
@@ -20,6 +22,15 @@ struct Preparing {
   }
 };
 
+/// What became of the last strike.
+enum class StrikeMark : uint8_t { none = 0, hit = 1, refused = 2 };
+
+struct CarriedRow {
+  std::string material;
+  std::array<float, 3> colour{};  ///< linear, of its look
+  double volume_m3 = 0.0;
+};
+
 struct HudFacts {
   std::string connection;  ///< one line
   bool lost = false;       ///< the connection is gone: shown above everything
@@ -30,15 +41,19 @@ struct HudFacts {
   uint64_t lost_ticks = 0;  ///< by which the world is behind the clock
   bool is_replay = false;
   float voxel_size_m = 1.0F;
-  size_t pieces_near = 0;  ///< that the server shows to this viewer
-  size_t props_near = 0;   ///< likewise
-  size_t kept_near = 0;    ///< pieces of these that never become terrain
-  std::string carried;     ///< "1.25 m³ rock, 0.50 m³ soil", of the own store; empty: nothing
+  size_t pieces_near = 0;              ///< that the server shows to this viewer
+  size_t props_near = 0;               ///< likewise
+  size_t kept_near = 0;                ///< pieces of these that never become terrain
+  std::vector<CarriedRow> carried;     ///< by the own store, in the palette's order
+  std::optional<float> store_room_m3;  ///< what it holds at most; nothing: not known
   std::optional<Preparing> preparing;
   std::optional<StatusMessage> status;  ///< the server's last
   double bytes_per_s = 0.0;
   uint64_t mismatches = 0;
-  std::string notice;                     ///< why the last request did nothing, for a while
+  std::string notice;                     ///< why the last request did nothing, or news, for a while
+  StrikeMark mark = StrikeMark::none;     ///< of the last strike, for a moment
+  std::string refused;                    ///< why it was, in three words
+  std::optional<double> retry_s;          ///< until the next attempt to connect
   std::optional<RequestLatency> latency;  ///< of one's own last request
   size_t predictions = 0;                 ///< own carves that the server has not answered
   std::string method;

@@ -93,6 +93,12 @@ void declare_input(CLI::App& app, ViewerOptions& options, Texts& texts) {
                  "Pattern of the pieces of your carves: " + listed(names_of_patterns()) +
                      "; key R changes it (only in a window)")
       ->envname("SCREE_PATTERN");
+  bounded(
+      app.add_option("--past", options.past_port,
+                     "TCP port, on the same host, of a server that replays the recording of this one: key J "
+                     "rewinds (only in a window)"),
+      {1, 65535})
+      ->envname("SCREE_PAST");
   app.add_option("--predict", options.predict,
                  "Show your own carves at once, before the server answers: true or false")
       ->envname("SCREE_PREDICT");
@@ -106,7 +112,7 @@ void declare_input(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_SHAKE");
   app.add_option("--sound", options.sound,
                  "Play the sounds of rock that breaks, strikes and settles, in a window with a sound device: "
-                 "true or false; key U changes it")
+                 "true or false; key X changes it")
       ->envname("SCREE_SOUND");
   app.add_option("--sound-file", options.sound_file,
                  "FILE (WAV) for the sound at the camera, written until the program ends")

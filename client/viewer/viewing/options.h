@@ -44,6 +44,7 @@ struct ViewerOptions : ServerEndpoint {
     bool predict = false;
     bool sound = false;
   } given;
+  std::optional<uint16_t> past_port;    ///< of a server on the same host that replays this one's recording
   OverlayChoice overlay;                ///< shown from the start, and in pictures
   const MethodEntry* method = nullptr;  ///< never null once parsed
   std::optional<Quality> quality;       ///< nothing: by the first frames (AutoQuality)

@@ -109,6 +109,7 @@ Result<Settings> parse_settings(const std::string& text) {
   for (const DrawOption* option : all_draw_options()) reader.option(*option, settings.method_options);
   reader.choice("controls", settings.hud.help, all_kinds<Telling>);
   reader.flag("figures", settings.hud.figures);
+  reader.flag("all_figures", settings.hud.all_figures);
   reader.flag("graphs", settings.hud.graphs);
   reader.flag("panel", settings.hud.panel);
   reader.flag("persons", settings.hud.persons);
@@ -147,6 +148,7 @@ std::string to_text(const Settings& settings) {
                    {"quality", settings.quality ? name_of(*settings.quality) : auto_name},
                    {"controls", name_of(settings.hud.help)},
                    {"figures", settings.hud.figures},
+                   {"all_figures", settings.hud.all_figures},
                    {"graphs", settings.hud.graphs},
                    {"panel", settings.hud.panel},
                    {"persons", settings.hud.persons},

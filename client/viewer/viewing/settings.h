@@ -12,11 +12,12 @@
 namespace scree {
 
 struct HudChoice {
-  Telling help = Telling::basics;
-  bool figures = false;  ///< all of them
+  Telling help = Telling::nothing;
+  bool figures = false;
   bool graphs = false;
-  bool panel = true;
+  bool panel = false;
   bool persons = false;
+  bool all_figures = false;  ///< a developer's
 
   bool operator==(const HudChoice&) const = default;
 };

@@ -1,30 +1,11 @@
 #include "client/viewer/viewing/visit.h"
 
-#include <cmath>
 #include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "client/viewer/session/region_lines.h"
 
 namespace scree {
-namespace {
-
-/// The colour of a shape that the server would refuse as too far away.
-constexpr LineColour beyond_reach_colour{140, 140, 140, 80};
-
-/// The colour of the shape in the person's hand.
-LineColour preview_colour(const Tool& tool, const Palette& palette) {
-  constexpr uint8_t opacity = 150;
-  if (!traits_of(tool.use).has_material) return {255, 236, 170, opacity};
-  const std::optional<Material> material = material_of(tool, palette);
-  if (!material) return {170, 255, 190, opacity};
-  const auto& [r, g, b] = palette.row(*material).look.colour;
-  const auto bright = [](float part) { return static_cast<uint8_t>(255.0F * std::sqrt(part)); };
-  return {bright(r), bright(g), bright(b), opacity};
-}
-
-}  // namespace
-
 Visit::Visit(std::unique_ptr<Connector> connector, SessionChoice session_choice, const VisitChoice& choice,
              std::unique_ptr<View> drawn, std::unique_ptr<Trace> traced)
     : trace(std::move(traced)),
@@ -142,13 +123,8 @@ void Visit::shake(bool on) {
 LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
                       double now_s) {
   LineList lines;
-  const glm::vec3 direction = camera.forward();
-  const auto hit_m = session.aim(camera.eye_m, direction);
-  if (hit_m && !session.is_replay()) {
-    const Shape shape = shape_of(tool, *hit_m, direction);
-    const bool is_far = session.is_beyond_reach(shape, camera.eye_m) || is_in_closed_region(session, shape);
-    lines.shape(shape, is_far ? beyond_reach_colour : preview_colour(tool, session.palette()));
-  }
+  preview_.step(tool, session, camera, now_s);
+  preview_.add_to(lines, tool, session.palette());
   const Figures& figures = session.figures(now_s);
   figures.add_to(lines);
   view->renderer().set_limbs(figures.limbs(camera.eye_m, looked_through, false));

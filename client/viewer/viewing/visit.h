@@ -13,6 +13,7 @@
 #include "client/viewer/session/viewer_session.h"
 #include "client/viewer/viewing/auto_quality.h"
 #include "client/viewer/viewing/shake.h"
+#include "client/viewer/viewing/tool_preview.h"
 #include "shared/base/trace.h"
 
 namespace scree {
@@ -43,6 +44,8 @@ class Visit {
   /// gets the bodies of the other persons, but of the one through whose eye one looks, and the wind's time.
   LineList lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
                  double now_s);
+  /// What a click does, as of the last lines().
+  const std::optional<ToolAim>& aim() const { return preview_.aim(); }
   /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.
   void add_overlay(LineList& lines, const OverlayChoice& choice, double now_s);
 
@@ -75,6 +78,7 @@ class Visit {
   void stand_at_spawn();
   void follow_pieces(double now_s);
 
+  ToolPreview preview_;
   PieceEventDetector piece_events_;
   Dust dust_;
   std::vector<PieceEvent> events_;

@@ -48,13 +48,12 @@ struct AppWindowEvents {
     if (auto& line = of(window).writes_) line->add(code_point);
   }
   static void on_button(GLFWwindow* window, int button, int action, int) {
-    if (action == GLFW_PRESS && std::exchange(of(window).asks_to_end_, false)) return;
-    if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS) return;
+    if (button != GLFW_MOUSE_BUTTON_LEFT || action != GLFW_PRESS || of(window).has_menu()) return;
     // The panel takes clicks on it.
     if (ImGui::GetCurrentContext() != nullptr && ImGui::GetIO().WantCaptureMouse) return;
-    // The first click takes the mouse; only the following ones carve.
+    // The first click takes the mouse; only the following ones strike.
     if (of(window).holds_mouse_) {
-      of(window).strike_ = true;
+      ++of(window).strikes_;
     } else {
       of(window).hold_mouse(true);
     }
@@ -92,6 +91,8 @@ AppWindow::AppWindow(GLFWwindow* window) : window_(window) {
   glfwSetMouseButtonCallback(window_, AppWindowEvents::on_button);
   glfwSetScrollCallback(window_, AppWindowEvents::on_scroll);
   glfwSetWindowFocusCallback(window_, AppWindowEvents::on_focus);
+  // A key that went down and up between two slow frames was down in one.
+  glfwSetInputMode(window_, GLFW_STICKY_KEYS, GLFW_TRUE);
   last_s_ = glfwGetTime();
 }
 
@@ -102,6 +103,10 @@ AppWindow::~AppWindow() {
 
 bool AppWindow::should_close() const {
   return glfwWindowShouldClose(window_) == GLFW_TRUE;
+}
+
+void AppWindow::end() {
+  glfwSetWindowShouldClose(window_, GLFW_TRUE);
 }
 
 void AppWindow::hold_mouse(bool hold) {
@@ -132,13 +137,17 @@ void AppWindow::turn_full_screen() {
 }
 
 void AppWindow::press(int key) {
-  if (std::exchange(asks_to_end_, false)) {
-    if (key == GLFW_KEY_ESCAPE || key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER)
-      glfwSetWindowShouldClose(window_, GLFW_TRUE);
-    return;
-  }
+  if (menu_) return press_in_menu(key);
   for (const Binding& binding : bindings())
     if (binding.key == key) act(binding.action);
+}
+
+void AppWindow::press_in_menu(int key) {
+  const auto go = [this](int by) { menu_->at = (menu_->at + by + MenuKeys::buttons) % MenuKeys::buttons; };
+  if (key == GLFW_KEY_ESCAPE) return close_menu();
+  if (key == GLFW_KEY_DOWN || key == GLFW_KEY_TAB) go(1);
+  if (key == GLFW_KEY_UP) go(-1);
+  menu_->chosen = menu_->chosen || key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_SPACE;
 }
 
 void AppWindow::write(int key) {
@@ -151,10 +160,15 @@ void AppWindow::write(int key) {
 void AppWindow::act(Action action) {
   switch (action) {
     case Action::talk:
+      if (!may_write_) return actions_.push_back(action);
       writes_.emplace(limits::line_bytes_max);
       break;
-    case Action::end:
-      asks_to_end_ = true;
+    case Action::menu:
+      if (holds_mouse_) return hold_mouse(false);
+      menu_.emplace();
+      break;
+    case Action::strike:
+      ++strikes_;
       break;
     case Action::free_mouse:
       hold_mouse(!holds_mouse_);
@@ -178,22 +192,29 @@ AppInput AppWindow::poll() {
   poll_keys(input);
   poll_gamepad(input);
   input.wheel = std::exchange(wheel_, 0.0F);
-  input.strike = std::exchange(strike_, false);
+  input.strikes = std::exchange(strikes_, 0);
   input.said = std::exchange(said_, std::nullopt);
   input.actions = std::exchange(actions_, {});
   return input;
 }
 
 void AppWindow::poll_keys(AppInput& input) {
-  const auto axis = [this](int plus, int minus) {
-    if (writes_) return 0.0F;
-    return static_cast<float>((glfwGetKey(window_, plus) == GLFW_PRESS) -
-                              (glfwGetKey(window_, minus) == GLFW_PRESS));
+  // It is asked in any case: a key that was pressed while a line was written is forgotten.
+  const auto down = [this](int key) {
+    const bool pressed = glfwGetKey(window_, key) == GLFW_PRESS;
+    return pressed && !writes_ && !menu_;
+  };
+  const auto axis = [&](int plus, int minus) {
+    const float there = down(plus) ? 1.0F : 0.0F;
+    return there - (down(minus) ? 1.0F : 0.0F);
   };
   input.fly.move = {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_SPACE, GLFW_KEY_C),
                     axis(GLFW_KEY_W, GLFW_KEY_S)};
-  input.fly.fast = glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS;
+  input.fly.fast = down(GLFW_KEY_LEFT_SHIFT);
+  input.turn_keys = {axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT), axis(GLFW_KEY_DOWN, GLFW_KEY_UP)};
+  input.strike_held = down(GLFW_KEY_E);
   if (!holds_mouse_) return;
+  input.strike_held = input.strike_held || glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS;
   glm::dvec2 mouse;
   glfwGetCursorPos(window_, &mouse.x, &mouse.y);
   const glm::vec2 moved(mouse - std::exchange(mouse_, mouse));
@@ -221,7 +242,8 @@ void AppWindow::poll_gamepad(AppInput& input) {
   for (unsigned button = 0; button <= GLFW_GAMEPAD_BUTTON_LAST; ++button)
     if (state.buttons[button] == GLFW_PRESS) now.buttons |= 1U << button;
   for (const Action action : pad_.step(now, input.elapsed_s, input.fly)) act(action);
-  strike_ = strike_ || pad_.struck();
+  strikes_ += static_cast<int>(pad_.struck());
+  input.strike_held = input.strike_held || pad_.holds_trigger();
 }
 
 bool AppWindow::minimised() const {

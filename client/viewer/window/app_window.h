@@ -23,10 +23,21 @@ namespace scree {
 struct AppInput {
   FlyInput fly;
   float elapsed_s = 0.0F;
-  float wheel = 0.0F;   ///< notches, up is positive
-  bool strike = false;  ///< left button went down, with the mouse held by the window; or the right trigger
+  glm::vec2 turn_keys{0.0F};  ///< arrow keys that are down: right and down, −1 to 1
+  float wheel = 0.0F;         ///< notches, up is positive
+  /// How often the strike's key, the left button of a held mouse, or the right trigger went down; and whether
+  /// one is down.
+  int strikes = 0;
+  bool strike_held = false;
   std::optional<std::string> said;  ///< a line that was written and sent
   std::vector<Action> actions;      ///< in order; without those that are the window's own (AppWindow::act)
+};
+
+/// What keys did in a menu.
+struct MenuKeys {
+  static constexpr int buttons = 3;
+  int at = 0;  ///< the button that they are at
+  bool chosen = false;
 };
 
 class AppWindow {
@@ -41,9 +52,15 @@ class AppWindow {
   AppInput poll();
   bool holds_mouse() const { return holds_mouse_; }
   bool has_gamepad() const { return has_gamepad_; }
-  /// The person wants to end, and is asked whether that is so: Escape or Enter say yes, any other key or
-  /// button no.
-  bool asks_to_end() const { return asks_to_end_; }
+  /// The menu that is open, by Escape with a free mouse, has all keys until Escape, or close_menu(): the
+  /// arrow keys go through its buttons, Enter or Space chooses one.
+  bool has_menu() const { return menu_.has_value(); }
+  MenuKeys menu() const { return menu_.value_or(MenuKeys{}); }
+  void close_menu() { menu_.reset(); }
+  /// After this frame, should_close().
+  void end();
+  /// Whether there is somebody to write a line to: else the key comes as an action.
+  void let_write(bool on) { may_write_ = on; }
   /// The line that is being written, and takes all keys; nothing: none is.
   const std::optional<TextLine>& writes() const { return writes_; }
   /// Puts a text where other programs paste it from.
@@ -64,6 +81,7 @@ class AppWindow {
   explicit AppWindow(GLFWwindow* window);
   void hold_mouse(bool hold);
   void press(int key);
+  void press_in_menu(int key);
   void write(int key);
   void turn_full_screen();
   void act(Action action);
@@ -78,12 +96,13 @@ class AppWindow {
   bool holds_mouse_ = false;
   int pointer_settles_ = 0;  ///< polls in which the pointer's way is not the person's
   bool has_gamepad_ = false;
-  bool asks_to_end_ = false;
+  std::optional<MenuKeys> menu_;
+  bool may_write_ = true;
   std::optional<TextLine> writes_;
   std::optional<std::string> said_;
   std::optional<glm::ivec4> windowed_;  ///< place and size before the screen was full
   float wheel_ = 0.0F;
-  bool strike_ = false;
+  int strikes_ = 0;
   std::vector<Action> actions_;
   Gamepad pad_;
   friend struct AppWindowEvents;

@@ -1,6 +1,7 @@
 #include "client/viewer/window/hud.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <imgui/imgui.h>
 #include <span>
@@ -12,6 +13,7 @@ namespace {
 
 const ImVec4 warning_colour(1.0F, 0.75F, 0.4F, 1.0F);
 constexpr float progress_width_in_text = 24.0F;  ///< heights of the text
+constexpr float menu_width_in_text = 22.0F;      ///< likewise
 
 glm::vec2 screen_size() {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
@@ -51,6 +53,12 @@ void say(const std::string& text, const ImVec4& colour) {
   ImGui::PopStyleColor();
 }
 
+/// With a shadow, to be read on anything.
+void write_in_picture(ImDrawList& list, ImVec2 at, ImU32 colour, const std::string& text) {
+  list.AddText(ImVec2(at.x + 1.0F, at.y + 1.0F), IM_COL32(0, 0, 0, 200), text.c_str());
+  list.AddText(at, colour, text.c_str());
+}
+
 }  // namespace
 
 int Hud::text_px(float text_scale) {
@@ -62,14 +70,22 @@ void Hud::begin(bool mouse_is_free) {
   panels_.begin_frame(screen_size(), mouse_is_free);
 }
 
-void Hud::crosshair(bool refused) {
+void Hud::crosshair(const HudFacts& facts) {
   const glm::vec2 c = screen_size() * 0.5F;
   ImDrawList* list = ImGui::GetBackgroundDrawList();
-  if (refused) {
+  if (facts.mark == StrikeMark::refused) {
     const ImU32 warning = ImGui::GetColorU32(warning_colour);
     list->AddLine(ImVec2(c.x - 8, c.y - 8), ImVec2(c.x + 8, c.y + 8), warning, 2.5F);
     list->AddLine(ImVec2(c.x - 8, c.y + 8), ImVec2(c.x + 8, c.y - 8), warning, 2.5F);
+    const ImVec2 text = ImGui::CalcTextSize(facts.refused.c_str());
+    write_in_picture(*list, {c.x - 0.5F * text.x, c.y + 14.0F}, warning, facts.refused);
     return;
+  }
+  if (facts.mark == StrikeMark::hit) {
+    const ImU32 struck = IM_COL32(255, 255, 255, 240);
+    for (const glm::vec2 way : {glm::vec2(1, 1), glm::vec2(1, -1), glm::vec2(-1, 1), glm::vec2(-1, -1)})
+      list->AddLine(ImVec2(c.x + 6 * way.x, c.y + 6 * way.y), ImVec2(c.x + 12 * way.x, c.y + 12 * way.y),
+                    struck, 2.0F);
   }
   const ImU32 colour = IM_COL32(255, 255, 255, 190);
   list->AddLine(ImVec2(c.x - 9, c.y), ImVec2(c.x - 3, c.y), colour, 1.5F);
@@ -78,10 +94,38 @@ void Hud::crosshair(bool refused) {
   list->AddLine(ImVec2(c.x, c.y + 3), ImVec2(c.x, c.y + 9), colour, 1.5F);
 }
 
-void Hud::banner(const std::string& text) {
+bool Hud::lost(const HudFacts& facts) {
   panels_.begin(PanelPlace::top);
-  say(text, warning_colour);
+  say(facts.connection, warning_colour);
+  bool now = false;
+  if (facts.retry_s) {
+    ImGui::Text("next attempt in %.0f s", std::ceil(*facts.retry_s));
+    ImGui::SameLine();
+    now = ImGui::SmallButton("try now (Enter)");
+  }
   panels_.end();
+  return now;
+}
+
+MenuChoice Hud::menu(const MenuKeys& keys) {
+  constexpr std::array<const char*, MenuKeys::buttons> words{"back to the world (Esc)", "all keys", "end"};
+  const glm::vec2 middle = screen_size() * 0.5F;
+  ImGui::SetNextWindowPos(ImVec2(middle.x, middle.y), ImGuiCond_Always, ImVec2(0.5F, 0.5F));
+  ImGui::SetNextWindowFocus();
+  ImGui::Begin("menu", nullptr,
+               ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNav);
+  const ImVec2 size(menu_width_in_text * ImGui::GetFontSize(), 1.8F * ImGui::GetFontSize());
+  MenuChoice choice = keys.chosen ? static_cast<MenuChoice>(keys.at) : MenuChoice::none;
+  for (int i = 0; i < MenuKeys::buttons; ++i) {
+    ImGui::PushStyleColor(ImGuiCol_Button,
+                          ImGui::GetStyleColorVec4(i == keys.at ? ImGuiCol_ButtonActive : ImGuiCol_Button));
+    if (ImGui::Button(words[static_cast<size_t>(i)], size)) choice = static_cast<MenuChoice>(i);
+    ImGui::PopStyleColor();
+  }
+  ImGui::TextDisabled("arrow keys and Enter choose");
+  ImGui::End();
+  return choice;
 }
 
 void Hud::messages(const HudFacts& facts, const std::vector<std::string>& lines) {
@@ -116,9 +160,7 @@ void Hud::names(const Figures& figures, const glm::mat4& view_projection,
     const std::string name = called(session, figure.name);
     const ImVec2 text = ImGui::CalcTextSize(name.c_str());
     const ImVec2 at(place->x * size.x - 0.5F * text.x, place->y * size.y - text.y);
-    ImDrawList* list = ImGui::GetBackgroundDrawList();
-    list->AddText(ImVec2(at.x + 1.0F, at.y + 1.0F), IM_COL32(0, 0, 0, 200), name.c_str());
-    list->AddText(at, IM_COL32(255, 255, 255, 255), name.c_str());
+    write_in_picture(*ImGui::GetBackgroundDrawList(), at, IM_COL32(255, 255, 255, 255), name);
   }
 }
 
@@ -137,7 +179,8 @@ void Hud::lower_right(const HudFacts& facts, const PersonsMessage* persons, cons
       ImGui::TextUnformatted(std::string(name_of(person.role)).c_str());
     }
     if (persons->more > 0) ImGui::Text("and %u more", persons->more);
-    ImGui::TextUnformatted(persons->chat ? "Enter: say something to all" : "chat is off on this server");
+    if (persons->persons.size() + persons->more < 2) ImGui::TextUnformatted("nobody else is here");
+    ImGui::TextUnformatted(persons->chat ? "Enter: say something to all" : "there is no chat here");
   }
   if (with_graphs) graphs(facts);
   panels_.end();

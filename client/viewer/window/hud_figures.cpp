@@ -46,16 +46,10 @@ void show_ledger(const HudFacts& facts, const StatusMessage& status) {
   ImGui::Text("error    %14" PRId64 " units", error);
 }
 
-/// A world that is slower than the clock is everybody's business.
+/// A world that is slower than the clock now is everybody's business.
 void show_pace(const HudFacts& facts) {
-  const bool slow = !facts.is_replay && (facts.pace < pace_worth_a_word || facts.lost_ticks > 0);
-  ImGui::PushStyleColor(ImGuiCol_Text, slow ? slow_colour : ImGui::GetStyleColorVec4(ImGuiCol_Text));
-  ImGui::Text("time x %.2f", facts.pace);
-  if (!facts.is_replay) {
-    ImGui::SameLine(0.0F, 0.0F);
-    ImGui::Text(", %" PRIu64 " ticks lost", facts.lost_ticks);
-  }
-  ImGui::PopStyleColor();
+  if (facts.is_replay || facts.pace >= pace_worth_a_word) return;
+  ImGui::TextColored(slow_colour, "the world is slow: time x %.2f", facts.pace);
 }
 
 /// Shows the work of the server's ticks against their budget, and the work that did not fit.
@@ -127,6 +121,12 @@ void show_stages(const StatusMessage& status, double tick_rate_hz) {
 /// What a developer or an operator wants to know beside.
 void show_all(const HudFacts& facts) {
   ImGui::Separator();
+  ImGui::Text("tick %" PRIu64 ", time x %.2f", facts.tick, facts.pace);
+  if (!facts.is_replay) {
+    ImGui::SameLine(0.0F, 0.0F);
+    ImGui::Text(", %" PRIu64 " ticks lost", facts.lost_ticks);
+  }
+  if (facts.mismatches > 0) ImGui::Text("%" PRIu64 " frames differed", facts.mismatches);
   if (facts.status) {
     show_ledger(facts, *facts.status);
     show_work(facts.status->work);
@@ -153,11 +153,7 @@ void Hud::figures(const HudFacts& facts, bool all) {
   const auto frame_ms = static_cast<double>(frame_.mean());
   ImGui::Text("%.1f ms a frame (%.0f Hz), %.1f KiB/s", frame_ms, frame_ms > 0.0 ? 1000.0 / frame_ms : 0.0,
               facts.bytes_per_s / kib);
-  ImGui::Text("tick %" PRIu64 ",", facts.tick);
-  ImGui::SameLine();
   show_pace(facts);
-  if (!facts.carried.empty()) ImGui::Text("you carry %s", facts.carried.c_str());
-  if (facts.mismatches > 0) ImGui::Text("%" PRIu64 " frames differed", facts.mismatches);
   if (facts.status) show_pieces(*facts.status);
   if (facts.props_near > 0) ImGui::Text("props: %zu here", facts.props_near);
   if (facts.kept_near > 0) ImGui::Text("kept pieces: %zu here", facts.kept_near);

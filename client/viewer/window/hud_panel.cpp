@@ -1,4 +1,4 @@
-// The HUD's panel: the drawing method, and the tool.
+// The HUD's panel: the tool, the view, and for developers the drawing.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,8 +15,9 @@ constexpr float slider_width_in_text = 11.5F;  ///< heights of the text
 
 template <typename E, size_t n>
 void choose(E& value, const std::array<E, n>& all) {
+  constexpr size_t on_line = 5;  // more would make the panel wide
   for (size_t i = 0; i < n; ++i) {
-    if (i > 0) ImGui::SameLine();
+    if (i % on_line != 0) ImGui::SameLine();
     const std::string name(name_of(all[i]));
     if (ImGui::RadioButton(name.c_str(), value == all[i])) value = all[i];
   }
@@ -98,7 +99,8 @@ void choose_material(Tool& tool, const Palette& palette) {
 
 /// What a carve breaks into, or what is filled or painted with.
 void choose_use(Tool& tool, const Palette& palette) {
-  if (traits_of(tool.use).has_material) choose_material(tool, palette);
+  // What is placed is one of those that one carries: the tool line and its key say which.
+  if (traits_of(tool.use).has_material && tool.use != ToolUse::place) choose_material(tool, palette);
   if (tool.use != ToolUse::carve) return;
   ImGui::SliderFloat("blast", &tool.blast_speed_m_s, 0.0F, limits::blast_speed_max_m_s, "%.0f m/s");
   choose(tool.pattern, tool_patterns);
@@ -109,31 +111,13 @@ void choose_use(Tool& tool, const Palette& palette) {
     tool.seeds = static_cast<uint32_t>(std::max(seeds, 0));
 }
 
-}  // namespace
-
-const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values) {
-  auto& [tool, palette, overlay, method_options, particles, details, shake, predict, hand, quality] = values;
-  panels_.begin(PanelPlace::upper_right);
-  ImGui::PushItemWidth(slider_width_in_text * ImGui::GetFontSize());
+/// How it is drawn, and what else only a developer asks for.
+const MethodEntry* choose_drawing(const MethodEntry& chosen, const PanelValues& values) {
+  ImGui::Separator();
   const MethodEntry* picked = choose_method(chosen);
-  for (const DrawOption& option : options_of(chosen)) choose_option(option, method_options);
-  choose_quality(quality);
-  ImGui::Checkbox("dust, grit and splinters", &particles);
-  ImGui::Checkbox("grass, bushes and stones", &details);
-  ImGui::Checkbox("blows shake the eye", &shake);
-  ImGui::Separator();
-  choose(tool.use, all_kinds<ToolUse>);
-  choose(tool.kind, all_kinds<ToolKind>);
-  ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");
-  choose_use(tool, palette);
-  ImGui::Separator();
-  ImGui::SliderFloat("field of view", &hand.field_of_view_degrees, field_of_view_min_degrees,
-                     field_of_view_max_degrees, "%.0f degrees", ImGuiSliderFlags_AlwaysClamp);
-  ImGui::SliderFloat("mouse", &hand.mouse_speed, mouse_speed_min, mouse_speed_max, "x %.2f",
-                     ImGuiSliderFlags_AlwaysClamp);
-  ImGui::PopItemWidth();
-  ImGui::Checkbox("show own carves at once", &predict);
-  ImGui::Separator();
+  for (const DrawOption& option : options_of(chosen)) choose_option(option, values.method_options);
+  ImGui::Checkbox("show own carves at once", &values.predict);
+  OverlayChoice& overlay = values.overlay;
   ImGui::Checkbox("overlay", &overlay.shown);
   ImGui::BeginDisabled(!overlay.shown);
   ImGui::Checkbox("interest", &overlay.interest);
@@ -143,6 +127,36 @@ const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& valu
   ImGui::Checkbox("pieces", &overlay.pieces);
   ImGui::Checkbox("bodies, contacts, islands (by the server)", &overlay.physics);
   ImGui::EndDisabled();
+  return picked;
+}
+
+void choose_tool(Tool& tool, const Palette& palette) {
+  ToolUse use = tool.use;
+  choose(use, all_kinds<ToolUse>);
+  if (use != tool.use) take_up(tool, use);
+  choose(tool.kind, all_kinds<ToolKind>);
+  ImGui::SliderFloat("radius", &tool.radius_m, tool_radius_min_m, tool_radius_max_m, "%.2f m");
+  choose_use(tool, palette);
+  ImGui::Separator();
+}
+
+}  // namespace
+
+const MethodEntry* Hud::panel(const MethodEntry& chosen, const PanelValues& values, PanelOf of) {
+  panels_.begin(PanelPlace::upper_right);
+  ImGui::PushItemWidth(slider_width_in_text * ImGui::GetFontSize());
+  if (!of.replay) choose_tool(values.tool, values.palette);
+  choose_quality(values.quality);
+  ImGui::Checkbox("dust, grit and splinters", &values.particles);
+  ImGui::Checkbox("grass, bushes and stones", &values.details);
+  ImGui::Checkbox("blows shake the eye", &values.shake);
+  HandChoice& hand = values.hand;
+  ImGui::SliderFloat("field of view", &hand.field_of_view_degrees, field_of_view_min_degrees,
+                     field_of_view_max_degrees, "%.0f degrees", ImGuiSliderFlags_AlwaysClamp);
+  ImGui::SliderFloat("mouse", &hand.mouse_speed, mouse_speed_min, mouse_speed_max, "x %.2f",
+                     ImGuiSliderFlags_AlwaysClamp);
+  const MethodEntry* picked = of.developer ? choose_drawing(chosen, values) : nullptr;
+  ImGui::PopItemWidth();
   panels_.end();
   return picked;
 }

@@ -10,7 +10,7 @@ namespace scree {
 namespace {
 
 constexpr std::array<const char*, panel_places> names{
-    "top", "bottom", "upper left", "lower left", "upper right", "lower right", "timeline"};
+    "top", "bottom", "upper left", "lower left", "upper right", "lower right", "lowest"};
 
 }  // namespace
 

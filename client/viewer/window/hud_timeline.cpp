@@ -266,7 +266,7 @@ void Hud::timeline(Timeline& timeline, double now_s) {
   if (!timeline.is_known()) return;
   const float around = panel_margin + ImGui::GetStyle().WindowPadding.x;
   const float width = std::max(ImGui::GetIO().DisplaySize.x - 2.0F * around, 1.0F);
-  panels_.begin(PanelPlace::timeline);
+  panels_.begin(PanelPlace::lowest);
   const float right = ImGui::GetCursorScreenPos().x + width;
   show_bar(timeline, width, now_s);
   show_buttons(timeline);

@@ -44,7 +44,7 @@ PanelRectangles lay_out(glm::vec2 screen, const PanelSizes& wanted) {
   const glm::vec2 room = glm::vec2(std::max(screen.x - 2.0F * panel_margin, 0.0F),
                                    std::max(screen.y - 2.0F * panel_margin, 0.0F));
   float upper = panel_margin, lower = panel_margin + room.y;
-  for (const PanelPlace strip : {PanelPlace::top, PanelPlace::timeline, PanelPlace::bottom}) {
+  for (const PanelPlace strip : {PanelPlace::top, PanelPlace::lowest, PanelPlace::bottom}) {
     const glm::vec2 size(std::min(want(strip).x, room.x), std::min(want(strip).y, room.y * strip_share_max));
     if (size.x <= 0.0F || size.y <= 0.0F) continue;
     const float y = strip == PanelPlace::top ? upper : lower - size.y;

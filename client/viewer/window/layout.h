@@ -9,9 +9,9 @@
 
 namespace scree {
 
-/// A place for one panel. The strips stand in the middle, above and below, the timeline lowest; the others in
-/// two columns between them.
-enum class PanelPlace : uint8_t { top, bottom, upper_left, lower_left, upper_right, lower_right, timeline };
+/// A place for one panel. The strips stand in the middle, above and below; lowest the tool, or a replay's
+/// timeline. The others stand in two columns between them.
+enum class PanelPlace : uint8_t { top, bottom, upper_left, lower_left, upper_right, lower_right, lowest };
 
 inline constexpr size_t panel_places = 7;
 

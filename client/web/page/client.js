@@ -72,6 +72,8 @@ export class Client {
   look(right, down) { this.#number('look', right, down); }
   move(right, up, forward, fast) { this.#number('move', right, up, forward, Number(fast)); }
   strike() { this.#number('strike'); }
+  hold(on) { this.#number('hold', Number(on)); }
+  reconnect() { this.#number('reconnect'); }
   grow(notches) { this.#number('grow', notches); }
   key(code, down) { return this.#wasm.ccall('scree_key', 'number', ['string', 'number'], [code, Number(down)]) !== 0; }
   keys_up() { this.#number('keys_up'); }

@@ -11,7 +11,6 @@ export function brief(state) {
     ['pieces', whole(status?.pieces ?? state.pieces_near)],
     ['network', `${bytes(traffic.received_bytes_per_s)}/s`]];
   if (state.props_near > 0) rows.push(['props', whole(state.props_near)]);
-  if (state.carried) rows.push(['carried', state.carried]);
   if (!state.connection.replay && pace < 0.98) rows.push(['time', `× ${pace.toFixed(2)}`]);
   return rows;
 }

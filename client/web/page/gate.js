@@ -51,7 +51,7 @@ export class Gate {
     const { phase, text, retry_s } = state.connection;
     if (phase === 'refused') return this.#refused(text);
     if (phase === 'lost')
-      return this.#show('The server does not answer', `${text}${retry_s === undefined ? '' : ` Next attempt in ${Math.ceil(retry_s)} s.`}`, null);
+      return this.#show('The server does not answer', `${text}. The page tries again${retry_s === undefined ? '.' : ` in ${Math.ceil(retry_s)} s.`}`, null);
     if (phase === 'connecting') return this.#show('Connecting', location.host, null);
     if (state.draw.kept === 0 && !state.loaded) return this.#show('Making the terrain', 'Hills first, then what is near.', terrain_part(state));
     if (!this.#open) {

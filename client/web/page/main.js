@@ -1,7 +1,8 @@
 // The page: joins what its modules do. One animation frame passes the hands' input to the client, lets it draw, and serves
 // its socket; panels follow its state a few times a second.
-import { AddressBar, format, parse } from './address.js';
+import { AddressBar, at_port, format, parse } from './address.js';
 import { Client, fetch_wasm } from './client.js';
+import { Cross } from './cross.js';
 import { $, write } from './dom.js';
 import { figures_page, show_brief } from './figures.js';
 import { Gate, terrain_part } from './gate.js';
@@ -55,6 +56,7 @@ class Page {
   #notices = new Notices();
   #sound = null;
   #sound_comes = null;
+  #cross = new Cross();
   #mouse;
   #touch;
   #address;
@@ -69,6 +71,9 @@ class Page {
   #colours = new Map();
   #pad = false;
   #over = false;
+  #past;  // the port of this world's replay
+  #now;   // and of the world that this is the replay of
+  #rewound = false;
 
   constructor(client) {
     this.#client = client;
@@ -93,13 +98,16 @@ class Page {
     this.#client.set('name', String(load().name ?? ''));
   }
 
-  #take_wishes({ camera, method, quality, view, unfit }) {
+  #take_wishes({ camera, method, quality, view, past, now, unfit }) {
     if (unfit) this.#notices.say('The token in the address is not valid, so it is ignored.');
     const set = (name, value) => value !== undefined && this.#client.set(name, value);
     set('camera', camera);
     if (set('method', method)) this.#chosen_view.method = method;
     if (set('quality', quality)) this.#chosen_view.quality = quality;
     if (view !== undefined && set('view_radius', Number(view))) this.#chosen_view.view = view;
+    this.#past = past;
+    this.#now = now;
+    set('past', past ? 1 : 0);
   }
 
   /** The fragment for a link to what is seen now. */
@@ -107,7 +115,25 @@ class Page {
     const { camera, view } = this.#state;
     const first = this.#catalogue.methods[0].name;
     const method = view.method !== first || this.#chosen_view.method ? view.method : '';
-    return format({ camera, method, quality: view.quality_auto ? '' : view.quality, view: this.#chosen_view.view });
+    return format({ camera, method, quality: view.quality_auto ? '' : view.quality, view: this.#chosen_view.view, past: this.#past, now: this.#now });
+  }
+
+  /** To the replay of this world, or from it back to the present; the camera stays. */
+  #travel() {
+    const to = this.#past ?? this.#now;
+    if (!to || !this.#state) return;
+    const here = location.port || '80';
+    const { camera } = this.#state;
+    location.assign(at_port(location, to, format({ camera, view: this.#chosen_view.view, ...(this.#past ? { now: here } : { past: here }) })));
+  }
+
+  /** Who came here from the present sees time run backwards at first. */
+  #rewind(playback) {
+    if (!this.#now || !playback || this.#rewound) return;
+    this.#rewound = true;
+    this.#client.act('replay_end');
+    this.#client.speed(-1);
+    this.#client.play(true);
   }
 
   #follow_address() {
@@ -136,7 +162,9 @@ class Page {
     this.#panel = new Panel(this.#pages);
     this.#tools = new Tools(client, this.#catalogue);
     this.#talk = new Talk(client, () => canvas.focus({ preventScroll: true }));
-    this.#timeline = new Timeline(client);
+    this.#timeline = new Timeline(client, this.#now ? () => this.#travel() : null);
+    this.#show_figures(load().figures === true);
+    $('retry').addEventListener('click', () => client.reconnect());
   }
 
   #set_view(wish, value) {
@@ -188,16 +216,16 @@ class Page {
 
   #hint() {
     const touch = document.body.dataset.touch !== undefined;
-    const text = touch ? '' : this.#mouse.taken ? '' : 'Click to take the mouse · H for help';
-    this.#notices.hint(this.#panel.open || this.#pad ? '' : text);
+    this.#notices.hint(this.#panel.open || this.#pad || touch ? '' : hint_of(this.#state, this.#mouse.taken, this.#now));
   }
 
   #show_all() { document.body.classList.remove('bare'); }
 
   /** What keys, buttons and the client ask of the page. */
   #act(action) {
-    const pages = { panel: 'tool', persons: 'people', figures: 'figures', graphs: 'figures', help: 'help' };
+    const pages = { panel: this.#state?.connection.replay ? 'view' : 'tool', persons: 'people', all_figures: 'figures', graphs: 'figures', help: 'help' };
     if (pages[action]) this.#panel.toggle(pages[action]);
+    else if (action === 'figures') this.#show_figures(!load().figures);
     else if (action === 'hide') document.body.classList.toggle('bare');
     else if (action === 'free_mouse') this.#mouse.taken ? this.#mouse.free() : this.#mouse.take();
     else if (action === 'picture') this.#wants_picture = true;
@@ -205,10 +233,18 @@ class Page {
     else if (action === 'talk') this.#talk_to_all();
     else if (action === 'full_screen') this.#full_screen();
     else if (action === 'mute') this.#with_sound().then((sound) => sound.toggle());
+    else if (action === 'replay_play' || action === 'present') this.#travel();
+  }
+
+  /** In brief, in the corner. */
+  #show_figures(on) {
+    keep({ figures: on });
+    $('readout').hidden = !on;
   }
 
   #talk_to_all() {
-    if (!this.#state?.persons.chat) return this.#notices.say('There is no chat on this server.');
+    if (this.#state?.connection.phase === 'lost') return this.#client.reconnect();
+    if (!this.#state?.persons.chat) return this.#notices.say('There is no chat here.');
     this.#panel.show(document.body.dataset.layout === 'wide' ? this.#panel.open : null);
     this.#mouse.free();
     this.#talk.open();
@@ -276,11 +312,13 @@ class Page {
     gate.follow(state);
     this.#hint();
     this.#notices.follow(state);
+    this.#cross.follow(state, now_ms);
     this.#chip(state);
     this.#panel.count('people', state.persons.list.length > 1 ? String(state.persons.list.length) : '');
     this.#tools.follow(state);
     this.#talk.follow(state);
     this.#timeline.follow(state);
+    this.#rewind(state.playback);
     this.#pages.figures.note(state);
     this.#panel.follow({ ...state, sound: this.#sound?.on ?? load().sound !== false });
     show_brief(state);
@@ -318,6 +356,16 @@ class Page {
     $('gate').classList.remove('open');
     gate.failed('The picture ended', `${this.#client.error()}.`);
   }
+}
+
+/** The one line that helps now. */
+function hint_of(state, taken, came_from) {
+  if (state?.connection.phase !== 'connected') return '';
+  if (state.connection.replay && came_from) return 'J holds or plays, Y turns time round, the arrow keys jump · Backspace: back to the present';
+  if (state.connection.replay) return taken ? '' : 'Click, and the mouse looks around · J plays, or holds · H: all keys';
+  if (state.mark.number > 0) return state.hint;
+  return taken ? 'Click, or press E, to dig where the cross is; hold it to dig on'
+    : 'Click, and the mouse looks around, or use the arrow keys · E digs where the cross is · H: all keys';
 }
 
 async function begin() {

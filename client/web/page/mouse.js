@@ -18,9 +18,13 @@ export class Mouse {
     canvas.addEventListener('pointerdown', (event) => this.#down(event));
     canvas.addEventListener('pointermove', (event) => this.#move(event));
     canvas.addEventListener('pointerup', (event) => this.#up(event));
+    canvas.addEventListener('pointercancel', () => client.hold(false));
     canvas.addEventListener('wheel', (event) => this.#wheel(event), { passive: false });
     canvas.addEventListener('contextmenu', (event) => event.preventDefault());
-    document.addEventListener('pointerlockchange', () => changed(this.taken));
+    document.addEventListener('pointerlockchange', () => {
+      client.hold(false);
+      changed(this.taken);
+    });
     document.addEventListener('pointerlockerror', () => this.#refuse());
   }
 
@@ -47,7 +51,9 @@ export class Mouse {
     if (event.pointerType === 'touch') return;
     this.#canvas.focus({ preventScroll: true });
     if (this.taken) {
-      if (event.button === 0) this.#client.strike();
+      if (event.button !== 0) return;
+      this.#client.strike();
+      this.#client.hold(true);
     } else if (this.#refused) {
       this.#drag = { far: 0, x: event.clientX, y: event.clientY };
       this.#canvas.setPointerCapture(event.pointerId);
@@ -66,6 +72,7 @@ export class Mouse {
   }
 
   #up(event) {
+    if (event.pointerType !== 'touch' && event.button === 0) this.#client.hold(false);
     if (!this.#drag || event.pointerType === 'touch') return;
     if (this.#drag.far <= TAP.pixels && event.button === 0) this.#client.strike();
     this.#drag = null;

@@ -17,15 +17,15 @@ export class Notices {
   /** As long as nothing else is to be said; '': none. */
   hint(text) { this.#hint = text; }
 
-  follow({ connection, notice }) {
+  follow({ connection, notice, mark }) {
     const lost = connection.phase === 'lost' || connection.phase === 'connecting';
-    const retry = connection.retry_s === undefined ? 'trying again…' : `trying again in ${Math.ceil(connection.retry_s)} s`;
+    const retry = connection.retry_s === undefined ? 'trying again…' : `next attempt in ${Math.ceil(connection.retry_s)} s`;
     const own = performance.now() < this.#until_ms ? this.#own : '';
     const text = lost ? `The connection is lost, ${retry}. The world stays as it was.` : notice || own || this.#hint;
     const line = $('notice');
     write(line, text);
     line.hidden = text === '';
-    line.toggleAttribute('data-grave', lost || notice !== '');
-    $('cross').toggleAttribute('data-refused', notice !== '');
+    line.toggleAttribute('data-grave', lost || (notice !== '' && mark.refused !== ''));
+    $('retry').hidden = connection.phase !== 'lost';
   }
 }

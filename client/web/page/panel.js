@@ -11,7 +11,7 @@ export class Panel {
   constructor(pages) {
     this.#pages = pages;
     for (const [name, page] of Object.entries(pages)) {
-      const choose = make('button', { type: 'button', title: page.title, aria: { label: page.title, expanded: 'false', controls: 'panel' } },
+      const choose = make('button', { type: 'button', title: page.title, data: { page: name }, aria: { label: page.title, expanded: 'false', controls: 'panel' } },
         icon(page.icon));
       choose.addEventListener('click', () => this.toggle(name));
       this.#buttons.set(name, choose);

@@ -32,7 +32,8 @@ export class Timeline {
   #rate_hz = 60;
   #dragged = null;
 
-  constructor(client) {
+  /** `back`: to the world that this is a replay of; null: nobody knows it. */
+  constructor(client, back = null) {
     this.#client = client;
     this.#track = make('div', { className: 'track', role: 'slider', tabIndex: 0, aria: { label: 'Moment of the recording', valuemin: '0' } },
       this.#canvas, this.#played, this.#hand);
@@ -40,9 +41,10 @@ export class Timeline {
     this.#play = act('play', 'Play or hold (J)', 'replay_play');
     this.#controls = [act('before', 'The previous event (9)', 'replay_previous_event'), this.#play,
       act('next', 'The next event (0)', 'replay_next_event'), act('turn', 'Backwards or forwards (Y)', 'replay_turn'), this.#speed];
+    const home = back ? [button('present', 'Back to the present (Backspace)', back)] : [];
     for (const factor of SPEEDS) this.#speed.append(make('option', { value: factor }, `${factor} ×`));
     this.#speed.addEventListener('change', () => client.speed(Number(this.#speed.value)));
-    $('timeline').append(this.#track, make('div', { className: 'under' }, ...this.#controls, this.#time, this.#near), this.#legend);
+    $('timeline').append(this.#track, make('div', { className: 'under' }, ...this.#controls, ...home, this.#time, this.#near), this.#legend);
     this.#listen();
   }
 

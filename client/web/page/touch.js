@@ -29,7 +29,13 @@ export class Touch {
         if (this.#thumbs.up(event.pointerId, event.timeStamp) && end === 'pointerup') this.#tapped();
       }));
     // As the finger comes down: browsers make no click of a long press, nor of a second finger.
-    $('strike').addEventListener('pointerdown', (event) => { if (event.button === 0) client.strike(); });
+    $('strike').addEventListener('pointerdown', (event) => {
+      if (event.button !== 0) return;
+      client.strike();
+      client.hold(true);
+    });
+    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'])
+      $('strike').addEventListener(end, () => client.hold(false));
     // A click without a pointer: by the keyboard, or by what reads the page aloud.
     $('strike').addEventListener('click', (event) => { if (event.detail === 0) client.strike(); });
     for (const [id, way] of [['up', 1], ['down', -1]]) {
