@@ -15,7 +15,7 @@ constexpr float pitch_max = 1.55F;
 /// Longest step, seconds: after a stall, the camera does not jump. Slow machines draw three frames a second.
 constexpr float step_max_s = 0.5F;
 
-/// Of the mouse's: a quarter of a circle a second.
+/// As if by the mouse: a quarter of a circle a second.
 constexpr float key_pixels_per_s = 630.0F;
 /// A slower frame turns no farther by a key: a short press must not miss what it is aimed at.
 constexpr float key_step_max_s = 0.1F;

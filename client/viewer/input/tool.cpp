@@ -24,7 +24,7 @@ T next(const std::array<T, n>& all, T one) {
   return found == all.end() || found + 1 == all.end() ? all.front() : *(found + 1);
 }
 
-/// Of those that one carries, the one after that which is placed.
+/// The material after the one that is placed now, among those that one carries.
 std::string next_carried(const Tool& tool, const MaterialMasses& carried, const Palette& palette) {
   const std::optional<Material> now = placed_by(tool, carried, palette);
   if (!now) return tool.material;

@@ -80,7 +80,7 @@ struct Tool {
   ToolKind kind = ToolKind::crater;
   ToolUse use = ToolUse::dig;
   std::string material;  ///< to fill, paint or place with, by name; empty: as the ground, or the first
-  /// Of a box: half its side; a tunnel is six times as long.
+  /// A box has half its side; a tunnel is six times as long.
   float radius_m = traits_of(ToolUse::dig).usual_radius_m;
   float blast_speed_m_s = 6.0F;
   SeedPattern pattern = usual_pattern;

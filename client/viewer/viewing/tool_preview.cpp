@@ -42,7 +42,7 @@ std::optional<ShapeRim> rim_of(const Shape& shape, glm::vec3 hit_m, const Field&
   return ShapeRim{shape.a + normal * (over_m + rim_over_m), normal, std::sqrt(square_m2)};
 }
 
-/// Of the rock that the click takes or puts.
+/// The volume of rock that the click takes or puts.
 std::optional<double> volume_m3(const Tool& tool, const ToolAim& aim, const ToolHolder& holder,
                                 const Field& field) {
   const double voxel_m = field.source().voxel_size_m;

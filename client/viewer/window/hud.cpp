@@ -132,8 +132,8 @@ void Hud::messages(const HudFacts& facts, const std::vector<std::string>& lines)
   if (!facts.preparing && facts.notice.empty() && lines.empty()) return;
   panels_.begin(PanelPlace::bottom);
   if (const auto& preparing = facts.preparing) {
-    const std::string text = preparing->method + ": " + std::to_string(preparing->done) + " of " +
-                             std::to_string(preparing->done + preparing->waiting) + " blocks";
+    const std::string text =
+        "making the world: " + std::to_string(std::lround(100.0F * preparing->share())) + " %";
     ImGui::ProgressBar(preparing->share(), ImVec2(progress_width_in_text * ImGui::GetFontSize(), 0.0F),
                        text.c_str());
   }
