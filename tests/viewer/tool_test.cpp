@@ -81,7 +81,7 @@ TEST(Tool, a_size_that_nobody_chose_is_the_usual_one_of_the_use) {
   change(tool, Action::carve);
   EXPECT_EQ(tool.radius_m, 2.0F);
   change(tool, Action::dig);
-  EXPECT_EQ(tool.radius_m, 1.25F);
+  EXPECT_EQ(tool.radius_m, 1.5F);
   change(tool, Action::larger);
   const float chosen_m = tool.radius_m;
   change(tool, Action::carve);
@@ -169,7 +169,7 @@ TEST(Tool, actions_stay_within_the_ranges) {
 
 TEST(Tool, is_told_with_what_it_does_and_units) {
   Tool tool;
-  EXPECT_EQ(describe(tool), "dig: crater, radius 1.25 m");
+  EXPECT_EQ(describe(tool), "dig: crater, radius 1.50 m");
   change(tool, Action::carve);
   EXPECT_EQ(describe(tool), "carve: crater, radius 2.00 m, blast 6 m/s, natural, about 20 pieces");
   tool.use = ToolUse::fill;

@@ -35,7 +35,7 @@ constexpr UseRow row_of(ToolUse use) {
     case ToolUse::dig:
       return {.name = "dig",
               .depth_in_radii = carve_depth_in_radii,
-              .usual_radius_m = 1.25F,
+              .usual_radius_m = 1.5F,
               .has_material = false};
     case ToolUse::place:
       return {.name = "place", .depth_in_radii = -0.5F, .usual_radius_m = 1.0F};
