@@ -112,10 +112,11 @@ void keys_move_and_act_once() {
   intents = input.drain(0.02F);
   CHECK(intents.fly.turn == glm::vec2(4.0F, -2.0F) && intents.strikes == 1);
   CHECK(input.drain(0.02F).strikes == 0);
-  CHECK(input.key("KeyE", true) && input.key("ArrowLeft", true) && input.key("ArrowDown", true));
+  CHECK(input.key("KeyE", true));
   intents = input.drain(0.02F);
   CHECK(intents.strikes == 1 && intents.strike_held && intents.actions.empty());
-  CHECK(intents.turn_keys == glm::vec2(-1.0F, 1.0F));
+  CHECK(input.key("ArrowLeft", true) && input.key("ArrowDown", true));
+  CHECK(input.drain(0.02F).turn_keys == glm::vec2(-1.0F, 1.0F));
   input.keys_up();
   CHECK(!input.drain(0.02F).strike_held);
 }
