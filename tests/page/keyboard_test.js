@@ -1,8 +1,9 @@
 // The built page in Chromium, by the keyboard alone: from its start to ten digs at one spot, a place, and the world's store.
 import assert from 'node:assert/strict';
-import { after, before, test } from 'node:test';
-import { writeFileSync } from 'node:fs';
+import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { join } from 'node:path';
+import { after, before, test } from 'node:test';
 
 import { launch, open_page, until } from './browser.js';
 import { host } from './server.js';
@@ -10,15 +11,18 @@ import { host } from './server.js';
 const EYE_M = 3;
 const VIEW = `#camera=0,${EYE_M},6,0,-20&quality=low&view=16`;
 
-let browser, server, page, complaints;
+let folder, browser, server, replay, page, complaints;
 before(async () => {
-  server = await host(['--terrain', 'flat']);
+  folder = mkdtempSync(join(tmpdir(), 'scree-keyboard-'));
+  server = await host(['--terrain', 'flat', '--record', join(folder, 'session.scree')]);
   browser = await launch();
   ({ page, complaints } = await open_page(browser, server.url + VIEW, { width: 640, height: 360 }));
 });
 after(async () => {
   await browser?.close();
+  await replay?.stop();
   await server?.stop();
+  rmSync(folder, { recursive: true, force: true });
 });
 
 const state = () => page.evaluate(() => globalThis.scree.state());
@@ -71,7 +75,7 @@ test('a key that is held digs again and again', async () => {
   await page.keyboard.up('KeyE');
 });
 
-test('figures come by I, all of them by F3, and the menu of a page is the browser’s', async () => {
+test('figures come by I, and all of them by F3', async () => {
   const shown = (id) => page.evaluate((name) => document.getElementById(name).checkVisibility(), id);
   assert.equal(await shown('readout'), false);
   await page.keyboard.press('KeyI');
@@ -81,4 +85,19 @@ test('figures come by I, all of them by F3, and the menu of a page is the browse
   await page.keyboard.press('KeyI');
   await page.keyboard.press('F3');
   await until(page, 'none', () => !document.querySelector('#readout').checkVisibility() && !document.querySelector('#panel').checkVisibility());
+});
+
+test('J rewinds where a replay of the world runs, and Backspace returns', async () => {
+  replay = await host(['--replay', join(folder, 'session.scree')]);
+  await page.evaluate((port) => { location.hash = `${location.hash}&past=${port}`; }, replay.port);
+  const { camera } = await state();
+  await page.keyboard.press('KeyJ');
+  await until(page, 'time runs backwards', () => { const playback = globalThis.scree?.state().playback; return playback?.playing && playback.speed === -1; });
+  assert.equal(new URL(page.url()).port, String(replay.port));
+  assert.equal((await state()).camera, camera);
+  assert.equal(await page.evaluate(() => document.querySelector('#tools').checkVisibility() || document.querySelector('[data-page="tool"]').checkVisibility()), false,
+    'a replay shows no tools');
+  await picture('page_past');
+  await page.keyboard.press('Backspace');
+  await until(page, 'the present', (port) => location.port === port && globalThis.scree?.state().connection.phase === 'connected' && !globalThis.scree.state().playback, String(server.port));
 });
