@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "client/cache/join_server.h"
+#include "client/viewer/base/limits.h"
 #include "client/viewer/session/viewer_session.h"
 #include "server/app/live_server.h"
 #include "tests/support/patience.h"
@@ -137,6 +138,7 @@ TEST_F(PredictingViewer, a_lost_server_takes_it_back_and_another_world_knows_not
   EXPECT_NEAR(shown_m(), 0.0F, 0.05F);
   strike();
   EXPECT_EQ(session_->predictions(), 0U);
+  EXPECT_LE(session_->next_try_s(steady_now_s()).value_or(0.0), limits::reconnect_min_s);
   LiveConfig config;
   config.pacing = Pacing::by_hand;
   config.world.terrain.kind = TerrainKind::flat;
@@ -144,7 +146,9 @@ TEST_F(PredictingViewer, a_lost_server_takes_it_back_and_another_world_knows_not
   auto again = LiveServer::start(config);
   ASSERT_TRUE(again) << again.error().message;
   server_ = std::move(*again);
+  session_->try_now();
   until("the new world", true, [&] { return session_->joined(steady_now_s()); });
+  EXPECT_NE(session_->notice(steady_now_s()).find("another world"), std::string::npos);
   strike();
   EXPECT_EQ(session_->predictions(), 1U);
 }
