@@ -96,7 +96,7 @@ void WindowApp::act_on_view(Action action) {
 void WindowApp::mute_or_play(double now_s) {
   sound_ = !sound_;
   viewing_.play_sound(sound_);
-  say(sound_ ? "sound on" : "sound off; X: on", now_s);
+  say(sound_ ? "sound on" : "sound off; F2: on", now_s);
 }
 
 /// What cannot be written is said, and nothing else: the world goes on.
