@@ -1,6 +1,7 @@
-// One 3D texture of values at the corners of the cells of bricks that need them, samples 0 … 8 along each
-// axis: the looks of bricks whose voxels look unlike each other, and the planes of bricks in which faces meet
-// (level_bricks.h). It grows with them: untouched smooth terrain has none. Needs the GL context current.
+// One 3D texture of values at the corners of the cells of bricks that need them: samples 0 … 8 along each
+// axis. These are the looks of bricks whose voxels look unlike each other, and the planes of bricks in which
+// faces meet (level_bricks.h). It grows with them: untouched smooth terrain has none. Needs the GL context
+// current.
 #pragma once
 
 #include <optional>
