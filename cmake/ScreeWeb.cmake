@@ -45,7 +45,7 @@ string(REGEX MATCHALL "google/[a-z0-9_/]+\\.cc" PROTOBUF_SOURCES "${PROTOBUF_SOU
 list(TRANSFORM PROTOBUF_SOURCES PREPEND ${PROTOBUF}/src/)
 add_library(scree_web_protobuf STATIC ${PROTOBUF_SOURCES})
 target_compile_features(scree_web_protobuf PUBLIC cxx_std_17)
-target_compile_options(scree_web_protobuf PRIVATE -w -Os)
+target_compile_options(scree_web_protobuf PRIVATE -w -Oz)
 target_include_directories(scree_web_protobuf SYSTEM PUBLIC ${PROTOBUF}/src)
 add_library(protobuf::libprotobuf-lite ALIAS scree_web_protobuf)
 
