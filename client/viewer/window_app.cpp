@@ -96,7 +96,7 @@ void WindowApp::act_on_view(Action action) {
 void WindowApp::mute_or_play(double now_s) {
   sound_ = !sound_;
   viewing_.play_sound(sound_);
-  say(sound_ ? "sound on" : "sound off; F2: on", now_s);
+  say(sound_ ? "sound on" : "sound off; 6: on", now_s);
 }
 
 /// What cannot be written is said, and nothing else: the world goes on.
@@ -257,8 +257,8 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
                      viewing_.session.colours(), choice_.graphs);
     if (choice_.panel)
       picked = hud_.panel(viewing_.view->methods().chosen(),
-                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, predict_,
-                           hand_, quality_},
+                          {tool_, viewing_.session.palette(), overlay_, method_options_, particles_, details_,
+                           shake_, predict_, hand_, quality_},
                           {facts.is_replay, choice_.all_figures});
     hud_.help(choice_.help, window_.has_gamepad(),
               viewing_.session.is_replay() ? ControlsOf::replay : ControlsOf::live);
@@ -355,6 +355,8 @@ ViewerOptions past_of(ViewerOptions options, const Camera& camera) {
   options.camera = camera;
   options.given.camera = true;
   options.screenshots.clear();
+  options.sound_file.clear();
+  options.trace_file.clear();
   return options;
 }
 

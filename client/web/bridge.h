@@ -120,7 +120,8 @@ void scree_gamepad(float left_x, float left_y, float right_x, float right_y, flo
 int scree_act(const char* action);
 /// Actions that keys or buttons asked for and that are the page's to do, as JSON, ["talk", "panel"]; takes
 /// them. They are: figures, free_mouse, full_screen, graphs, help, hide, panel, persons, picture,
-/// copy_place, talk, mute, larger_text, smaller_text, all_figures, present, and replay_play where it is no replay.
+/// copy_place, talk, mute, larger_text, smaller_text, all_figures, present, and replay_play where it is no
+/// replay.
 const char* scree_asked();
 
 /// The tool, by the names in scree_catalogue().

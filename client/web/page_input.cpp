@@ -35,7 +35,6 @@ constexpr std::array codes{CodeRow{"Space", GLFW_KEY_SPACE},
                            CodeRow{"End", GLFW_KEY_END},
                            CodeRow{"Backspace", GLFW_KEY_BACKSPACE},
                            CodeRow{"F1", GLFW_KEY_F1},
-                           CodeRow{"F2", GLFW_KEY_F2},
                            CodeRow{"F3", GLFW_KEY_F3},
                            CodeRow{"ShiftLeft", GLFW_KEY_LEFT_SHIFT}};
 

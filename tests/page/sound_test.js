@@ -51,10 +51,10 @@ async function strikes_are_heard(url, worklet) {
   await strike(page);
   await heard(page, 'the strike is heard');
   await until(page, 'it dies away', () => globalThis.scree.sound() === 0);
-  await page.keyboard.press('F2');
+  await page.keyboard.press('Digit6');
   await until(page, 'it is off', () => globalThis.scree.sound() === -1);
   assert.equal(await page.evaluate(() => JSON.parse(localStorage.getItem('scree')).sound), false);
-  await page.keyboard.press('F2');
+  await page.keyboard.press('Digit6');
   await until(page, 'it is on', () => globalThis.scree.sound() >= 0);
   await strike(page);
   await heard(page, 'the next strike is heard');
@@ -74,7 +74,7 @@ test('a person who turned sound off has it off the next time', async () => {
   await strike(page);
   await until(page, 'pieces fly', () => globalThis.scree.state().pieces_near > 0);
   assert.equal(await page.evaluate(() => globalThis.scree.sound()), -1);
-  await page.keyboard.press('F2');
+  await page.keyboard.press('Digit6');
   await until(page, 'it plays', () => globalThis.scree.sound() >= 0);
   await close();
 });

@@ -130,7 +130,8 @@ class WholeHud {
     hud_.lower_right(facts, all ? &persons : nullptr, {}, all);
     if (all)
       hud_.panel(*method_named("grid"),
-                 {tool_, *plain_palette(), overlay_, method_options_, particles_, details_, shake_, predict_, hand_, quality_},
+                 {tool_, *plain_palette(), overlay_, method_options_, particles_, details_, shake_, predict_,
+                  hand_, quality_},
                  {false, true});
     hud_.help(all ? Telling::all : Telling::basics, all, all ? ControlsOf::both : ControlsOf::live);
     if (all) {

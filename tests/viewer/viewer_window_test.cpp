@@ -43,9 +43,9 @@ TEST_F(ViewerHand, turns_sound_off_and_on_by_a_key) {
   options_.sound = true;
   join(320, 200);
   EXPECT_TRUE(app_->settings().sound);
-  hand("key F2");
+  hand("key 6");
   run_until([&] { return !app_->settings().sound; }, "silence");
-  hand("key F2");
+  hand("key 6");
   run_until([&] { return app_->settings().sound; }, "sound");
 }
 

@@ -89,7 +89,7 @@ constexpr std::array table{
     Binding{Action::talk, "talk", GLFW_KEY_ENTER, unbound, "Enter", "",
             "say something to all (Enter sends, Esc does not)"},
     Binding{Action::persons, "persons", GLFW_KEY_L, unbound, "L", "", "who is there"},
-    Binding{Action::mute, "mute", GLFW_KEY_F2, unbound, "F2", "", "sound off, or on"},
+    Binding{Action::mute, "mute", GLFW_KEY_6, unbound, "6", "", "sound off, or on"},
     Binding{Action::overlay, "overlay", GLFW_KEY_O, unbound, "O", "",
             "borders, interest, bodies and contacts"},
     Binding{Action::figures, "figures", GLFW_KEY_I, unbound, "I", "", "figures"},

@@ -112,7 +112,7 @@ void declare_input(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_SHAKE");
   app.add_option("--sound", options.sound,
                  "Play the sounds of rock that breaks, strikes and settles, in a window with a sound device: "
-                 "true or false; key F2 changes it")
+                 "true or false; key 6 changes it")
       ->envname("SCREE_SOUND");
   app.add_option("--sound-file", options.sound_file,
                  "FILE (WAV) for the sound at the camera, written until the program ends")

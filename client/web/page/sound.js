@@ -71,7 +71,7 @@ export class Sound {
   toggle() {
     this.#on = !this.#on;
     keep({ sound: this.#on });
-    this.#say(this.#on ? 'Sound on.' : 'Sound off; F2 turns it on.');
+    this.#say(this.#on ? 'Sound on.' : 'Sound off; 6 turns it on.');
     if (this.#on) this.#play();
     else this.#context?.suspend();
   }
