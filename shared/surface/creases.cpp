@@ -58,7 +58,7 @@ class PlaneMap {
   std::vector<FacePlane> planes_;
 };
 
-/// Of a cell: its corners and the points beyond them.
+/// As many as a cell has corners and points beyond them.
 constexpr size_t planes_max = 32;
 
 /// The known planes of a cell's corners that are near a point.

@@ -9,8 +9,8 @@
 
 namespace scree {
 
-/// A vertex on an edge has a normal of this length, of 127: it belongs to several faces, so whoever shades it
-/// takes the face's normal instead.
+/// A vertex on an edge has a normal of this length, of 127: it belongs to several faces, so the shader takes
+/// the triangle's normal instead.
 inline constexpr int crease_normal_length = 63;
 
 /// Voxels that a vertex may leave its cell by, to the tip of a thin wedge that fills no voxel.

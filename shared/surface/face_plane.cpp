@@ -12,7 +12,7 @@ namespace {
 
 /// The 27 points around, padded to whole vectors.
 constexpr size_t points = 32;
-/// Of the 26: with fewer, planes are those of rounded rock.
+/// Points of the 26 around that lie on the plane: with fewer, rock is rounded there.
 constexpr int supporters_least = 10;
 /// Codes that a point may lie off the plane: a little more than two roundings.
 constexpr int16_t off_most = 1;

@@ -36,7 +36,7 @@ struct FacePlane {
 static_assert(sizeof(FacePlane) == 4);
 
 /// The slopes are taken on the side of the point on which the codes bend less. The plane is known when they
-/// are as steep as a distance is, and 12 of the 26 points around lie on it. The window must hold the point
+/// are as steep as a distance is, and 10 of the 26 points around lie on it. The window must hold the point
 /// grown by face_plane_reach.
 FacePlane face_plane_at(const Window& window, VoxelCoord point);
 
