@@ -46,6 +46,7 @@ void session_step() {
 /// A carve of that radius and so many seeds below the place.
 void session_strike(float x, float y, float z, float radius_m, int seeds) {
   Tool tool;
+  tool.use = ToolUse::carve;
   tool.radius_m = radius_m;
   tool.seeds = static_cast<uint32_t>(seeds);
   session()->strike(tool, {x, y, z}, {0.0F, -1.0F, 0.0F}, steady_now_s());
