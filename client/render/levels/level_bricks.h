@@ -36,8 +36,8 @@ using PlaneBrick = std::array<FacePlane, corner_brick_side * corner_brick_side *
 /// Voxels beyond these samples that their planes depend on: those of neighbours, too.
 inline constexpr int plane_brick_reach = face_plane_reach + 1;
 
-/// The planes of the brick that begins at `first`, if faces meet in it. The window must hold its samples 0 … 8
-/// grown by plane_brick_reach.
+/// The planes of the brick that begins at `first`, if faces meet in it. The window must hold its samples 0 …
+/// 8 grown by plane_brick_reach.
 std::unique_ptr<PlaneBrick> planes_of(const Window& window, VoxelCoord first);
 
 struct LevelBrick {

@@ -85,8 +85,8 @@ inline constexpr size_t lines_max = 100000;
 /// oldest end.
 inline constexpr size_t particles_max = 6000;
 
-/// Stones are drawn in front of terrain that is so little nearer to the eye: rubble takes 1.6 times the room of
-/// its stones, so what a merge made lies about them.
+/// Stones are drawn in front of terrain that is so little nearer to the eye: rubble takes 1.6 times the room
+/// of its stones, so what a merge made lies about them.
 inline constexpr float stone_lift_voxels = 0.9F;
 
 /// Stones that stay where pieces merged: about thirty strikes' worth. The farthest end first.
