@@ -121,23 +121,28 @@ test('two thumbs move, look and strike', async () => {
 
 test('a thumb strikes as it comes down, however long it stays, and while the other one moves', async () => {
   const { page, close } = await opened([640, 360]);
-  const strikes = async () => { await settled(page); return (await calls(page, 'strike')).length; };
+  /** A busy browser hands on touches late. */
+  const struck = async (count) => {
+    await calls_from(page, 'strike', count);
+    await settled(page);
+    assert.equal((await calls(page, 'strike')).length, count);
+  };
   const [x, y] = await page.$eval('#strike', (one) => { const box = one.getBoundingClientRect(); return [box.x + box.width / 2, box.y + box.height / 2]; });
   const long = await page.touchscreen.touchStart(x, y);
-  assert.equal(await strikes(), 1);
+  await struck(1);
   await new Promise((resolve) => { setTimeout(resolve, LONG_PRESS_MS); });
   await long.end();
-  assert.equal(await strikes(), 1);
+  await struck(1);
   await page.tap('#strike');
-  assert.equal(await strikes(), 2);
+  await struck(2);
   const left = await page.touchscreen.touchStart(100, 200);
   await left.move(100, 100);
   const right = await page.touchscreen.touchStart(x, y);
   await right.end();
-  assert.equal(await strikes(), 3);
+  await struck(3);
   await left.end();
   await page.$eval('#strike', (one) => one.click());
-  assert.equal(await strikes(), 4);
+  await struck(4);
   await close();
 });
 
