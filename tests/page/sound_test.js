@@ -29,8 +29,9 @@ const opened = async (url) => {
   await until(visit.page, 'the world is shown', () => document.querySelector('#gate.open') && globalThis.scree.state().loaded);
   return visit;
 };
-/** The first click takes the mouse; the second strikes. */
+/** The first click takes the mouse; the second strikes, by the tool that breaks rock. */
 const strike = async (page) => {
+  await page.keyboard.press('Digit3');
   if (await page.evaluate(() => document.pointerLockElement === null)) {
     await page.mouse.click(WIDTH / 2, HEIGHT / 2);
     await until(page, 'the mouse is taken', () => document.pointerLockElement !== null);
