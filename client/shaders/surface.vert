@@ -36,9 +36,10 @@ void main() {
   v_worn = vec2(a_worn - 16.0 * come, come) * worn_step;
   v_look = int(a_look);
   gl_Position = u_view_projection * vec4(v_world, 1.0);
-  // A stone that merged lies in the surface of the terrain that it became.
-  vec3 to_eye = u_eye - v_world;
-  float lift = u_loose * min(u_lift / max(length(to_eye), 1e-3), 0.5);
-  vec4 nearer = u_view_projection * vec4(v_world + to_eye * lift, 1.0);
-  gl_Position.z = nearer.z / max(nearer.w, 1e-4) * gl_Position.w;
+  // A stone that merged lies in the surface of the terrain that it became. Behind the eye there is nothing to divide by.
+  if (u_loose > 0.0 && gl_Position.w > 2.0 * u_lift) {
+    vec3 to_eye = u_eye - v_world;
+    vec4 nearer = u_view_projection * vec4(v_world + to_eye * (u_lift / length(to_eye)), 1.0);
+    gl_Position.z = nearer.z / nearer.w * gl_Position.w;
+  }
 }
