@@ -25,10 +25,6 @@ constexpr float gone_code = 12.0F;
 /// And from a stone when it has gone from this share of its points.
 constexpr float gone_share = 0.12F;
 
-BrickCoord brick_at(VoxelCoord v) {
-  return {v.x >> 3, v.y >> 3, v.z >> 3};
-}
-
 /// Trilinear, in codes.
 float code_at(const Field& field, glm::vec3 voxels) {
   const VoxelCoord c{floor_to_int(voxels.x), floor_to_int(voxels.y), floor_to_int(voxels.z)};
@@ -39,7 +35,7 @@ float code_at(const Field& field, glm::vec3 voxels) {
     const glm::vec3 share = glm::mix(1.0F - f, f, as_vector(v - c));
     const int at = Brick::index(v.x & 7, v.y & 7, v.z & 7);
     sum += share.x * share.y * share.z *
-           static_cast<float>(field.brick(brick_at(v)).codes[static_cast<size_t>(at)]);
+           static_cast<float>(field.brick(brick_of(v)).codes[static_cast<size_t>(at)]);
   }
   return sum;
 }
@@ -104,7 +100,7 @@ bool SettledStones::settle(PieceId id, const Field& field) {
     return false;
   std::unordered_set<BrickCoord, CoordHash> bricks;
   for (const glm::vec3 point : stone.inside)
-    bricks.insert(brick_at({floor_to_int(point.x), floor_to_int(point.y), floor_to_int(point.z)}));
+    bricks.insert(brick_of({floor_to_int(point.x), floor_to_int(point.y), floor_to_int(point.z)}));
   for (const BrickCoord brick : bricks) in_brick_[brick].push_back(id);
   stones_.emplace(id, std::move(stone));
   return true;
@@ -119,7 +115,7 @@ bool SettledStones::lies_in(const Field& field, const Stone& stone) const {
 void SettledStones::remove(PieceId id, MirrorChanges& changes) {
   for (const glm::vec3 point : stones_.at(id).inside) {
     const auto found =
-        in_brick_.find(brick_at({floor_to_int(point.x), floor_to_int(point.y), floor_to_int(point.z)}));
+        in_brick_.find(brick_of({floor_to_int(point.x), floor_to_int(point.y), floor_to_int(point.z)}));
     if (found == in_brick_.end()) continue;
     std::erase(found->second, id);
     if (found->second.empty()) in_brick_.erase(found);
