@@ -95,6 +95,11 @@ inline constexpr uint32_t ban_minutes_max = 5'256'000;
 /// Rows of sessions, or of bans, in one answer to an administrator: under 500 KiB. The rest is left out.
 inline constexpr size_t admin_rows_max = 2048;
 
+/// A line for the console of rules, and the text that answers an administrator, bytes. A longer line is
+/// refused, a longer text is cut.
+inline constexpr size_t console_line_bytes_max = 4096;
+inline constexpr size_t admin_text_bytes_max = 65536;
+
 /// Ids of bodies that a list of them may be asked for by. Above: refused, and the connection ends.
 inline constexpr size_t bodies_named_max = 64;
 

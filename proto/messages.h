@@ -8,11 +8,11 @@
 #include <variant>
 #include <vector>
 
-#include "proto/admin_rows.h"
-#include "proto/body_list.h"
+#include "proto/admin_message.h"
 #include "proto/contact_message.h"
 #include "proto/content.h"
 #include "proto/cursor.h"
+#include "proto/game_message.h"
 #include "proto/health.h"
 #include "proto/joint_message.h"
 #include "proto/kept_pieces.h"
@@ -132,36 +132,6 @@ struct AckMessage {
   Tick tick = 0;
 };
 
-/// Requests of an administrator; a director may list bodies, joints, stores and masses, too. SettingsRequest
-/// changes all its settings, or none.
-struct ListSessionsRequest {};
-struct KickRequest {
-  uint64_t session = 0;
-  std::string reason;  ///< told to who is sent away; may be empty
-};
-/// An address, or that of a session; the sessions from there end.
-struct BanRequest {
-  uint64_t session = 0;  ///< 0: the address says who
-  std::string address;   ///< numeric, IPv4 or IPv6
-  uint32_t minutes = 0;  ///< 0: until it is lifted
-  std::string reason;
-};
-struct ListBansRequest {};
-struct LiftBanRequest {
-  std::string address;
-};
-struct ListStoresRequest {};
-using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
-                                  ListBansRequest, LiftBanRequest, ControlReplayRequest, ListBodiesRequest,
-                                  ListJointsRequest, ListStoresRequest, ListRegionMassesRequest>;
-
-/// Answered with a reply; what lists something, with an AdminListMessage.
-struct AdminMessage {
-  uint32_t request = 0;
-  std::string token;  ///< equal to the server's, or empty where the session's role is admin
-  AdminRequest act;
-};
-
 /// Switches PhysicsMessages on or off, and ContactsMessages of blows of at least so much energy; 0: none.
 struct PhysicsSubscriptionMessage {
   bool physics = false;
@@ -191,7 +161,7 @@ using ClientMessage =
                  BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage,
                  CutOutMessage, ReleaseMessage, AddPieceMessage, QueryMessage, SetRegionMessage,
                  RemoveRegionMessage, StandMessage, WalkMessage, DigMessage, PlaceMessage, TransferMessage,
-                 UnknownMessage>;
+                 ChannelMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -366,18 +336,6 @@ struct ContactView {
   float impulse_n_s = 0.0F;
 };
 
-/// The answer to a request that lists something.
-struct AdminListMessage {
-  uint32_t request = 0;
-  std::vector<SessionRow> sessions{};
-  std::vector<BanRow> bans{};
-  std::vector<BodyRow> bodies{};            ///< ordered by id, at most limits::admin_rows_max
-  std::vector<KnownJoint> joints{};         ///< likewise
-  uint32_t left_out = 0;                    ///< rows of the lists before and after this that would be more
-  std::vector<StoreContent> stores{};       ///< in order, at most limits::stores_a_message
-  std::vector<RegionMass> region_masses{};  ///< by origin and material, at most limits::admin_rows_max
-};
-
 /// The bodies, contacts and searches of a tick, for display. Lengths are rounded to 1/256 m on the wire.
 struct PhysicsMessage {
   Tick tick = 0;
@@ -392,7 +350,8 @@ using ServerMessage =
                  UnchangedChunksMessage, TileMessage, PersonsMessage, SaidMessage, PlaybackMessage,
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
                  PropMessage, ContactsMessage, JointsMessage, KeptPiecesMessage, AnswerMessage,
-                 RegionsMessage, PersonPlacesMessage, StoresMessage, UnknownMessage>;
+                 RegionsMessage, PersonPlacesMessage, StoresMessage, SignsMessage, CuesMessage,
+                 ChannelMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

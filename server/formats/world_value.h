@@ -24,6 +24,8 @@
 #include "server/provenance/provenance.h"
 #include "shared/base/walking.h"
 #include "shared/field/piece.h"
+#include "shared/game/kept.h"
+#include "shared/game/sign.h"
 #include "shared/prop/joint.h"
 #include "shared/prop/prop.h"
 
@@ -271,6 +273,15 @@ struct StoreRecord {
   bool operator==(const StoreRecord&) const = default;
 };
 
+/// What a host's rules keep, show and made of persons. The lists never change, and are never null.
+struct GameValue {
+  std::shared_ptr<const std::vector<KeptValue>> kept =
+      std::make_shared<const std::vector<KeptValue>>();  ///< ordered by key
+  std::shared_ptr<const std::vector<Sign>> signs =
+      std::make_shared<const std::vector<Sign>>();  ///< in order (comes_before)
+  std::vector<Player> players;                      ///< ordered by session
+};
+
 /// All but the terrain: cheap to make, so that every tick can be saved.
 struct WorldMoment {
   RecordedHeader config;  ///< `program` is empty
@@ -305,6 +316,7 @@ struct WorldMoment {
   std::vector<PersonRecord> persons;   ///< ordered by session
   std::vector<StoreRecord> stores;     ///< ordered by owner
   std::vector<PlacedMass> provenance;  ///< ordered by place and origin
+  GameValue game;
 };
 
 struct WorldSnapshot {

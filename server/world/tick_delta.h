@@ -90,6 +90,9 @@ struct TickDelta {
   std::vector<StoreContent> stores;  ///< that changed, as they stand; ordered by owner
   /// What became of the rock of regions that count, all rows, when one changed; else null, and in a replay.
   std::shared_ptr<const std::vector<RegionMass>> region_masses;
+  /// All signs, in order, when one changed; else null.
+  std::shared_ptr<const std::vector<Sign>> signs;
+  std::vector<Notice> notices;  ///< of the host's rules, in order
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
   uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay

@@ -76,6 +76,8 @@ class World {
   const std::vector<Region>& regions() const;
   std::vector<RegionMass> region_masses() const;
   std::vector<StoreContent> stores() const;
+  /// What the host's rules keep with the world, show, and made of persons.
+  const GameValue& game() const;
   /// The terrain's gain since the start, measured from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();
   /// Switches TickDelta::physics, in every ticks_per_physics-th delta, on or off. Changes nothing else.

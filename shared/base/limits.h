@@ -54,7 +54,7 @@ inline constexpr size_t stamp_voxels_max = size_t{1} << 23;
 /// Voxel sizes that a world may have, metres. Below, a box of edit_reach_max_m could not become terrain again
 /// within stamp_voxels_max, nor, below 0.14, fit window_side_max; above, a piece would be coarser than
 /// anything it lies on. Refused where a world is created.
-inline constexpr float voxel_size_min_m = 0.15F;
+inline constexpr float voxel_size_min_m = 0.1F;
 inline constexpr float voxel_size_max_m = 2.0F;
 
 /// Bytes of one message on the wire, either way. Above: the connection is refused.

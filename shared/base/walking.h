@@ -21,6 +21,7 @@ struct WalkerState {
   float time_left_s = 0.0F;  ///< less than one of the walker's ticks
   bool stands = false;
   int32_t still_ticks = 0;  ///< in which it should have fallen and did not
+  float pace = 1.0F;        ///< multiple of the usual walking and running speed
 
   bool operator==(const WalkerState&) const = default;
 };

@@ -16,6 +16,7 @@
 #include "shared/field/piece.h"
 #include "shared/field/shape.h"
 #include "shared/fracture/seed_pattern.h"
+#include "shared/game/rules_act.h"
 #include "shared/material/material.h"
 #include "shared/operation/blast.h"
 #include "shared/operation/store.h"
@@ -242,12 +243,19 @@ struct WalkRequest {
   bool operator==(const WalkRequest&) const = default;
 };
 
+/// What a host's rules do besides; of the server itself (session 0) alone.
+struct RulesRequest {
+  RulesAct act;
+
+  bool operator==(const RulesRequest&) const = default;
+};
+
 using Request =
     std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest, AddPropRequest,
                  RemovePropRequest, MovePropRequest, PushRequest, BreakRequest, BlastRequest, AddJointRequest,
                  RemoveJointRequest, SetMotorRequest, CutOutRequest, ReleaseRequest, AddPieceRequest,
                  SetRegionRequest, RemoveRegionRequest, StandRequest, WalkRequest, DigRequest, PlaceRequest,
-                 TransferRequest>;
+                 TransferRequest, RulesRequest>;
 
 /// The shape of a request that edits terrain, or in which it does; nothing: it edits none.
 inline std::optional<Shape> shape_of(const Request& request) {
