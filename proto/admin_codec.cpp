@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "proto/body_list_codec.h"
+#include "proto/game_codec.h"
 #include "proto/limits.h"
 #include "proto/store_codec.h"
 #include "shared/base/text.h"
@@ -44,6 +45,7 @@ struct WritingAct {
   void operator()(const ListBodiesRequest& from) const { write(*to.mutable_list_bodies(), from); }
   void operator()(const ListJointsRequest& from) const { write(*to.mutable_list_joints(), from); }
   void operator()(const ListStoresRequest&) const { to.mutable_list_stores(); }
+  void operator()(const ControlRulesRequest& from) const { write(*to.mutable_control_rules(), from); }
   void operator()(const ListRegionMassesRequest& from) const {
     to.mutable_list_region_masses()->set_region(showable(from.region, limits::region_name_bytes_max));
   }
@@ -93,6 +95,8 @@ AdminRequest read_act(const wire::Admin& from, FieldChecker& check) {
       return read(from.list_joints(), check);
     case wire::Admin::kListStores:
       return ListStoresRequest{};
+    case wire::Admin::kControlRules:
+      return read(from.control_rules(), check);
     case wire::Admin::kListRegionMasses:
       return ListRegionMassesRequest{
           check.text(from.list_region_masses().region(), limits::region_name_bytes_max, "name of a region")};
@@ -160,6 +164,7 @@ void write(wire::AdminList& to, const AdminListMessage& from) {
   for (size_t i = 0; i < masses; ++i) write(*to.add_region_masses(), from.region_masses[i]);
   to.set_left_out(to.left_out() +
                   static_cast<uint32_t>(from.stores.size() - stores + from.region_masses.size() - masses));
+  to.set_text(from.text.substr(0, limits::admin_text_bytes_max));
 }
 
 AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& check) {
@@ -179,6 +184,7 @@ AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& chec
   read_bodies(from, list, check);
   list.stores = read_stores(from.stores(), limits::stores_a_message, check);
   for (const wire::RegionMass& mass : from.region_masses()) list.region_masses.push_back(read(mass, check));
+  list.text = check.bytes(from.text(), limits::admin_text_bytes_max, "text of a list");
   return list;
 }
 

@@ -4,6 +4,7 @@
 #include "proto/admin_codec.h"
 #include "proto/codec.h"
 #include "proto/content_codec.h"
+#include "proto/game_codec.h"
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
 #include "proto/joint_codec.h"
@@ -74,6 +75,8 @@ struct Writing {
   void operator()(const QueryMessage& from) const { write(*to.mutable_query(), from); }
   void operator()(const SetRegionMessage& from) const { write(*to.mutable_set_region(), from); }
   void operator()(const RemoveRegionMessage& from) const { write(*to.mutable_remove_region(), from); }
+  void operator()(const RulesMessage& from) const { write(*to.mutable_rules(), from); }
+  void operator()(const ChannelMessage& from) const { write(*to.mutable_channel(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
     repair.set_tick(from.tick);
@@ -184,6 +187,10 @@ Result<ClientMessage> read_about_bodies(const wire::ClientMessage& from, FieldCh
       return checked(read(from.place(), check));
     case wire::ClientMessage::kTransfer:
       return checked(read(from.transfer(), check));
+    case wire::ClientMessage::kRules:
+      return checked(read(from.rules(), check));
+    case wire::ClientMessage::kChannel:
+      return checked(read(from.channel(), check));
     default:
       return UnknownMessage{};
   }

@@ -134,6 +134,14 @@ size_t memory_bytes(const ServerMessage& message) {
             for (const StoreContent& one : m.stores) bytes += bytes_of(one.masses);
             return bytes;
           },
+          [](const SignsMessage& m) {
+            size_t bytes = bytes_of(m.signs);
+            for (const Sign& sign : m.signs)
+              bytes += sign.name.size() + sign.text.size() + sign.to.team.size();
+            return bytes;
+          },
+          [](const CuesMessage& m) { return bytes_of(m.cues); },
+          [](const ChannelMessage& m) { return m.channel.size() + bytes_of(m.bytes); },
           [](const KeptPiecesMessage& m) { return bytes_of(m.kept) + bytes_of(m.released); },
           [](const PersonPlacesMessage& m) { return m.persons ? bytes_of(*m.persons) : size_t{0}; },
           [](const AnswerMessage& m) { return bytes_of(m); },

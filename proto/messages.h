@@ -119,6 +119,7 @@ using WalkMessage = RequestMessage<WalkRequest>;
 using DigMessage = RequestMessage<DigRequest>;
 using PlaceMessage = RequestMessage<PlaceRequest>;
 using TransferMessage = RequestMessage<TransferRequest>;
+using RulesMessage = RequestMessage<RulesRequest>;  ///< in recordings and worlds alone
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairMessage {
@@ -161,7 +162,7 @@ using ClientMessage =
                  BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage,
                  CutOutMessage, ReleaseMessage, AddPieceMessage, QueryMessage, SetRegionMessage,
                  RemoveRegionMessage, StandMessage, WalkMessage, DigMessage, PlaceMessage, TransferMessage,
-                 ChannelMessage, UnknownMessage>;
+                 RulesMessage, ChannelMessage, UnknownMessage>;
 
 // ---- server to client
 

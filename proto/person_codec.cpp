@@ -16,6 +16,7 @@ void write_own(wire::OwnPerson& to, const OwnPerson& from) {
   to.set_time_left_s(from.walker.time_left_s);
   to.set_stands(from.walker.stands);
   to.set_still_ticks(static_cast<uint32_t>(from.walker.still_ticks));
+  if (from.walker.pace != 1.0F) to.set_pace(from.walker.pace);
 }
 
 OwnPerson read_own(const wire::OwnPerson& from, FieldChecker& check) {
@@ -27,6 +28,7 @@ OwnPerson read_own(const wire::OwnPerson& from, FieldChecker& check) {
   own.walker.stands = from.stands();
   own.walker.still_ticks =
       static_cast<int32_t>(check.within(from.still_ticks(), 0, INT32_MAX, "still_ticks"));
+  if (from.has_pace()) own.walker.pace = check.finite(from.pace(), "pace of a person");
   if (!is_walker_state(own.walker)) check.refuse("a person on foot is as none can be");
   return own;
 }

@@ -7,6 +7,7 @@
 #include "proto/codec.h"
 #include "proto/content_codec.h"
 #include "proto/frame_codec.h"
+#include "proto/game_codec.h"
 #include "proto/health_codec.h"
 #include "proto/height_wire.h"
 #include "proto/join_codec.h"
@@ -81,6 +82,9 @@ struct Writing {
   void operator()(const RegionsMessage& from) const { write(*to.mutable_regions(), from); }
   void operator()(const PersonPlacesMessage& from) const { write(*to.mutable_person_places(), from); }
   void operator()(const StoresMessage& from) const { write(*to.mutable_stores(), from); }
+  void operator()(const SignsMessage& from) const { write(*to.mutable_signs(), from); }
+  void operator()(const CuesMessage& from) const { write(*to.mutable_cues(), from); }
+  void operator()(const ChannelMessage& from) const { write(*to.mutable_channel(), from); }
   void operator()(const ResetMessage&) const { to.mutable_reset(); }
   void operator()(const ReplyMessage& from) const {
     wire::Reply& reply = *to.mutable_reply();
@@ -215,6 +219,12 @@ Result<ServerMessage> read_about_bodies(const wire::ServerMessage& from, FieldCh
       return checked(read(from.person_places(), check));
     case wire::ServerMessage::kStores:
       return checked(read(from.stores(), check));
+    case wire::ServerMessage::kSigns:
+      return checked(read(from.signs(), check));
+    case wire::ServerMessage::kCues:
+      return checked(read(from.cues(), check));
+    case wire::ServerMessage::kChannel:
+      return checked(read(from.channel(), check));
     default:
       return UnknownMessage{};
   }
@@ -254,6 +264,9 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
     case wire::ServerMessage::kPersonPlaces:
     case wire::ServerMessage::kAnswer:
     case wire::ServerMessage::kStores:
+    case wire::ServerMessage::kSigns:
+    case wire::ServerMessage::kCues:
+    case wire::ServerMessage::kChannel:
     case wire::ServerMessage::kRegions:
       return read_about_bodies(from, check, checked);
     case wire::ServerMessage::kReset:

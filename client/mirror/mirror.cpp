@@ -50,6 +50,10 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [&](const RegionsMessage& all) { return apply_regions(all, changes); },
           [&](const PersonPlacesMessage& places) { return apply_persons(places); },
           [&](const StoresMessage& stores) { return apply_stores(stores); },
+          [&](const SignsMessage& signs) -> Done {
+            signs_ = signs.signs;
+            return {};
+          },
           [&](const ResetMessage&) -> Done {
             apply_reset(changes);
             return {};
@@ -65,6 +69,8 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
           [](const AnswerMessage&) -> Done { return {}; },
           [](const AdminListMessage&) -> Done { return {}; },
           [](const CursorsMessage&) -> Done { return {}; },
+          [](const CuesMessage&) -> Done { return {}; },
+          [](const ChannelMessage&) -> Done { return {}; },
           [](const PersonsMessage&) -> Done { return {}; },
           [](const SaidMessage&) -> Done { return {}; },
           [](const HealthMessage&) -> Done { return {}; },
@@ -85,24 +91,6 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
   TRY(applied);
   for (const BrickCoord brick : changes.bricks) scenes_.forget(chunk_of(brick));
   return changes;
-}
-
-Result<void> Mirror::within_limits() const {
-  if (const size_t chunks = held_.size() + incomplete_.size(); chunks > limits::mirror_chunks_max)
-    return fail(
-        fmt::format("{} edited chunks are over this client's {} (limits.mirror_chunks_max); ask for a "
-                    "smaller radius of interest",
-                    chunks, limits::mirror_chunks_max));
-  if (props_.size() > limits::mirror_props_max)
-    return fail(fmt::format("{} props are over this client's {} (limits.mirror_props_max)", props_.size(),
-                            limits::mirror_props_max));
-  if (motions_.size() > limits::mirror_pieces_max)
-    return fail(fmt::format("{} pieces are over this client's {} (limits.mirror_pieces_max)", motions_.size(),
-                            limits::mirror_pieces_max));
-  if (piece_voxels_ > limits::piece_voxels_max)
-    return fail(fmt::format("pieces of {} voxels are over the limit of {} (limits.piece_voxels_max)",
-                            piece_voxels_, limits::piece_voxels_max));
-  return {};
 }
 
 Result<void> Mirror::apply_frame(const FrameMessage& frame, MirrorChanges& changes) {
@@ -346,6 +334,7 @@ void Mirror::apply_reset(MirrorChanges& changes) {
   props_.clear();
   kept_.clear();
   regions_.clear();
+  signs_.clear();
   changes.regions = true;
   persons_.clear();
   own_person_.reset();

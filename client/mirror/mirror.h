@@ -109,6 +109,8 @@ class Mirror {
   const std::map<JointId, Joint>& joints() const { return joints_; }
   /// All regions of the world, ordered by id.
   const std::vector<Region>& regions() const { return regions_; }
+  /// What the server's rules show to this client, in order; their ends are not looked at (Sign::until).
+  const std::vector<Sign>& signs() const { return signs_; }
   /// Who is on foot, by the props that are their bodies: a session each. Not all bodies are known here.
   const std::map<PieceId, uint64_t>& persons() const { return persons_; }
   /// This client's own person, as the server told it last; nothing: it is not on foot.
@@ -194,6 +196,7 @@ class Mirror {
   std::map<PieceId, PieceMotion> motions_;  ///< their poses
   std::set<PieceId> kept_;
   std::vector<Region> regions_;
+  std::vector<Sign> signs_;
   std::map<PieceId, PropMotionHere> props_;
   std::map<JointId, Joint> joints_;
   std::map<PieceId, uint64_t> persons_;  ///< sessions by body

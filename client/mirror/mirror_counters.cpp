@@ -1,5 +1,9 @@
 #include "client/mirror/mirror.h"
 
+#include <fmt/format.h>
+
+#include "client/mirror/limits.h"
+
 namespace scree {
 
 MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
@@ -23,6 +27,24 @@ MirrorCounters& MirrorCounters::operator+=(const MirrorCounters& other) {
   repairs_arrived += other.repairs_arrived;
   resets += other.resets;
   return *this;
+}
+
+Result<void> Mirror::within_limits() const {
+  if (const size_t chunks = held_.size() + incomplete_.size(); chunks > limits::mirror_chunks_max)
+    return fail(
+        fmt::format("{} edited chunks are over this client's {} (limits.mirror_chunks_max); ask for a "
+                    "smaller radius of interest",
+                    chunks, limits::mirror_chunks_max));
+  if (props_.size() > limits::mirror_props_max)
+    return fail(fmt::format("{} props are over this client's {} (limits.mirror_props_max)", props_.size(),
+                            limits::mirror_props_max));
+  if (motions_.size() > limits::mirror_pieces_max)
+    return fail(fmt::format("{} pieces are over this client's {} (limits.mirror_pieces_max)", motions_.size(),
+                            limits::mirror_pieces_max));
+  if (piece_voxels_ > limits::piece_voxels_max)
+    return fail(fmt::format("pieces of {} voxels are over the limit of {} (limits.piece_voxels_max)",
+                            piece_voxels_, limits::piece_voxels_max));
+  return {};
 }
 
 }  // namespace scree

@@ -298,6 +298,7 @@ Result<void> LiveServer::stop() {
   }
   state_->changed.notify_all();
   if (state_->thread.joinable()) state_->thread.join();
+  if (!state_->finished && state_->config.hooks.stopped) state_->config.hooks.stopped();
   state_->end("");
   state_->net->stop();
   if (!std::exchange(state_->finished, true)) state_->finish_files();

@@ -11,7 +11,7 @@
 #include <memory>
 #include <string>
 
-#include "server/app/host_hooks.h"
+#include "server/host/host_hooks.h"
 #include "server/app/limits.h"
 #include "server/app/server_report.h"
 #include "server/app/tick_feed.h"

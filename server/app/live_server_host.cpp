@@ -7,6 +7,14 @@
 
 namespace scree {
 
+/// The network side is there for as long as hooks are called.
+HostActs LiveServer::State::host_acts() {
+  NetServer* const server = net.get();
+  return {[server](uint64_t session, ServerMessage message) { server->send(session, std::move(message)); },
+          [server](uint64_t session, Role role) { server->set_role(session, role); },
+          [server](uint64_t session, const std::string& reason) { server->kick(session, reason); }};
+}
+
 /// Lets the host decide on the commands of the next tick. False: terrain that it asked for cannot be read.
 bool LiveServer::State::ask_host(const World& world, Admitted& admitted) {
   TickCommands commands(std::move(admitted.commands));

@@ -41,6 +41,10 @@ Result<void> LiveServer::State::open() {
     return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
                 hex_of(given) + " (--ground)");
   config.net.said = config.hooks.said;
+  config.net.joined = config.hooks.joined;
+  config.net.left = config.hooks.left;
+  config.net.heard = config.hooks.heard;
+  config.net.control_rules = config.hooks.controlled;
   config.net.status = [this](const NetFigures& figures) { return status(figures); };
   config.net.health = [this] { return health(); };
   config.net.checked = [this](double now_s) { check_heartbeat(now_s); };
@@ -66,6 +70,7 @@ Result<void> LiveServer::State::open() {
   report.settings = keyframe.settings;  // ticks say only what changes
   auto listening = TRY(NetServer::listen(config.net, commands, std::move(keyframe)));
   net = std::move(listening);
+  if (config.hooks.started) config.hooks.started(host_acts());
   TRY(open_recorder());
   if (saved_world != nullptr) TRY(start_saving());
   if (world != nullptr) {

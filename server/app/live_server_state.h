@@ -51,6 +51,7 @@ struct LiveServer::State {
   Result<void> start_saving();
   void run();
   bool step();
+  HostActs host_acts();
   bool ask_host(const World& world, Admitted& admitted);
   void refuse_missing_models(Admitted& admitted);
   bool wait_for_clients();

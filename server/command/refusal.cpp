@@ -58,6 +58,7 @@ constexpr Row rows[] = {
     {Refusal::stores_max, "stores_max"},
     {Refusal::dig_rate, "dig_rate"},
     {Refusal::in_the_way, "in_the_way"},
+    {Refusal::rules_invalid, "rules_invalid"},
     {Refusal::host, "host"},
     {Refusal::model_missing, "model_missing"},
     {Refusal::replay, "replay"},

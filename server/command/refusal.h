@@ -58,7 +58,8 @@ enum class Refusal : uint8_t {
   stores_max,
   dig_rate,
   in_the_way,
-  // The host's own rule refuses a request (server/app/host_hooks.h).
+  rules_invalid,
+  // The host's own rule refuses a request (server/host/host_hooks.h).
   host,
   // The server does not have the model that a prop names.
   model_missing,

@@ -5,6 +5,7 @@
 #include <recording.pb.h>
 
 #include "proto/codec.h"
+#include "proto/game_codec.h"
 #include "proto/limits.h"
 #include "proto/operation_codec.h"
 #include "proto/store_codec.h"
@@ -155,6 +156,8 @@ std::vector<uint8_t> encode(const RecordedFrame& frame) {
   write_joints(*to.mutable_joints(), frame.joints);
   if (frame.regions != nullptr) to.set_regions(pack_regions(*frame.regions));
   write(*to.mutable_stores(), frame.stores);
+  if (frame.signs != nullptr) to.set_signs(pack_signs(*frame.signs));
+  for (const Notice& notice : frame.notices) write(*to.add_notices(), notice);
   return bytes_of(to);
 }
 
@@ -176,6 +179,12 @@ Result<RecordedFrame> decode_recorded_frame(std::span<const uint8_t> bytes) {
   if (from.has_regions())
     frame.regions = std::make_shared<const std::vector<Region>>(unpack_regions(from.regions(), check));
   frame.stores = read_stores(from.stores(), 2 * limits::stores_max, check);
+  if (from.has_signs())
+    frame.signs = std::make_shared<const std::vector<Sign>>(unpack_signs(from.signs(), check));
+  if (static_cast<size_t>(from.notices_size()) > limits::notices_a_tick_max)
+    check.refuse("more notices in a tick than there can be (limits.notices_a_tick_max)");
+  for (const wire::Notice& notice : from.notices())
+    if (!check.failed()) frame.notices.push_back(read(notice, check));
   return checked(std::move(frame), check);
 }
 
@@ -198,6 +207,7 @@ std::vector<uint8_t> encode(const RecordedKeyframe& keyframe) {
   write_joints(*to.mutable_joints(), JointsMessage{keyframe.joints, {}});
   if (!keyframe.regions.empty()) to.set_regions(pack_regions(keyframe.regions));
   write(*to.mutable_stores(), keyframe.stores);
+  if (!keyframe.signs.empty()) to.set_signs(pack_signs(keyframe.signs));
   return bytes_of(to);
 }
 
@@ -222,6 +232,7 @@ Result<RecordedKeyframe> decode_recorded_keyframe(std::span<const uint8_t> bytes
   keyframe.joints = read_joints(from.joints(), check).here;
   if (from.has_regions()) keyframe.regions = unpack_regions(from.regions(), check);
   keyframe.stores = read_stores(from.stores(), limits::stores_max, check);
+  if (from.has_signs()) keyframe.signs = unpack_signs(from.signs(), check);
   return checked(std::move(keyframe), check);
 }
 

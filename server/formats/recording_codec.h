@@ -59,6 +59,8 @@ struct RecordedFrame {
   JointsMessage joints;              ///< added, or with another motor; and those that were there before
   std::shared_ptr<const std::vector<Region>> regions{};  ///< as TickDelta::regions
   std::vector<StoreContent> stores{};                    ///< that changed, in order
+  std::shared_ptr<const std::vector<Sign>> signs{};      ///< as TickDelta::signs
+  std::vector<Notice> notices{};                         ///< likewise
 };
 
 struct RecordedKeyframe {
@@ -75,6 +77,7 @@ struct RecordedKeyframe {
   std::vector<KnownJoint> joints;      ///< likewise
   std::vector<Region> regions{};       ///< likewise
   std::vector<StoreContent> stores{};  ///< all there are, in order
+  std::vector<Sign> signs{};           ///< likewise
 };
 
 std::vector<uint8_t> encode(const RecordedHeader& header);

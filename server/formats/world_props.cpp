@@ -7,6 +7,7 @@
 #include "server/formats/joint_lists.h"
 #include "server/formats/recording_codec.h"
 #include "server/formats/region_list.h"
+#include "server/formats/world_game.h"
 #include "server/formats/world_provenance.h"
 #include "server/formats/world_stores.h"
 
@@ -62,6 +63,7 @@ void write_person(kept::Person& to, const PersonRecord& from) {
   to.add_walker(from.walker.time_left_s);
   to.set_stands(from.walker.stands);
   to.set_still_ticks(static_cast<uint32_t>(from.walker.still_ticks));
+  if (from.walker.pace != 1.0F) to.set_pace(from.walker.pace);
   to.set_taken(from.taken);
   to.set_credit(from.credit);
   to.set_idle_ticks(from.idle_ticks);
@@ -94,6 +96,7 @@ PersonRecord read_person(const kept::Person& from, FieldChecker& check) {
   person.walker.stands = from.stands();
   person.walker.still_ticks =
       static_cast<int32_t>(check.within(from.still_ticks(), 0, INT32_MAX, "still_ticks"));
+  if (from.has_pace()) person.walker.pace = check.finite(from.pace(), "pace of a person");
   person.taken = from.taken();
   person.credit = from.credit();
   person.idle_ticks = from.idle_ticks();
@@ -127,6 +130,7 @@ void write_world_props(kept::Moment& to, const WorldMoment& from) {
   write_region_records(to, from);
   for (const PersonRecord& person : from.persons) write_person(*to.add_persons(), person);
   write_world_stores(to, from);
+  write_world_game(to, from.game);
   if (!from.provenance.empty()) to.set_provenance(write_provenance(from.provenance));
 }
 
@@ -143,6 +147,7 @@ void read_world_props(const kept::Moment& from, WorldMoment& to, FieldChecker& c
     to.persons.push_back(read_person(person, check));
   }
   read_world_stores(from, to, check);
+  to.game = read_world_game(from, check);
   to.provenance = read_provenance(from.provenance(), check);
 }
 

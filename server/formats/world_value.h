@@ -278,8 +278,9 @@ struct GameValue {
   std::shared_ptr<const std::vector<KeptValue>> kept =
       std::make_shared<const std::vector<KeptValue>>();  ///< ordered by key
   std::shared_ptr<const std::vector<Sign>> signs =
-      std::make_shared<const std::vector<Sign>>();  ///< in order (comes_before)
-  std::vector<Player> players;                      ///< ordered by session
+      std::make_shared<const std::vector<Sign>>();  ///< in order (sign_before)
+  std::shared_ptr<const std::vector<Player>> players =
+      std::make_shared<const std::vector<Player>>();  ///< ordered by session
 };
 
 /// All but the terrain: cheap to make, so that every tick can be saved.

@@ -137,6 +137,14 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
                  [&](const KickRequest& kick) { reply(this->kick(kick, author_of(session))); },
                  [&](const BanRequest& ban) { reply(this->ban(ban, author_of(session))); },
                  [&](const LiftBanRequest& lift) { reply(this->lift(lift, author_of(session))); },
+                 [&](const ControlRulesRequest& rules) {
+                   if (!control_rules_) return reply(fail("this server runs no rules (--rules)"));
+                   if (rules.control != RulesControl::list)
+                     spdlog::info("{} {}", author_of(session),
+                                  rules.control == RulesControl::reload ? "reads the rules again"
+                                                                        : "runs a line of rules: " + rules.line);
+                   control_rules_(session.id(), message.request, rules);
+                 },
                  [&](const ControlReplayRequest& control) {
                    reply(control_ ? control_(control) : fail("this server plays no recording (--replay)"));
                  }},

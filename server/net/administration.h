@@ -21,17 +21,19 @@ namespace scree {
 class Administration {
  public:
   using Control = std::function<Result<void>(const ControlReplayRequest&)>;
+  using ControlRules = std::function<void(uint64_t session, uint32_t request, const ControlRulesRequest&)>;
 
-  /// All arguments but `control`, which is as of NetConfig, must outlive this object. `counts`: requests are
+  /// All arguments but `control` and `control_rules`, which are as of NetConfig, must outlive this object. `counts`: requests are
   /// counted there.
   Administration(SessionTable& sessions, Requests& requests, Authorizer& authorizer, Tickets& tickets,
-                 NetStats& counts, Control control, const Publisher& publisher)
+                 NetStats& counts, Control control, ControlRules control_rules, const Publisher& publisher)
       : sessions_(sessions),
         requests_(requests),
         authorizer_(authorizer),
         tickets_(tickets),
         counts_(counts),
         control_(std::move(control)),
+        control_rules_(std::move(control_rules)),
         publisher_(publisher) {}
 
   /// Handles a request. The error is a wrong admin token's, and ends the session.
@@ -65,6 +67,7 @@ class Administration {
   Tickets& tickets_;
   NetStats& counts_;
   const Control control_;
+  const ControlRules control_rules_;
   const Publisher& publisher_;  ///< has the cursors of the persons who are there
   /// Lines for the log, by session and request, of settings that the world has not answered yet.
   std::map<std::pair<uint64_t, uint32_t>, std::string> settings_asked_;

@@ -65,7 +65,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       requests_(commands, sessions_, figures_.counts(), config_),
       returns_([this](uint64_t session) { requests_.gone(session); }, door_),
       administration_(sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
-                      config_.control, publisher_),
+                      config_.control, config_.control_rules, publisher_),
       web_(config_, authorizer_, door_, bytes_out_, figures_.counts(), log_, *this),
       arrivals_(context_,
                 {config_, door_, authorizer_, sessions_, room_, web_, *this, figures_.counts(), log_},
@@ -144,6 +144,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   publisher_.join(session.id(), hello.eye_m, radius_m, hello.lacks_kernels ? 0 : hello.operations,
                   hello.world == world_, entry.party);
   publisher_.set_store(session.id(), store_of_person(grant.token_id, session.id()));
+  publisher_.set_team(session.id(), grant.team, hello.meets);
   bytes_out_.open(entry.receiver(), now_s);
   name_person(sessions_, session.id(), talk_);
   entry.program = hello.client;
@@ -155,6 +156,9 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   if (hello.meets && !hello.administers)
     talk_.join(session.id(), entry.party != 0 ? entry.party : session.id(), entry.name, grant.role);
   note(EventKind::join, entry, hello.eye_m);
+  if (config_.joined)
+    config_.joined({session.id(), entry.name, grant.role, grant.team, grant.token_id, before.has_value(),
+                    hello.administers});
   ++figures_.counts().sessions_joined;
   figures_.counts().sessions_resumed += before ? 1 : 0;
   update_stats();
@@ -222,6 +226,10 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
           [&](const AskContentMessage& content) -> Done {
             return may_wait(publisher_.ask_content(session.id(), content), limits::contents_wanted_max,
                             "palettes, images and models", "contents_wanted_max");
+          },
+          [&](const ChannelMessage& channel) -> Done {
+            if (config_.heard) config_.heard(session.id(), channel);
+            return {};
           },
           [&](const QueryMessage& query) -> Done {
             pass_query(query, session, sessions_, publisher_, figures_.counts());
@@ -305,6 +313,7 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   SessionEntry& entry = sessions_.at(session.id());
   if (entry.joined_s > 0.0) {
     note(EventKind::leave, entry);
+    if (config_.left) config_.left(session.id());
     const uint64_t sent = std::max(entry.bytes_out.charged, session.queued_bytes());
     bytes_out_.charge(entry.bytes_out, sent - entry.bytes_out.charged);
     bytes_out_.close(entry.receiver());
@@ -356,6 +365,24 @@ void NetHost::set_access(std::shared_ptr<const Access> access) {
   administration_.read_bans_again();
   log_access(authorizer_.access());
   end_lapsed_grants(sessions_, authorizer_.access());
+}
+
+void NetHost::send(uint64_t session, const ServerMessage& message) {
+  if (const SessionEntry* const entry = sessions_.find(session)) entry->session->send(message);
+}
+
+void NetHost::set_role(uint64_t session, Role role) {
+  SessionEntry* const entry = sessions_.find(session);
+  if (entry == nullptr) return;
+  entry->grant.role = role;
+  talk_.set_role(session, role);
+}
+
+void NetHost::kick(uint64_t session, const std::string& reason) {
+  const SessionEntry* const entry = sessions_.find(session);
+  if (entry == nullptr) return;
+  const auto kicked = entry->session;  // which leaves the table
+  kicked->refuse({Refusal::kicked, reason});
 }
 
 void NetHost::set_files(std::shared_ptr<const WebFiles> files) {

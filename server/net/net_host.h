@@ -61,6 +61,10 @@ class NetHost final : public SessionHost, public WebHost {
   void set_access(std::shared_ptr<const Access> access);
   /// The files of the page, from now on.
   void set_files(std::shared_ptr<const WebFiles> files);
+  /// As of NetServer.
+  void send(uint64_t session, const ServerMessage& message);
+  void set_role(uint64_t session, Role role);
+  void kick(uint64_t session, const std::string& reason);
   /// Hands all that is queued to the sockets.
   void flush() { flush_queue_.send_all(); }
   void shut_down();

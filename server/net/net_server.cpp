@@ -97,6 +97,22 @@ Result<void> NetServer::reload() {
   return {};
 }
 
+void NetServer::send(uint64_t session, ServerMessage message) {
+  asio::post(impl_->host.context(), [host = &impl_->host, session, message = std::move(message)] {
+    host->send(session, message);
+  });
+}
+
+void NetServer::set_role(uint64_t session, Role role) {
+  asio::post(impl_->host.context(), [host = &impl_->host, session, role] { host->set_role(session, role); });
+}
+
+void NetServer::kick(uint64_t session, std::string reason) {
+  asio::post(impl_->host.context(), [host = &impl_->host, session, reason = std::move(reason)] {
+    host->kick(session, reason);
+  });
+}
+
 void NetServer::flush() {
   impl_->post([host = &impl_->host](bool) { host->flush(); });
   std::unique_lock lock(impl_->mutex);

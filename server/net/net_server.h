@@ -20,6 +20,7 @@
 #include "content/builtin_palette.h"
 #include "proto/event.h"
 #include "proto/talk.h"
+#include "server/command/joined_person.h"
 #include "server/doors/access.h"
 #include "server/doors/bytes_out.h"
 #include "server/doors/door.h"
@@ -95,6 +96,12 @@ struct NetConfig {
   std::function<void(double now_s)> checked;
   /// Takes a person's line; false: the line is not passed on. On the network thread. May be empty.
   std::function<bool(const SaidMessage&)> said;
+  /// Take who joins and who is gone, and what programs say to a host's rules; likewise.
+  std::function<void(const JoinedPerson&)> joined;
+  std::function<void(uint64_t session)> left;
+  std::function<void(uint64_t session, const ChannelData&)> heard;
+  /// Takes what an administrator wants of the rules, which answer later. Empty: this server has none.
+  std::function<void(uint64_t session, uint32_t request, const ControlRulesRequest&)> control_rules;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplayRequest&)> control;
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
@@ -133,6 +140,12 @@ class NetServer {
   /// Sessions go on, but those whose token is revoked end. The error says what is wrong with the files; all
   /// old ones stay in force then.
   Result<void> reload();
+
+  /// Sends a message to a session, changes its role until it ends, or ends it with a reason; nothing, where it
+  /// is not there. From any thread.
+  void send(uint64_t session, ServerMessage message);
+  void set_role(uint64_t session, Role role);
+  void kick(uint64_t session, std::string reason);
 
   /// Waits until the network thread has handed all published ticks to the sockets.
   void flush();

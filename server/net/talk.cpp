@@ -41,6 +41,13 @@ void Talk::rename(uint64_t session, const std::string& name) {
   ++version_;
 }
 
+void Talk::set_role(uint64_t session, Role role) {
+  const auto found = persons_.find(session);
+  if (found == persons_.end()) return;
+  found->second.role = role;
+  ++version_;
+}
+
 void Talk::leave(uint64_t session) {
   if (persons_.erase(session) > 0) ++version_;
 }

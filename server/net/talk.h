@@ -22,6 +22,7 @@ class Talk {
   void join(uint64_t session, uint64_t party, const std::string& name, Role role);
   /// Nothing, of a session that is not there.
   void rename(uint64_t session, const std::string& name);
+  void set_role(uint64_t session, Role role);
   void leave(uint64_t session);
 
   /// What becomes of a line: said to all, or by the server to the speaker alone; nothing, of a line without

@@ -42,6 +42,7 @@ void ClientFeed::serve(const ServedTick& tick, const Backlog& backlog, ServedPar
   if (reads_along) regions_.serve(tick, outlet_, part);
   if (reads_along) persons_.serve(tick, with_poses, outlet_, part);
   if (reads_along) store_.serve(tick, outlet_, part);
+  if (reads_along) game_.serve(tick, outlet_, part);
   if (reads_along) chunks_.serve(tick, view_, outlet_, part);
   if (with_status) send_status(tick, part);
   if (reads_along) physics_feed_.serve(tick, view_, outlet_, part);
@@ -63,6 +64,7 @@ bool ClientFeed::ready(size_t backlog_bytes, ServedPart& part) {
     joints_.forget();
     kept_.forget();
     regions_.forget();
+    game_.forget();
     persons_.forget();
     last_frame_ = 0;
     outlet_.send(share(ResetMessage{}), part);

@@ -10,6 +10,7 @@
 
 #include "server/publish/chunk_stream.h"
 #include "server/publish/client_view.h"
+#include "server/publish/game_stream.h"
 #include "server/publish/joint_stream.h"
 #include "server/publish/kept_stream.h"
 #include "server/publish/outgoing.h"
@@ -36,6 +37,7 @@ class ClientFeed {
   ReplayNews& replay() { return replay_; }
   PhysicsFeed& physics_feed() { return physics_feed_; }
   StoreStream& store() { return store_; }
+  GameStream& game() { return game_; }
   /// Gets no frames until it has read all that waits.
   bool stopped() const { return stopped_; }
 
@@ -67,6 +69,7 @@ class ClientFeed {
   ReplayNews replay_;
   PhysicsFeed physics_feed_;
   StoreStream store_;
+  GameStream game_;
   bool stopped_ = false;
   bool reset_due_ = false;
   bool may_scan_ = true;

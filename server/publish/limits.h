@@ -11,6 +11,9 @@ namespace scree::limits {
 /// every tick. Sooner: the client gets the latest when they have passed.
 inline constexpr double regions_wait_s = 0.25;
 
+/// Seconds between two lists of signs for a client: a countdown's seconds are counted by the client.
+inline constexpr double signs_wait_s = 0.1;
+
 /// Chunks and pieces that a client follows are dropped at this multiple of its radius of interest, so that a
 /// viewer that moves to and fro across the edge does not get them again and again.
 inline constexpr float interest_keep_factor = 1.25F;

@@ -78,6 +78,10 @@ void Publisher::set_control_refusal(uint64_t session, const std::string& refusal
   if (ClientFeed* client = find(session)) client->replay().set_control_refusal(refusal);
 }
 
+void Publisher::set_team(uint64_t session, const std::string& team, bool meets) {
+  if (ClientFeed* client = find(session)) client->game().set_own(team, meets);
+}
+
 void Publisher::set_store(uint64_t session, const StoreName& own) {
   if (ClientFeed* client = find(session)) client->store().set_own(own);
 }

@@ -75,6 +75,7 @@ std::string text_of(const Command& command, const Palette& palette) {
             return fmt::format("transfer {} units from {} to {}", transfer.mass, text_of(transfer.from),
                                text_of(transfer.to));
           },
+          [](const RulesRequest& rules) { return "rules: " + text_of(rules.act); },
           [](const AddPieceRequest& add) {
             return add.volume ? fmt::format("add a piece of {} voxels", add.volume->window.codes.size())
                               : std::string("add a piece that cannot be read");

@@ -39,6 +39,8 @@ void append(TickDelta& to, const TickDelta& next) {
   to.joints_removed.insert(to.joints_removed.end(), next.joints_removed.begin(), next.joints_removed.end());
   sort_joints(to);
   if (next.regions != nullptr) to.regions = next.regions;
+  if (next.signs != nullptr) to.signs = next.signs;
+  to.notices.insert(to.notices.end(), next.notices.begin(), next.notices.end());
   std::vector<StoreContent> stores;
   std::ranges::set_union(next.stores, to.stores, std::back_inserter(stores), std::less<>(),
                          &StoreContent::store, &StoreContent::store);
@@ -129,6 +131,7 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   const PublishedStores stores = state_->stores;
   const SettingValues settings = state_->settings;
   const auto regions = state_->regions;
+  const auto signs = state_->signs;
   TRY(state_->go_to(to, before));
   auto delta = state_->unchanged();
   add_differences(state_->field, before, *delta);
@@ -142,6 +145,7 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   for (const auto& [id, joint] : joints)
     if (!state_->joints.contains(id)) delta->joints_removed.push_back({id, JointEnd::removed});
   if (*state_->regions != *regions) delta->regions = state_->regions;
+  if (*state_->signs != *signs) delta->signs = state_->signs;
   for (const auto& [store, masses] : stores)
     if (!state_->stores.contains(store)) delta->stores.push_back({store, {}});
   for (const auto& [store, masses] : state_->stores)

@@ -64,6 +64,7 @@ Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& bef
     pieces[piece.id] = std::make_shared<const Volume>(std::move(piece.volume));
   }
   regions = std::make_shared<const std::vector<Region>>(std::move(keyframe.regions));
+  signs = std::make_shared<const std::vector<Sign>>(std::move(keyframe.signs));
   ledger = keyframe.ledger;
   materials.reset();
   if (keyframe.materials.agrees(ledger)) materials = keyframe.materials;
@@ -178,7 +179,8 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   TRY(frame);
   PlayedTick undo;
   if (undoable)
-    undo = {{}, pieces, poses, props, joints, regions, stores, ledger, materials, settings, state_hash};
+    undo = {{},    pieces, poses,  props,     joints,   regions,
+            signs, stores, ledger, materials, settings, state_hash};
   const bool notes = before != nullptr || undoable;
   auto delta = std::make_shared<TickDelta>();
   delta->tick = ++tick;
@@ -206,6 +208,9 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   delta->settings = frame->settings;
   if (frame->regions != nullptr) regions = frame->regions;
   delta->regions = frame->regions;
+  if (frame->signs != nullptr) signs = frame->signs;
+  delta->signs = frame->signs;
+  delta->notices = frame->notices;
   delta->ledger = ledger;
   if (materials) delta->materials = *materials;
   delta->field_hash = frame->field_hash;
@@ -227,6 +232,7 @@ void ReplaySource::State::revert_tick(BricksBefore& before) {
   props = std::move(last.props);
   joints = std::move(last.joints);
   regions = std::move(last.regions);
+  signs = std::move(last.signs);
   stores = std::move(last.stores);
   ledger = last.ledger;
   materials = std::move(last.materials);
@@ -275,6 +281,7 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
   for (const auto& [store, masses] : stores) delta->stores.push_back({store, masses});
   delta->settings = settings;
   if (!regions->empty()) delta->regions = regions;
+  if (!signs->empty()) delta->signs = signs;
   delta->spawn = spawn();
   return delta;
 }

@@ -26,6 +26,7 @@ struct PlayedTick {
   std::map<PieceId, PublishedProp> props;
   PublishedJoints joints;
   std::shared_ptr<const std::vector<Region>> regions;
+  std::shared_ptr<const std::vector<Sign>> signs;
   PublishedStores stores;
   Ledger ledger;
   std::optional<MaterialLedger> materials;
@@ -60,6 +61,8 @@ struct ReplaySource::State {
   PublishedJoints joints;
   std::shared_ptr<const std::vector<Region>> regions =
       std::make_shared<const std::vector<Region>>();  ///< never null
+  std::shared_ptr<const std::vector<Sign>> signs =
+      std::make_shared<const std::vector<Sign>>();  ///< never null
   PublishedStores stores;
   Ledger ledger;
   std::optional<MaterialLedger> materials;  ///< nothing: a keyframe keeps none

@@ -125,6 +125,9 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  [](const DigRequest& dig) { return asked_of(dig); },
                  [&](const PlaceRequest& place) { return asked_of(place, palette); },
                  [&](const TransferRequest& transfer) { return asked_of(transfer, palette); },
+                 [](const RulesRequest& rules) {
+                   return Asked{"rules", {}, text_of(rules.act)};
+                 },
                  [](const AddPieceRequest& add) {
                    return Asked{
                        "add_piece",

@@ -155,6 +155,7 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
   for (const auto& [id, prop] : state.props()) keyframe.props.push_back({id, *prop.prop, prop.pose});
   for (const auto& [id, joint] : state.joints()) keyframe.joints.push_back({id, *joint});
   keyframe.regions = *state.regions();
+  keyframe.signs = *state.signs();
   for (const auto& [store, masses] : state.stores()) keyframe.stores.push_back({store, masses});
   keyframe.tick = state.tick();
   keyframe.ledger = state.ledger();

@@ -91,6 +91,8 @@ RecordedFrame to_recorded(const TickDelta& delta, const PublishedState& before) 
   frame.state_hash = delta.state_hash;
   frame.settings = delta.settings;
   frame.regions = delta.regions;
+  frame.signs = delta.signs;
+  frame.notices = delta.notices;
   return frame;
 }
 
@@ -114,6 +116,7 @@ RecordedKeyframe to_recorded_keyframe(const TickDelta& delta) {
   keyframe.state_hash = delta.state_hash;
   keyframe.settings = delta.settings;
   if (delta.regions != nullptr) keyframe.regions = *delta.regions;
+  if (delta.signs != nullptr) keyframe.signs = *delta.signs;
   return keyframe;
 }
 

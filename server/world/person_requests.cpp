@@ -43,6 +43,7 @@ uint32_t enter_person(World::State& state, glm::vec3 feet_m, uint64_t session, u
   person.session = session;
   person.body = state.next_piece++;
   person.walker.feet_m = feet_m;
+  if (const Player* const player = state.game.player(session)) person.walker.pace = player->pace;
   auto prop = std::make_shared<const Prop>(body_of_person(session));
   BodyShape shape = state.enter_prop(person.body, prop, measure_of(*prop), party);
   state.bodies.add(std::move(shape), {.id = person.body, .pose = body_pose(person.walker)});
@@ -104,7 +105,7 @@ uint32_t perform(World::State& state, const StandRequest& request, uint64_t sess
   }
   CHECK(request.place_m.has_value());
   PersonRecord& person = there->second;
-  person.walker = {.feet_m = *request.place_m};
+  person.walker = {.feet_m = *request.place_m, .pace = person.walker.pace};
   state.bodies.set_motion(person.body, body_pose(person.walker), glm::vec3(0.0F), glm::vec3(0.0F));
   return person.body;
 }

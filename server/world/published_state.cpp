@@ -106,6 +106,8 @@ void PublishedState::apply(const TickDelta& delta) {
   for (const AddedJoint& joint : delta.joints_added) joints_[joint.id] = joint.joint;
   for (const EndedJoint& joint : delta.joints_removed) joints_.erase(joint.id);
   if (delta.regions != nullptr) regions_ = delta.regions;
+  if (delta.signs != nullptr) signs_ = delta.signs;
+  if (delta.players != nullptr) players_ = delta.players;
   if (delta.region_masses != nullptr) region_masses_ = delta.region_masses;
   for (const StoreContent& one : delta.stores)
     if (one.masses.empty())
@@ -202,6 +204,8 @@ TickDelta PublishedState::without_bricks() const {
   }
   for (const auto& [id, joint] : joints_) delta.joints_added.push_back({id, joint});
   if (!regions_->empty()) delta.regions = regions_;
+  if (!signs_->empty()) delta.signs = signs_;
+  if (!players_->empty()) delta.players = players_;
   delta.persons = persons_;
   for (const auto& [store, masses] : stores_) delta.stores.push_back({store, masses});
   delta.region_masses = region_masses_;

@@ -97,6 +97,10 @@ class PublishedState {
   const PublishedJoints& joints() const { return joints_; }
   /// All regions, ordered by id; never null. It is another list when one changed.
   const std::shared_ptr<const std::vector<Region>>& regions() const { return regions_; }
+  /// All signs, in order; never null. It is another list when one changed.
+  const std::shared_ptr<const std::vector<Sign>>& signs() const { return signs_; }
+  /// What rules made of persons, by session; never null. Likewise.
+  const std::shared_ptr<const std::vector<Player>>& players() const { return players_; }
   /// Those that hold something, by owner.
   const PublishedStores& stores() const { return stores_; }
   /// Null: nothing was broken out of a region that counts.
@@ -138,6 +142,8 @@ class PublishedState {
   std::vector<PersonPlace> persons_;
   uint64_t persons_version_ = 0;
   PublishedStores stores_;
+  std::shared_ptr<const std::vector<Player>> players_ = std::make_shared<const std::vector<Player>>();
+  std::shared_ptr<const std::vector<Sign>> signs_ = std::make_shared<const std::vector<Sign>>();
   std::shared_ptr<const std::vector<RegionMass>> region_masses_;
   Ledger ledger_;
   MaterialLedger materials_;

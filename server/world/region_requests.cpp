@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "server/world/game_requests.h"
 #include "server/world/limits.h"
 #include "server/world/region_bodies.h"
 #include "server/world/region_masses.h"
@@ -133,9 +134,10 @@ CheckedRequest check(const World::State& state, const RemoveRegionRequest& reque
 
 CheckedRequest check_regions(const World::State& state, const Command& command) {
   if (command.session == 0 || !state.regions.forbid_any(forbids::edits)) return {};
+  const Asker asker = asker_in_game(state, command);
   for (const Shape& shape : edited_by(state, command.body))
     for (const Region& region : state.regions.all())
-      if (region.forbids_any(forbids::edits) && !may_edit(region, command.asker) && meets(region, shape))
+      if (region.forbids_any(forbids::edits) && !may_edit(region, asker) && meets(region, shape))
         return refuse(Refusal::in_region,
                       "this lies in the region " + quoted(region.name) + ": " + who_may(region));
   return {};

@@ -11,6 +11,7 @@
 #include "server/world/buried_stage.h"
 #include "server/world/explosion.h"
 #include "server/world/fill_joints.h"
+#include "server/world/game_requests.h"
 #include "server/world/joint_requests.h"
 #include "server/world/limits.h"
 #include "server/world/merge_stage.h"
@@ -160,6 +161,7 @@ struct Checking {
   Checked operator()(const LeaveRequest&) const { return {}; }
   Checked operator()(const StandRequest& request) const { return check(state, request, session); }
   Checked operator()(const WalkRequest&) const { return {}; }  // take_input() refuses
+  Checked operator()(const RulesRequest& request) const { return check(state, request, session); }
   Checked operator()(const auto& of_bodies) const { return check(state, of_bodies); }
 };
 
@@ -241,6 +243,7 @@ struct Executing {
   }
   Outcome operator()(const LeaveRequest&) const { return 0U; }  // enqueue_commands() has done it
   Outcome operator()(const WalkRequest&) const { return 0U; }   // likewise
+  Outcome operator()(const RulesRequest&) const { return 0U; }  // likewise
   Outcome operator()(const StandRequest& request) const {
     return perform(state, request, session, party, delta);
   }
@@ -349,19 +352,25 @@ bool may_wait_for_turn(const World::State& state, const Command& command) {
 void enqueue_commands(World::State& state, std::span<const Command> commands, TickDelta& delta) {
   for (const Command& command : commands)
     std::visit(
-        Overloaded{[&](const LeaveRequest&) {
-                     drop(state, command.session, delta);
-                     leave_on_foot(state, command.session, delta);
-                   },
-                   [&](const WalkRequest& walk) {
-                     if (const Checked taken = take_input(state, walk, command.session, command.request);
-                         !taken)
-                       answer(state, command, tl::unexpected(taken.error()), delta);
-                   },
-                   [&](const auto&) {
-                     if (const Checked taken = enqueue(state, command); !taken)
-                       answer(state, command, tl::unexpected(taken.error()), delta);
-                   }},
+        Overloaded{
+            [&](const LeaveRequest&) {
+              drop(state, command.session, delta);
+              leave_on_foot(state, command.session, delta);
+              leave_game(state, command.session, delta);
+            },
+            [&](const RulesRequest& rules) {
+              const Checked checked = check(state, rules, command.session);
+              const Outcome done = checked ? perform(state, rules, delta) : tl::unexpected(checked.error());
+              if (!done) answer(state, command, done, delta);
+            },
+            [&](const WalkRequest& walk) {
+              if (const Checked taken = take_input(state, walk, command.session, command.request); !taken)
+                answer(state, command, tl::unexpected(taken.error()), delta);
+            },
+            [&](const auto&) {
+              if (const Checked taken = enqueue(state, command); !taken)
+                answer(state, command, tl::unexpected(taken.error()), delta);
+            }},
         command.body);
 }
 

@@ -19,8 +19,8 @@ uint64_t state_hash(const HashedState& state) {
                                          static_cast<uint64_t>(ledger.poured),
                                          static_cast<uint64_t>(ledger.moved)};
   uint64_t hash = XXH3_64bits(words.data(), sizeof(words));
-  for (const uint64_t sum :
-       {state.props, state.joints, state.kept, state.regions, state.persons, state.stores, state.provenance})
+  for (const uint64_t sum : {state.props, state.joints, state.kept, state.regions, state.persons,
+                             state.stores, state.provenance, state.game})
     if (sum != 0) hash = XXH3_64bits_withSeed(&sum, sizeof sum, hash);
   return hash;
 }
@@ -105,6 +105,7 @@ uint64_t hash_of(const PersonRecord& person) {
     put(waiting.input.fast);
     put(waiting.input.jump);
   }
+  if (person.walker.pace != 1.0F) put(person.walker.pace);
   constexpr uint64_t seed = 0x7065727a;  // not that of another list
   return XXH3_64bits_withSeed(put.bytes.data(), put.bytes.size(), seed);
 }
@@ -122,6 +123,50 @@ uint64_t hash_of(const StoreRecord& store) {
   put(store.dug);
   put(store.dug_at);
   return XXH3_64bits(put.bytes.data(), put.bytes.size());
+}
+
+namespace {
+
+void put_string(Putting& put, const std::string& text) {
+  put(text.size());
+  put.bytes.insert(put.bytes.end(), text.begin(), text.end());
+}
+
+uint64_t hash_as(const Putting& put, uint64_t list) {
+  return XXH3_64bits_withSeed(put.bytes.data(), put.bytes.size(), list);
+}
+
+}  // namespace
+
+uint64_t hash_of(const KeptValue& value) {
+  Putting put;
+  put_string(put, value.key);
+  put_string(put, value.value);
+  return hash_as(put, 0x6B65792E);
+}
+
+uint64_t hash_of(const Sign& sign) {
+  Putting put;
+  put_string(put, sign.name);
+  put(sign.to.kind);
+  put(sign.to.session);
+  put_string(put, sign.to.team);
+  put(sign.kind);
+  put_string(put, sign.text);
+  put(sign.share);
+  put(sign.place_m);
+  put(sign.colour);
+  put(sign.until);
+  put(sign.counts);
+  return hash_as(put, 0x7369676E);
+}
+
+uint64_t hash_of(const Player& player) {
+  Putting put;
+  put(player.session);
+  put_string(put, player.team);
+  put(player.pace);
+  return hash_as(put, 0x706C6179);
 }
 
 uint64_t hash_of(JointId id, const Joint& joint, uint64_t owner) {

@@ -25,6 +25,7 @@ struct HashedState {
   uint64_t persons = 0;     ///< the same of the persons on foot
   uint64_t stores = 0;      ///< the same of the stores
   uint64_t provenance = 0;  ///< the same of mass that has an origin
+  uint64_t game = 0;        ///< the same of what a host's rules keep, show and made of persons
 };
 
 /// The hash of what a prop is, and whose. Its motion is the bodies'.
@@ -44,6 +45,11 @@ uint64_t hash_of(const PersonRecord& person);
 
 /// The hash of what a store holds, and of what counts for its rate.
 uint64_t hash_of(const StoreRecord& store);
+
+/// The hashes of what a host's rules keep, show and made of a person.
+uint64_t hash_of(const KeptValue& value);
+uint64_t hash_of(const Sign& sign);
+uint64_t hash_of(const Player& player);
 
 uint64_t state_hash(const HashedState& state);
 

@@ -92,6 +92,8 @@ struct TickDelta {
   std::shared_ptr<const std::vector<RegionMass>> region_masses;
   /// All signs, in order, when one changed; else null.
   std::shared_ptr<const std::vector<Sign>> signs;
+  /// What the rules made of persons, when it changed; else null, and in a replay.
+  std::shared_ptr<const std::vector<Player>> players;
   std::vector<Notice> notices;  ///< of the host's rules, in order
   std::vector<Reply> replies;
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty

@@ -4,6 +4,7 @@
 
 #include "server/world/body_contacts.h"
 #include "server/world/buried_stage.h"
+#include "server/world/game_requests.h"
 #include "server/world/impact_stage.h"
 #include "server/world/island_stage.h"
 #include "server/world/joint_requests.h"
@@ -175,6 +176,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   s.work.begin(s.bodies);
   delta->times.model_ms[index_of(TickStage::bodies)] = 1e-3 * static_cast<double>(s.work.spent_us());
   end_regions(s, *delta);
+  end_signs(s, *delta);
   release_terrain(s);
   enqueue_commands(s, commands, *delta);
   for (const TickStageRow& row : tick_stages) run_stage(row.stage, s, *delta);
@@ -204,10 +206,45 @@ std::vector<StoreContent> World::stores() const {
   return state_->stores.contents();
 }
 
+const GameValue& World::game() const {
+  return state_->game.value();
+}
+
+std::optional<BodyFacts> World::body(PieceId id) const {
+  const State& s = *state_;
+  const auto piece = s.pieces.find(id);
+  const auto prop = s.props.find(id);
+  if (piece == s.pieces.end() && prop == s.props.end()) return std::nullopt;
+  const BodyState body = s.bodies.state(id);
+  BodyFacts facts{.id = id,
+                  .is_piece = piece != s.pieces.end(),
+                  .pose = body.pose,
+                  .velocity_m_s = body.velocity_m_s,
+                  .spin_rad_s = body.spin_rad_s,
+                  .mass_kg = s.bodies.mass_kg(id),
+                  .reach_m = s.bodies.reach_m(id)};
+  const PieceTraits traits = s.traits_of(id);
+  facts.kept = traits.kept;
+  facts.owner = traits.owner;
+  if (facts.is_piece) facts.mass = piece->second->mass;
+  if (!facts.is_piece) facts.tag = prop->second.prop->tag;
+  return facts;
+}
+
+std::vector<PieceId> World::bodies_near(glm::vec3 lo_m, glm::vec3 hi_m) const {
+  return state_->bodies.near(lo_m, hi_m);
+}
+
+std::vector<PersonPlace> World::persons() const {
+  TickDelta delta;
+  publish_persons(*state_, delta);
+  return std::move(delta.persons);
+}
+
 const Field& World::field() const {
   return state_->field;
 }
-HeldScene World::scene() {
+HeldScene World::scene() const {
   State& s = *state_;
   s.scenes.begin(s.bodies.size());
   const std::vector<BodyState> bodies = s.bodies.states();

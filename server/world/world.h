@@ -11,6 +11,7 @@
 #include <span>
 
 #include "server/command/command.h"
+#include "server/world/body_facts.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world_config.h"
 #include "shared/field/field_paging.h"
@@ -21,6 +22,7 @@ namespace scree {
 /// Ten times a second at 60 Hz: enough to look at, a small part of the tick.
 inline constexpr Tick ticks_per_physics = 6;
 
+struct GameValue;
 struct WorldMoment;
 struct WorldSnapshot;
 
@@ -78,6 +80,12 @@ class World {
   std::vector<StoreContent> stores() const;
   /// What the host's rules keep with the world, show, and made of persons.
   const GameValue& game() const;
+  /// Of the body as it is now; nothing: there is none of that id.
+  std::optional<BodyFacts> body(PieceId id) const;
+  /// The bodies whose bounds meet the box, by id: pieces, props and persons' bodies.
+  std::vector<PieceId> bodies_near(glm::vec3 lo_m, glm::vec3 hi_m) const;
+  /// Every person on foot, by session.
+  std::vector<PersonPlace> persons() const;
   /// The terrain's gain since the start, measured from every edited brick. Must equal the ledger's.
   MassUnits measure_terrain();
   /// Switches TickDelta::physics, in every ticks_per_physics-th delta, on or off. Changes nothing else.
@@ -102,7 +110,7 @@ class World {
   /// What questions about space (shared/query/query.h) are asked of: terrain, pieces and props, where the
   /// last delta says that they are. By the thread of step(), between steps: it holds until the next step, and
   /// one scene at a time is asked. Chunks that are out come in.
-  HeldScene scene();
+  HeldScene scene() const;
   /// Moves the terrain's chunks in and out of memory, by the thread of step(), between steps.
   FieldPaging paging();
 

@@ -38,6 +38,7 @@ WorldMoment World::moment() const {
   m.stores = s.stores.value();
   m.provenance = s.provenance.value();
   m.materials = s.materials;
+  m.game = s.game.value();
   m.field_hash = s.field.hash();
   m.state_hash = s.hash();
   for (const auto& [id, volume] : s.pieces)
@@ -86,6 +87,7 @@ uint64_t first_free_session(const WorldMoment& moment) {
   for (const PropRecord& prop : moment.props) last = std::max(last, prop.owner);
   for (const JointRecord& joint : moment.joints) last = std::max(last, joint.owner);
   for (const PersonRecord& person : moment.persons) last = std::max(last, person.session);
+  for (const Player& player : *moment.game.players) last = std::max(last, player.session);
   for (const PlacedMass& placed : moment.provenance) last = std::max(last, placed.share.origin.party);
   for (const StoreRecord& store : moment.stores)
     if (store.content.store.kind == StoreKind::session) last = std::max(last, store.content.store.number);

@@ -44,7 +44,7 @@ class Restoring {
     for (const Step step :
          {&Restoring::clock, &Restoring::terrain, &Restoring::pieces, &Restoring::props, &Restoring::bodies,
           &Restoring::regions, &Restoring::persons, &Restoring::ledger, &Restoring::provenance,
-          &Restoring::places, &Restoring::waiting, &Restoring::refractures})
+          &Restoring::places, &Restoring::waiting, &Restoring::refractures, &Restoring::game})
       TRY((this->*step)());
     s_.rest.restore(m_.rest);
     s_.islands.restore(m_.islands);
@@ -173,6 +173,8 @@ class Restoring {
   Result<void> regions() { return restore_regions(s_, m_); }
 
   Result<void> persons() { return restore_persons(s_, m_); }
+
+  Result<void> game() { return s_.game.restore(m_.game); }
 
   /// Who measures anew does not know it.
   Result<void> provenance() { return measure_ ? Result<void>() : restore_provenance(s_, m_.provenance); }

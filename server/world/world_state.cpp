@@ -194,7 +194,8 @@ uint64_t World::State::hash() const {
   uint64_t sum_of_persons = 0;
   for (const auto& [session, person] : persons) sum_of_persons += hash_of(person);
   return state_hash({tick, field.hash(), bodies.state_hash(), next_piece, ledger, sum_of_props, sum_of_joints,
-                     sum_of_kept, regions.hash(), sum_of_persons, stores.hash(), provenance.hash()});
+                     sum_of_kept, regions.hash(), sum_of_persons, stores.hash(), provenance.hash(),
+                     game.hash()});
 }
 
 BodyShape World::State::enter_prop(PieceId id, std::shared_ptr<const Prop> prop, const PropMeasure& measure,

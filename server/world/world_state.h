@@ -22,6 +22,7 @@
 #include "server/work/turn_queue.h"
 #include "server/work/work.h"
 #include "server/world/contact_sums.h"
+#include "server/world/game_state.h"
 #include "server/world/island_stage.h"
 #include "server/world/person_blows.h"
 #include "server/world/region_state.h"
@@ -123,6 +124,7 @@ struct World::State {
   std::map<uint64_t, PersonRecord> persons;  ///< by session; the body of each is one of `props`
   std::map<BrickCoord, std::set<JointId>> anchors;  ///< joints by the brick of the rock that they hold
   WorldRegions regions;
+  GameState game;
   Bodies bodies;                          ///< one for each of `pieces` and of `props`
   std::map<PieceId, PieceTraits> traits;  ///< one for each of `pieces`
   RestDetector rest;

@@ -6,6 +6,11 @@
 
 namespace scree {
 
+namespace limits {
+/// How fast a person may be made, as a multiple of the usual speed. Above: refused.
+inline constexpr float walk_pace_max = 3.0F;
+}  // namespace limits
+
 struct WalkInput {
   glm::vec3 go{0.0F};  ///< direction over the ground, as part of the full speed; its height does not count
   bool fast = false;

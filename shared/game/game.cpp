@@ -8,8 +8,10 @@
 #include "shared/base/overloaded.h"
 #include "shared/base/plain_number.h"
 #include "shared/base/text.h"
+#include "shared/base/walking.h"
 #include "shared/game/kept.h"
 #include "shared/game/notice.h"
+#include "shared/game/rules_act.h"
 #include "shared/game/sign.h"
 
 namespace scree {
@@ -59,7 +61,7 @@ bool is_meant(const Audience& audience, uint64_t session, const std::string& tea
   return false;
 }
 
-bool comes_before(const Sign& a, const Sign& b) {
+bool sign_before(const Sign& a, const Sign& b) {
   return std::tie(a.to, a.name) < std::tie(b.to, b.name);
 }
 
@@ -105,6 +107,26 @@ Result<void> validate(const KeptValue& value) {
   TRY(check_words(value.key, limits::kept_key_bytes_max, false, "the key of a kept value"));
   if (value.value.size() <= limits::kept_value_bytes_max) return {};
   return fail("a kept value has at most " + std::to_string(limits::kept_value_bytes_max) + " bytes");
+}
+
+std::string text_of(const RulesAct& act) {
+  return std::visit(
+      Overloaded{[](const KeepValue& keep) { return "keep " + keep.value.key; },
+                 [](const ForgetValue& forget) { return "forget " + forget.key; },
+                 [](const ShowSign& show) { return "show the sign " + show.sign.name; },
+                 [](const RemoveSign& remove) { return "remove the sign " + remove.name; },
+                 [](const SetPlayer& player) {
+                   return "change the person of session " + std::to_string(player.session);
+                 },
+                 [](const Notice& notice) {
+                   return std::visit(
+                       Overloaded{
+                           [](const NoticeLine& line) { return "say " + line.text; },
+                           [](const Cue& cue) { return "cue " + std::string(row_of(cue.kind).name); },
+                           [](const ChannelData& data) { return "send to the channel " + data.channel; }},
+                       notice.what);
+                 }},
+      act);
 }
 
 Result<void> validate(const Player& player) {

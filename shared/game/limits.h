@@ -35,7 +35,5 @@ inline constexpr size_t kept_bytes_max = 262144;
 
 /// Sessions of which a world keeps a team or a speed.
 inline constexpr size_t players_max = 4096;
-/// How fast a person may be made, as a multiple of the usual speed.
-inline constexpr float walk_pace_max = 3.0F;
 
 }  // namespace scree::limits

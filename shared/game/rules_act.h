@@ -55,4 +55,7 @@ struct SetPlayer {
 
 using RulesAct = std::variant<KeepValue, ForgetValue, ShowSign, RemoveSign, SetPlayer, Notice>;
 
+/// "keep score", "show the sign round", "tell a cue": what it is, in words.
+std::string text_of(const RulesAct& act);
+
 }  // namespace scree

@@ -51,7 +51,7 @@ struct Sign {
 };
 
 /// The order of a world's signs: by audience, then by name.
-bool comes_before(const Sign& a, const Sign& b);
+bool sign_before(const Sign& a, const Sign& b);
 
 /// Refuses what cannot be shown: names and texts that are no clean text or too long, a share outside 0 to 1,
 /// a place that is not in the world.

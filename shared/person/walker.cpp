@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "shared/base/limits.h"
+#include "shared/base/walking.h"
 
 namespace scree {
 namespace {
@@ -110,7 +111,7 @@ void Walker::step(const WalkInput& input, float elapsed_s, WalkGround& ground) {
 }
 
 void Walker::speed_up(const WalkInput& input) {
-  glm::vec3 wanted = level(input.go) * (input.fast ? run_m_s : walk_m_s);
+  glm::vec3 wanted = level(input.go) * ((input.fast ? run_m_s : walk_m_s) * state_.pace);
   const float part = glm::length(level(input.go));
   if (part > 1.0F) wanted /= part;
   const glm::vec3 change = wanted - level(state_.speed_m_s);
@@ -240,7 +241,8 @@ bool is_walker_state(const WalkerState& state) {
   return is_within(state.feet_m, limits::world_half_width_m) &&
          state.feet_m.y >= -limits::world_half_height_m && state.feet_m.y <= limits::world_half_height_m &&
          is_within(state.speed_m_s, speed_max_m_s) && state.time_left_s >= 0.0F &&
-         state.time_left_s < tick_s && state.still_ticks >= 0;
+         state.time_left_s < tick_s && state.still_ticks >= 0 && state.pace >= 0.0F &&
+         state.pace <= limits::walk_pace_max;
 }
 
 bool is_walk_input(const WalkInput& input) {

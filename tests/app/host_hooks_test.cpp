@@ -1,6 +1,6 @@
 // A host's own rules in a live server: it refuses, changes and adds commands, reads the world, and hears of
 // ticks and lines. The recording holds the commands that it let through.
-#include "server/app/host_hooks.h"
+#include "server/host/host_hooks.h"
 
 #include <gtest/gtest.h>
 #include <thread>

@@ -15,8 +15,10 @@
 #include <string_view>
 #include <vector>
 
-#include "proto/talk.h"
+#include "proto/game_message.h"
+#include "proto/messages.h"
 #include "server/command/command.h"
+#include "server/command/joined_person.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 
@@ -42,6 +44,9 @@ class TickCommands {
   /// waits for nothing: terrain that is out of memory is read within the tick, and the setting memory-max is
   /// not asked. LiveServer::push() is the way for commands that may wait.
   void add(Request body, uint32_t request = 0);
+  /// The same of rules that have a name, which the recording keeps as that of who asked; `party`: whose pieces
+  /// and falls it makes (Command::party), 0: the world's own.
+  void add(Request body, uint32_t request, const std::string& rules, uint64_t party);
 
   /// The commands that the tick gets, and the replies to the others.
   std::vector<Command> let_through() const;
@@ -59,8 +64,20 @@ class TickCommands {
 /// The longest name for TickCommands::refuse(). With "game:" it fits limits::refusal_name_bytes_max.
 inline constexpr size_t host_name_bytes_max = 27;
 
+/// What a host can do besides commands. From any thread, while the server is there; nothing once it stops.
+struct HostActs {
+  /// Sends a message to a session, if it is there.
+  std::function<void(uint64_t session, ServerMessage message)> send;
+  /// Changes what a session may ask for, until it ends.
+  std::function<void(uint64_t session, Role role)> set_role;
+  /// Ends a session with these words.
+  std::function<void(uint64_t session, const std::string& reason)> kick;
+};
+
 /// An empty hook is not called, and costs nothing.
 struct HostHooks {
+  /// Called once, before the first tick.
+  std::function<void(const HostActs& acts)> started;
   /// Called before each tick of a simulation. It may read `world`. A replay has no such hook: its commands
   /// are decided.
   std::function<void(const World& world, TickCommands& commands)> before;
@@ -69,6 +86,17 @@ struct HostHooks {
   /// Called with each line that a person says to all (Say of proto/talk.proto). False: the host keeps the
   /// line to itself, and nobody hears it, not even the speaker.
   std::function<bool(const SaidMessage& line)> said;
+  /// Called when somebody joins or comes back, and when the connection ends; on the network thread, as the
+  /// next two.
+  std::function<void(const JoinedPerson& person)> joined;
+  std::function<void(uint64_t session)> left;
+  /// Called with what a client's program says to the rules.
+  std::function<void(uint64_t session, const ChannelData& data)> heard;
+  /// Called with what an administrator wants of the rules; the host answers it by HostActs::send(), with an
+  /// AdminListMessage of that request. Empty: such requests are refused.
+  std::function<void(uint64_t session, uint32_t request, const ControlRulesRequest& wish)> controlled;
+  /// Called when the simulation has ended, by the thread that stops the server.
+  std::function<void()> stopped;
 };
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-#include "server/app/host_hooks.h"
+#include "server/host/host_hooks.h"
 
 #include <algorithm>
 #include <utility>
@@ -46,6 +46,12 @@ void TickCommands::add(Request body, uint32_t request) {
   CHECK(!leaves(body), "only the network side reports the end of a session");
   commands_.push_back({0, request, std::move(body)});
   refusals_.emplace_back();
+}
+
+void TickCommands::add(Request body, uint32_t request, const std::string& rules, uint64_t party) {
+  add(std::move(body), request);
+  commands_.back().asker = {Role::admin, rules, {}};
+  commands_.back().party = party;
 }
 
 std::vector<Reply> TickCommands::refused() const {

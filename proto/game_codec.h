@@ -1,0 +1,28 @@
+// Signs, cues, a game's own bytes and the acts of rules, between our types and Protobuf's. Internal to proto/
+// and to the formats of files. proto/game.proto specifies them.
+#pragma once
+
+#include "proto/wire_values.h"
+
+namespace scree {
+
+void write(wire::ChannelData& to, const ChannelData& from);
+/// At most limits::signs_max.
+void write(wire::Signs& to, const SignsMessage& from);
+/// At most limits::notices_a_tick_max.
+void write(wire::Cues& to, const CuesMessage& from);
+void write(wire::Notice& to, const Notice& from);
+void write(wire::Rules& to, const RequestMessage<RulesRequest>& from);
+void write(wire::ControlRules& to, const ControlRulesRequest& from);
+
+/// Refuses what validate() refuses.
+ChannelMessage read(const wire::ChannelData& from, FieldChecker& check);
+/// Likewise, and signs that are not in order.
+SignsMessage read(const wire::Signs& from, FieldChecker& check);
+/// Cues of unknown kinds are left out.
+CuesMessage read(const wire::Cues& from, FieldChecker& check);
+Notice read(const wire::Notice& from, FieldChecker& check);
+RequestMessage<RulesRequest> read(const wire::Rules& from, FieldChecker& check);
+ControlRulesRequest read(const wire::ControlRules& from, FieldChecker& check);
+
+}  // namespace scree
