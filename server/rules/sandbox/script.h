@@ -52,8 +52,7 @@ class ScriptCall {
   bool charge(int64_t work);
 
  private:
-  friend class Script;
-  friend struct ScriptState;
+  friend struct BoundCall;
   ScriptCall(ScriptState& state, lua_State* lua);
 
   ScriptState& state_;

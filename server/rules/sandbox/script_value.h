@@ -31,6 +31,7 @@ class ScriptFunction {
  private:
   friend class Script;
   friend class ScriptValue;
+  friend class ScriptWriter;
   std::shared_ptr<const int> slot_;  // of the registry; letting go of the last copy marks it for release
 };
 
@@ -109,6 +110,8 @@ class ScriptWriter {
   /// A value that the script gave, again.
   void value(const ScriptValue& value);
 
+  /// For code with Lua's interface: the value that it pushed on lua()'s stack is the next one.
+  void pushed();
   int count() const { return count_; }  ///< of finished values outside tables
   lua_State* lua() const { return lua_; }
 
@@ -117,7 +120,6 @@ class ScriptWriter {
     int64_t next = 1;    // item of the list
     bool keyed = false;  // a key waits for its value on the stack
   };
-  void written();
 
   lua_State* lua_;
   int count_ = 0;
