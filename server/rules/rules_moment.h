@@ -1,0 +1,49 @@
+// What the functions of scripts reach while a handler runs: the world between two ticks, the commands of the
+// next one, the persons who are there, and what the rules want of the network side. Of the thread that
+// simulates.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/command/joined_person.h"
+#include "server/host/host_hooks.h"
+#include "server/rules/sandbox/script.h"
+#include "shared/base/random.h"
+#include "shared/query/scene_maker.h"
+
+namespace scree {
+
+/// A person who is connected.
+struct RulesPerson {
+  JoinedPerson who;
+  std::optional<glm::vec3> eye_m{};  ///< where the client says that it looks from; nothing: it said nothing
+};
+using RulesPersons = std::map<uint64_t, RulesPerson>;
+
+/// A function that gets the reply to a request, in the tick after it was answered.
+struct AwaitedReply {
+  uint32_t request = 0;
+  ScriptFunction function;
+};
+
+struct RulesMoment {
+  /// Null while the files of a script load: then nothing of the world can be asked.
+  const World* world = nullptr;
+  TickCommands* commands = nullptr;  ///< null likewise
+  const RulesPersons* persons = nullptr;
+  const HostActs* acts = nullptr;
+  uint32_t* next_request = nullptr;  ///< numbers of the rules' own requests
+
+  /// The scene of this moment, made when it is first asked for.
+  const QueryScene& scene();
+
+ private:
+  std::optional<HeldScene> held_;
+};
+
+}  // namespace scree
