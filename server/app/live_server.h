@@ -11,10 +11,10 @@
 #include <memory>
 #include <string>
 
-#include "server/host/host_hooks.h"
 #include "server/app/limits.h"
 #include "server/app/server_report.h"
 #include "server/app/tick_feed.h"
+#include "server/host/host_hooks.h"
 #include "server/net/net_server.h"
 #include "server/store/recording_ring.h"
 #include "server/store/world_saver.h"

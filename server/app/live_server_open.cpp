@@ -1,5 +1,6 @@
 // LiveServer's opening: world, network, recording, log of events.
 #include <filesystem>
+#include <set>
 
 #include "server/app/ground_giver.h"
 #include "server/app/live_server_state.h"
@@ -62,10 +63,7 @@ Result<void> LiveServer::State::open() {
   World* const world = feed->world();
   TickDelta keyframe = world == nullptr ? TickDelta() : world->keyframe();
   if (world == nullptr) keyframe.spawn = spawn;
-  // Their sessions were another process's, and never go on.
-  for (const PersonPlace& person : keyframe.persons)
-    if (!commands.push({person.session, 0, LeaveRequest{}}))
-      spdlog::warn("a person of session {} stays on foot, though the session is over", person.session);
+  end_old_sessions(keyframe);
   tell_missing_models(keyframe.props_spawned, config.models.get());
   report.settings = keyframe.settings;  // ticks say only what changes
   auto listening = TRY(NetServer::listen(config.net, commands, std::move(keyframe)));
@@ -82,6 +80,20 @@ Result<void> LiveServer::State::open() {
   heartbeat.beat(steady_now_s());
   is_open = true;
   return {};
+}
+
+/// They were another process's, and never go on.
+void LiveServer::State::end_old_sessions(const TickDelta& keyframe) {
+  std::set<uint64_t> sessions;
+  for (const PersonPlace& person : keyframe.persons) sessions.insert(person.session);
+  if (keyframe.players != nullptr)
+    for (const Player& player : *keyframe.players) sessions.insert(player.session);
+  if (keyframe.signs != nullptr)
+    for (const Sign& sign : *keyframe.signs)
+      if (sign.to.kind == AudienceKind::session) sessions.insert(sign.to.session);
+  for (const uint64_t session : sessions)
+    if (!commands.push({session, 0, LeaveRequest{}}))
+      spdlog::warn("the person of session {} stays, though the session is over", session);
 }
 
 Result<void> LiveServer::State::open_world() {

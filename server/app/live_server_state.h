@@ -39,6 +39,7 @@ struct LiveServer::State {
   Result<void> open_world();
   Result<void> open_recorder();
   Result<void> open_events();
+  void end_old_sessions(const TickDelta& keyframe);
   ServerReport report_now(const NetStats& stats, const LatencyCounts& latency) const;
   /// On the network thread.
   std::string status(const NetFigures& figures) const;

@@ -16,6 +16,7 @@
 #include "server/app/environment.h"
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
+#include "server/app/rules_options.h"
 #include "server/app/web_folder.h"
 #include "server/app/world_materials.h"
 #include "server/web/site.h"
@@ -39,6 +40,7 @@ struct Raw {
   ServerOptions options;
   std::string preset;  ///< empty: none
   DoorOptions doors;
+  RulesFlags rules;
   std::string durability = "second";
   std::string ground;     ///< empty: generated
   std::string materials;  ///< file of a palette; empty: the built-in one, or a kept world's
@@ -309,6 +311,7 @@ void declare(CLI::App& app, Raw& raw) {
   raw.doors.declare(app, raw.options.live.net);
   add_saving_options(app, raw);
   add_recordings(app, raw);
+  raw.rules.declare(app, raw.options.rules);
   add_run(app, raw);
   refuse_empty(app);
 }
@@ -387,6 +390,7 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     parse_web(raw);
     parse_world(raw);
     parse_models(raw);
+    raw.rules.complete(raw.options.rules);
   } catch (const CLI::ParseError& error) {
     const bool mistaken = error.get_exit_code() != 0;
     const std::string fault = mistaken ? fault_in_file(named_file(*config), fault_of) : std::string();

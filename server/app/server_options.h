@@ -8,6 +8,7 @@
 
 #include "content/files/model_folder.h"
 #include "server/app/live_server.h"
+#include "server/rules/rules.h"
 
 namespace scree {
 
@@ -17,6 +18,7 @@ struct ServerOptions {
   std::string token_made;         ///< file of an admin token that was made; empty: none
   std::vector<ModelFile> models;  ///< live.models, for the log
   std::string log_level = "info";
+  RulesOptions rules;  ///< without folders: there are none
 };
 
 /// The options; or the exit code when there is nothing to run: 0 after --help, 2 after an error, which is

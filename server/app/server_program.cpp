@@ -11,6 +11,7 @@
 #include "server/app/prop_models.h"
 #include "server/app/resident_memory.h"
 #include "server/app/server_options.h"
+#include "server/work/limits.h"
 #include "shared/base/program_output.h"
 
 namespace scree {
@@ -63,12 +64,30 @@ bool write_report(const LiveServer& server, const std::string& path) {
   return false;
 }
 
+/// Loads the rules, if there are any. The simulation has so much less of each tick.
+Result<void> load_rules(RulesOptions options, LiveConfig& live, std::unique_ptr<Rules>& rules) {
+  if (options.folders.empty()) return {};
+  options.tick_rate_hz = live.world.tick_rate_hz;
+  options.log = [](const std::string& line) { spdlog::info("{}", line); };
+  live.world.work_percent = std::max(
+      limits::work_percent_min, live.world.work_percent - std::min(live.world.work_percent, options.percent));
+  rules = TRY(Rules::load(std::move(options)));
+  live.hooks = rules->hooks();
+  return {};
+}
+
 int run(const ServerOptions& options) {
   const sigset_t signals = block_signals();
   spdlog::set_default_logger(spdlog::stderr_color_mt("scree-server"));
   spdlog::set_level(spdlog::level::from_str(options.log_level));
   spdlog::set_pattern("[%Y-%m-%dT%H:%M:%S.%e%z] [%n] [%^%l%$] %v");  // ISO 8601, with the zone
-  auto server = LiveServer::start(options.live);
+  LiveConfig live = options.live;
+  std::unique_ptr<Rules> rules;  // outlives the server, which calls it
+  if (const auto loaded = load_rules(options.rules, live, rules); !loaded) {
+    spdlog::error("{}", loaded.error().message);
+    return failed;
+  }
+  auto server = LiveServer::start(live);
   if (!server) {
     spdlog::error("{}", server.error().message);
     return failed;

@@ -25,7 +25,7 @@ bool leaves(const Request& request) {
 }  // namespace
 
 TickCommands::TickCommands(std::vector<Command> commands)
-    : commands_(std::move(commands)), refusals_(commands_.size()) {}
+    : commands_(std::move(commands)), given_(commands_.size()), refusals_(commands_.size()) {}
 
 void TickCommands::refuse(size_t index, std::string words, std::string_view name) {
   CHECK_LT(index, commands_.size());

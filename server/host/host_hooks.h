@@ -44,9 +44,12 @@ class TickCommands {
   /// waits for nothing: terrain that is out of memory is read within the tick, and the setting memory-max is
   /// not asked. LiveServer::push() is the way for commands that may wait.
   void add(Request body, uint32_t request = 0);
-  /// The same of rules that have a name, which the recording keeps as that of who asked; `party`: whose pieces
-  /// and falls it makes (Command::party), 0: the world's own.
+  /// The same of rules that have a name, which the recording keeps as that of who asked; `party`: whose
+  /// pieces and falls it makes (Command::party), 0: the world's own.
   void add(Request body, uint32_t request, const std::string& rules, uint64_t party);
+
+  /// How many were added.
+  size_t added() const { return commands_.size() - given_; }
 
   /// The commands that the tick gets, and the replies to the others.
   std::vector<Command> let_through() const;
@@ -58,6 +61,7 @@ class TickCommands {
     std::string name;
   };
   std::vector<Command> commands_;
+  size_t given_ = 0;                                  ///< of them by others than the host
   std::vector<std::optional<HostRefusal>> refusals_;  ///< by command
 };
 
@@ -67,11 +71,11 @@ inline constexpr size_t host_name_bytes_max = 27;
 /// What a host can do besides commands. From any thread, while the server is there; nothing once it stops.
 struct HostActs {
   /// Sends a message to a session, if it is there.
-  std::function<void(uint64_t session, ServerMessage message)> send;
+  std::function<void(uint64_t session, ServerMessage message)> send = [](uint64_t, const ServerMessage&) {};
   /// Changes what a session may ask for, until it ends.
-  std::function<void(uint64_t session, Role role)> set_role;
+  std::function<void(uint64_t session, Role role)> set_role = [](uint64_t, Role) {};
   /// Ends a session with these words.
-  std::function<void(uint64_t session, const std::string& reason)> kick;
+  std::function<void(uint64_t session, const std::string& reason)> kick = [](uint64_t, const std::string&) {};
 };
 
 /// An empty hook is not called, and costs nothing.

@@ -157,8 +157,8 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
     talk_.join(session.id(), entry.party != 0 ? entry.party : session.id(), entry.name, grant.role);
   note(EventKind::join, entry, hello.eye_m);
   if (config_.joined)
-    config_.joined({session.id(), entry.name, grant.role, grant.team, grant.token_id, before.has_value(),
-                    hello.administers});
+    config_.joined({session.id(), entry.name, grant.role, grant.team, grant.token_id,
+                    hello.meets && !hello.administers, before.has_value(), hello.administers});
   ++figures_.counts().sessions_joined;
   figures_.counts().sessions_resumed += before ? 1 : 0;
   update_stats();

@@ -65,8 +65,12 @@ std::span<const ApiFunction> region_api();  ///< regions, ledger, stores of rock
 std::span<const ApiFunction> person_api();  ///< persons
 std::span<const ApiFunction> show_api();    ///< signs, lines, cues, messages
 std::span<const ApiFunction> store_api();   ///< values that are kept
+inline constexpr size_t api_event_count = 22;
 std::span<const ApiEvent> api_events();
 std::span<const ApiType> api_types();
+
+/// The reply to a request, as scripts get it.
+void write_reply(ScriptWriter& to, const Reply& reply, const RulesMoment& moment);
 
 /// All functions, in the order of the reference.
 std::vector<ApiFunction> all_api();

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,9 +13,12 @@
 #include <string_view>
 #include <vector>
 
+#include "server/command/command.h"
+#include "server/rules/limits.h"
 #include "server/rules/rules_moment.h"
 #include "server/rules/sandbox/script.h"
 #include "shared/base/ids.h"
+#include "shared/base/rate_limit.h"
 #include "shared/base/result.h"
 #include "shared/operation/request.h"
 
@@ -52,11 +56,19 @@ class Mod {
   const Script& script() const { return *script_; }
   std::span<const HandlerState> handlers() const { return handlers_; }
   bool has_handler(std::string_view event) const;
+  /// Whether a handler of the event rests, because it failed too often.
+  bool any_rests(std::string_view event, const RulesMoment& moment) const;
+  /// Calls that failed, in all.
+  uint64_t faults() const;
+  bool awaits(uint32_t request) const;
+
+  /// What it kept in the tick before is the world's now; random numbers begin anew.
+  void begin_tick(uint64_t random_seed, double now_s);
 
   /// Calls the handlers of an event, in the order in which they were given. `answered` gets what each
-  /// returned; false from it ends the calls.
+  /// returned; false from it ends the calls, and an error is the handler's.
   using Write = std::function<void(ScriptWriter& to)>;
-  using Answered = std::function<bool(const ScriptValue& value)>;
+  using Answered = std::function<Result<bool>(const ScriptValue& value)>;
   void tell(std::string_view event, RulesMoment& moment, ScriptBudget& budget, const Write& event_table,
             const Answered& answered = nullptr);
   /// Calls the timers that are due, and those that wait for these replies.
@@ -68,14 +80,23 @@ class Mod {
   // For bound functions (api.h).
 
   /// Adds a command of this mod. `party`: whose pieces and falls it makes; 0: nobody's. The function gets the
-  /// reply. Returns the number of the request.
-  uint32_t ask(RulesMoment& moment, Request request, uint64_t party, ScriptFunction reply = {});
+  /// reply. Returns the number of the request; refuses more than limits::rules_commands_max a tick.
+  Result<uint32_t> ask(RulesMoment& moment, Request request, uint64_t party, ScriptFunction reply = {});
   void add_handler(std::string_view event, ScriptFunction function);
   /// `every_ticks` 0: once. Returns the timer's number.
   uint64_t add_timer(const RulesMoment& moment, Tick after_ticks, Tick every_ticks, ScriptFunction function);
   /// False: there is none of that number.
   bool remove_timer(uint64_t timer);
-  void say(const std::string& line) const { options_.told("[" + options_.name + "] " + line); }
+  size_t timers() const { return timers_.size(); }
+  /// What was kept under a key since the last tick: nothing inside where it was forgotten, nothing at all
+  /// where it was not changed.
+  std::optional<std::optional<std::string>> written(const std::string& key) const;
+  void note_written(const std::string& key, std::optional<std::string> value) {
+    written_[key] = std::move(value);
+  }
+  const std::map<std::string, std::optional<std::string>>& all_written() const { return written_; }
+  /// A line of the log; too many are counted.
+  void say(const std::string& line);
 
  private:
   struct Timer {
@@ -88,10 +109,11 @@ class Mod {
 
   explicit Mod(ModOptions options);
   Result<void> bind_and_load();
-  void call(HandlerState& handler, RulesMoment& moment, ScriptBudget& budget, const Write& arguments,
-            const Script::ReadResults& results);
+  bool rests(HandlerState& handler, const RulesMoment& moment) const;
+  void note_call(HandlerState& handler, bool done, const RulesMoment& moment);
+  /// False: it failed, which is said.
   bool call_once(const ScriptFunction& function, const std::string& what, RulesMoment& moment,
-                 ScriptBudget& budget, const Write& arguments);
+                 ScriptBudget& budget, const Write& arguments, const Script::ReadResults& results);
 
   ModOptions options_;
   std::unique_ptr<Script> script_;
@@ -101,6 +123,11 @@ class Mod {
   std::vector<Timer> timers_;  ///< by number
   uint64_t next_timer_ = 1;
   std::vector<AwaitedReply> awaited_;
+  std::map<std::string, std::optional<std::string>> written_;
+  uint64_t timer_faults_ = 0;
+  RateLimit lines_{limits::mod_lines_per_second, limits::mod_lines_burst};
+  uint64_t lines_left_out_ = 0;
+  double now_s_ = 0.0;
 };
 
 }  // namespace scree

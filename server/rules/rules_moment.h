@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,11 +40,13 @@ struct RulesMoment {
   const HostActs* acts = nullptr;
   uint32_t* next_request = nullptr;  ///< numbers of the rules' own requests
 
-  /// The scene of this moment, made when it is first asked for.
+  /// The scene of this moment, and every person on foot, made when they are first asked for.
   const QueryScene& scene();
+  const std::vector<PersonPlace>& places();
 
  private:
-  std::optional<HeldScene> held_;
+  std::unique_ptr<HeldScene> held_;
+  std::optional<std::vector<PersonPlace>> places_;
 };
 
 }  // namespace scree

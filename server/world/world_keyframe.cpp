@@ -34,6 +34,8 @@ TickDelta World::outline() {
   for (const auto& [id, one] : s.props) delta.props_spawned.push_back({id, one.prop});
   for (const auto& [id, one] : s.joints) delta.joints_added.push_back({id, one.joint});
   if (!s.regions.empty()) delta.regions = s.regions.shared();
+  if (!s.game.value().signs->empty()) delta.signs = s.game.value().signs;
+  if (!s.game.value().players->empty()) delta.players = s.game.value().players;
   publish_poses(s, delta);
   publish_persons(s, delta);
   delta.stores = s.stores.contents();
