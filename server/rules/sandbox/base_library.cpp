@@ -39,7 +39,7 @@ int base_print(lua_State* lua) {
   luaL_checkstack(lua, 8, "print");
   luaL_buffinit(lua, &line);
   for (int i = 1; i <= values && luaL_bufflen(&line) <= script_print_bytes_max; ++i) {
-    if (i > 1) luaL_addchar(&line, '\t');
+    if (i > 1) luaL_addchar(&line, ' ');
     push_text_of(lua, i, nullptr);
     luaL_addvalue(&line);
   }

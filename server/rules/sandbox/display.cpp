@@ -4,6 +4,7 @@
 #include <charconv>
 #include <vector>
 
+#include "server/rules/sandbox/handles.h"
 #include "server/rules/sandbox/script_state.h"
 #include "shared/base/text.h"
 
@@ -18,6 +19,12 @@ std::string number_text(lua_State* lua, int index) {
   std::string text = lua_tostring(lua, -1);
   lua_pop(lua, 1);
   return text;
+}
+
+std::string userdata_text(lua_State* lua, int index) {
+  const auto handle = handle_at(lua, index);
+  if (!handle) return "(userdata)";
+  return std::string(handle->type) + " " + std::to_string(static_cast<int64_t>(handle->number));
 }
 
 bool is_name(std::string_view text) {
@@ -79,7 +86,7 @@ std::string display_value(lua_State* lua, int index, int depth, bool inner) {
     case LUA_TTABLE:
       return display_table(lua, index, depth);
     case LUA_TUSERDATA:
-      return ScriptValue(lua, index, "").type_text().substr(2);
+      return userdata_text(lua, index);
     default:
       return std::string("(") + luaL_typename(lua, index) + ")";
   }

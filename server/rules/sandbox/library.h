@@ -8,7 +8,7 @@
 //                    coroutine.close: they reach the machine, or run code that no hook watches
 //   require(name)    a file of the script's folder: letters, digits and _ . - /, ".lua" may be left out. Once
 //   load(text)       text only, never bytecode
-//   print            goes to ScriptOptions::print
+//   print            goes to ScriptOptions::print, with spaces between the values
 //   collectgarbage   "count" only
 //   xpcall           the handler is called after the error has left the function, so it sees no traceback
 //   setmetatable     refuses __gc and weak keys (__mode = "k"); "v" and "kv" are as in Lua

@@ -50,7 +50,7 @@ void tell_death(ScriptState& state, lua_State* lua) noexcept {
   std::string place;
   for (int level = 0; level < 4 && place.empty(); ++level) place = place_at(lua, level);
   state.fault.message = place + (memory ? "out of memory: " : "too long: ") + state.death_reason;
-  fill_traceback(lua, state.fault.traceback);
+  fill_traceback(lua, 0, state.fault.traceback);
 }
 
 }  // namespace

@@ -113,7 +113,8 @@ void note_metatable(lua_State* lua, int index);
 // traceback.cpp
 /// Lua's message handler: fills the fault, where the death has not done so.
 int note_error(lua_State* lua);
-void fill_traceback(lua_State* lua, std::vector<std::string>& lines) noexcept;
+/// From a level of the stack on: in a message handler, 0 is the handler.
+void fill_traceback(lua_State* lua, int level, std::vector<std::string>& lines) noexcept;
 /// The place of a level of the stack, "file:line: "; empty where there is none.
 std::string place_at(lua_State* lua, int level) noexcept;
 

@@ -31,7 +31,7 @@ void note_message(ScriptState& state, lua_State* lua) noexcept {
   if (state.dead != ScriptDeath::none) return;
   state.fault = {};
   state.fault.message = message_of(lua, 1);
-  fill_traceback(lua, state.fault.traceback);
+  fill_traceback(lua, 1, state.fault.traceback);
 }
 
 }  // namespace
@@ -49,13 +49,11 @@ std::string place_at(lua_State* lua, int level) noexcept {
   return showable(at.short_src, LUA_IDSIZE) + ":" + std::to_string(at.currentline) + ": ";
 }
 
-void fill_traceback(lua_State* lua, std::vector<std::string>& lines) noexcept {
+void fill_traceback(lua_State* lua, int level, std::vector<std::string>& lines) noexcept {
   lines.clear();
   lua_Debug at{};
-  for (int level = 0; lines.size() < script_traceback_lines_max && lua_getstack(lua, level, &at) != 0;
-       ++level) {
+  for (; lines.size() < script_traceback_lines_max && lua_getstack(lua, level, &at) != 0; ++level) {
     if (lua_getinfo(lua, "Sln", &at) == 0) break;
-    if (level == 0 && at.currentline <= 0 && at.name == nullptr) continue;  // the handler itself
     lines.push_back(place_at(lua, level) + function_text(at));
   }
 }
