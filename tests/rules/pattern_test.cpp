@@ -1,31 +1,10 @@
 // Patterns beside those of Lua as it comes.
-#include <lua.hpp>
-#include <memory>
-
 #include "shared/base/random.h"
 #include "tests/rules/sandbox_support.h"
+#include "tests/rules/stock_lua.h"
 
 namespace scree {
 namespace {
-
-/// A machine with Lua's own library.
-class StockLua {
- public:
-  StockLua() : lua_(luaL_newstate(), lua_close) { luaL_openlibs(lua_.get()); }
-
-  /// What the text returns, as one text; "error" where it raises one.
-  std::string ask(const std::string& text) {
-    lua_settop(lua_.get(), 0);
-    if (luaL_loadstring(lua_.get(), text.c_str()) != LUA_OK || lua_pcall(lua_.get(), 0, 1, 0) != LUA_OK)
-      return "error";
-    size_t bytes = 0;
-    const char* result = lua_tolstring(lua_.get(), -1, &bytes);
-    return {result, bytes};
-  }
-
- private:
-  std::unique_ptr<lua_State, decltype(&lua_close)> lua_;
-};
 
 /// Joins all that find, match, gmatch and gsub give, with types, as hexadecimal texts.
 constexpr const char* join_results = R"(
@@ -61,16 +40,6 @@ std::string questions(const std::string& text, const std::string& pattern) {
          "try(string.gsub, " + both + ", {a = 'A', b = false, ab = 1}) " +                        //
          "try(function() for a, b, c in string.gmatch(" + both + ") do add(a, b, c) end end) " +  //
          "return table.concat(out, '|')";
-}
-
-std::string stored_result(Played& played, const std::string& text) {
-  std::string result = "error";
-  played.script.define("", "give", [&](ScriptCall& call) -> Result<void> {
-    result = std::string(TRY(call.argument(1, "result").text()));
-    return {};
-  });
-  const auto ended = played.run("give((function() " + text + " end)())");
-  return ended ? result : "error: " + ended.error().message;
 }
 
 struct Case {
@@ -151,7 +120,7 @@ TEST(Patterns, give_what_lua_gives) {
            {"a,b,,c", "([^,]*)"},
        }) {
     const std::string asked = questions(text, pattern);
-    EXPECT_EQ(stored_result(played, asked), stock.ask(asked)) << text << " " << pattern;
+    EXPECT_EQ(returned(played, asked), stock.ask(asked)) << text << " " << pattern;
   }
 }
 
@@ -179,7 +148,7 @@ TEST(Patterns, give_what_lua_gives_for_random_ones) {
       pattern += parts[random.below(static_cast<uint32_t>(std::size(parts)))];
     // Lua reads a wrong pattern only as far as it matches.
     const std::string asked = questions(text, pattern);
-    const std::string ours = stored_result(played, asked);
+    const std::string ours = returned(played, asked);
     if (ours.find("error") != std::string::npos || ours.find("6572726f72") != std::string::npos) continue;
     ASSERT_EQ(ours, stock.ask(asked)) << quoted(text) << " " << pattern << " of pass " << i;
     if (ours.find("number:") != std::string::npos) ++matches;

@@ -48,6 +48,20 @@ class Played {
   }
 };
 
+/// The text that a chunk returns, whole; "error: " and the message where it raises one.
+inline std::string returned(Played& played, const std::string& text) {
+  std::string result;
+  ScriptBudget budget{1'000'000'000, 60};
+  const auto loaded = played.run("function main() " + text + "\nend");
+  if (!loaded) return "error: " + loaded.error().message;
+  const auto ended = played.script.call(played.script.global_function("main"), nullptr, budget,
+                                        [&](const std::vector<ScriptValue>& results) -> Result<void> {
+                                          result = std::string(TRY(results.at(0).text()));
+                                          return {};
+                                        });
+  return ended ? result : "error: " + ended.error().message;
+}
+
 /// Runs a text that must not come to its end.
 inline ScriptFault fault_of(Played& played, std::string_view text) {
   const Script::Ended ended = played.run(text);

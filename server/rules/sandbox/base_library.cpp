@@ -143,8 +143,8 @@ int base_collectgarbage(lua_State* lua) {
   return 1;
 }
 
-/// Joins what a function gives, piece by piece, into one text on top.
-void push_pieces(lua_State* lua) {
+/// Joins what a function gives, piece by piece, into one text.
+int join_pieces(lua_State* lua) {
   luaL_Buffer whole;
   luaL_buffinit(lua, &whole);
   for (;;) {
@@ -152,7 +152,13 @@ void push_pieces(lua_State* lua) {
     lua_call(lua, 0, 1);
     size_t bytes = 0;
     const char* piece = lua_tolstring(lua, -1, &bytes);
-    if (piece == nullptr && !lua_isnil(lua, -1)) luaL_error(lua, "reader function must return a string");
+    if (piece == nullptr && !lua_isnil(lua, -1)) {
+      lua_pushliteral(lua, "reader function must return a string");
+      luaL_where(lua, 2);  // 1 is load()
+      lua_insert(lua, -2);
+      lua_concat(lua, 2);
+      lua_error(lua);
+    }
     charge(lua, 16 + static_cast<int64_t>(bytes / script_bytes_per_work));
     if (bytes == 0) break;
     luaL_addvalue(&whole);
@@ -161,6 +167,17 @@ void push_pieces(lua_State* lua) {
   }
   lua_pop(lua, 1);
   luaL_pushresult(&whole);
+  return 1;
+}
+
+/// Leaves the text of a chunk, an argument of load(); or returns false with a message.
+bool push_chunk(lua_State* lua) {
+  if (lua_type(lua, 1) == LUA_TFUNCTION) lua_pushcfunction(lua, join_pieces);
+  lua_pushvalue(lua, 1);
+  if (lua_type(lua, 1) == LUA_TSTRING) return true;
+  const int status = lua_pcall(lua, 1, 1, 0);
+  raise_if_dead(lua);
+  return status == LUA_OK;
 }
 
 int base_load(lua_State* lua) {
@@ -172,13 +189,9 @@ int base_load(lua_State* lua) {
   lua_settop(lua, 4);
   if (mode.find('t') == std::string_view::npos)
     return luaL_error(lua, "load: mode \"t\" (text) alone is available here");
-  if (is_text)
-    lua_pushvalue(lua, 1);
-  else
-    push_pieces(lua);
   size_t bytes = 0;
-  const char* text = lua_tolstring(lua, -1, &bytes);
-  if (load_in_pieces(lua, {text, bytes}, chunk) != LUA_OK) {
+  const char* text = push_chunk(lua) ? lua_tolstring(lua, -1, &bytes) : nullptr;
+  if (text == nullptr || load_in_pieces(lua, {text, bytes}, chunk) != LUA_OK) {
     lua_pushnil(lua);
     lua_insert(lua, -2);
     return 2;
@@ -202,6 +215,22 @@ const char* next_piece(lua_State* lua, void* of, size_t* bytes) {
   const char* piece = pieces.left.data();
   pieces.left.remove_prefix(*bytes);
   return piece;
+}
+
+/// For messages of Lua, which looks for names there. A copy: a script's globals may be many.
+void name_base_functions(lua_State* lua) {
+  lua_rawgetp(lua, LUA_REGISTRYINDEX, &registry_libraries);
+  lua_newtable(lua);
+  lua_pushglobaltable(lua);
+  const int globals = lua_gettop(lua);
+  lua_pushnil(lua);
+  while (lua_next(lua, globals) != 0) {
+    lua_pushvalue(lua, -2);
+    lua_insert(lua, -2);
+    lua_rawset(lua, globals - 1);
+  }
+  lua_settop(lua, globals - 1);
+  lua_setfield(lua, -2, "_G");
 }
 
 }  // namespace
@@ -239,6 +268,7 @@ void open_base(lua_State* lua) {
   lua_setfield(lua, -2, "tonumber");
   static constexpr const char* charged[] = {"tonumber", nullptr};
   adopt(lua, charged);
+  name_base_functions(lua);
   lua_settop(lua, 0);
 }
 

@@ -48,7 +48,7 @@ int resume(lua_State* lua, lua_State* coroutine, int arguments) {
 
 int coroutine_resume(lua_State* lua) {
   lua_State* coroutine = lua_tothread(lua, 1);
-  luaL_argexpected(lua, coroutine != nullptr, 1, "coroutine");
+  luaL_argexpected(lua, coroutine != nullptr, 1, "thread");
   const int results = resume(lua, coroutine, lua_gettop(lua) - 1);
   lua_pushboolean(lua, results < 0 ? 0 : 1);
   lua_insert(lua, -(results < 0 ? 2 : results + 1));

@@ -91,7 +91,8 @@ void push_library(lua_State* lua, const char* name) {
 
 int open_sandbox(lua_State* lua) {
   prepare_collection(lua);
-  lua_newtable(lua);
+  // Where Lua looks for the names of functions in its messages, too. Without the globals, which may be many.
+  luaL_getsubtable(lua, LUA_REGISTRYINDEX, LUA_LOADED_TABLE);
   lua_rawsetp(lua, LUA_REGISTRYINDEX, &registry_libraries);
   lua_newtable(lua);
   lua_rawsetp(lua, LUA_REGISTRYINDEX, &registry_types);

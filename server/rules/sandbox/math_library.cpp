@@ -49,7 +49,7 @@ int math_random(lua_State* lua) {
     default:
       return luaL_error(lua, "wrong number of arguments");
   }
-  luaL_argcheck(lua, low <= high, lua_gettop(lua), "interval is empty");
+  luaL_argcheck(lua, low <= high, 1, "interval is empty");
   const uint64_t most = static_cast<uint64_t>(high) - static_cast<uint64_t>(low);
   lua_pushinteger(lua, static_cast<lua_Integer>(static_cast<uint64_t>(low) + random_up_to(state, most)));
   return 1;

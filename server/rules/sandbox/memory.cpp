@@ -19,8 +19,9 @@ constexpr size_t long_text_bytes = script_interval_bytes / script_interval;
 /// Of one step: 20,000 values are marked or swept, 0.1 ms.
 constexpr int step_factor_percent = 40;
 constexpr size_t step_granted_bytes = size_t{16} << 10U;
-constexpr int64_t step_work = 4000;
-constexpr int64_t metatables_per_work = 4;
+/// Of a new block, beside that of its bytes: to find, mark and free it. So steps of collection are paid for
+/// before they are due, and a call with a small budget does not end for the garbage of others.
+constexpr int64_t block_work = 12;
 
 void forget_long_text(ScriptState& state, const void* block, size_t bytes) {
   if (bytes < long_text_bytes || state.long_texts.erase(block) == 0) return;
@@ -113,19 +114,15 @@ Due due(const ScriptState& state) {
 bool take_steps(ScriptState& state, lua_State* lua, Due what) {
   bool found = false;
   const int64_t seen = strengthen(lua, found);
-  state.work_left -= seen / metatables_per_work;
   if (what == Due::all) {
-    state.work_left -= static_cast<int64_t>(state.memory / script_bytes_per_work / 2);
     lua_gc(lua, LUA_GCCOLLECT);
     state.granted_since_full = 0;
     set_next_cycle(state);
   } else {
     state.collecting = true;
     // More steps at a time where there is much to look at before them.
-    for (int64_t steps = 1 + seen / 1000; steps > 0 && state.collecting; --steps) {
-      state.work_left -= step_work;
+    for (int64_t steps = 1 + seen / 1000; steps > 0 && state.collecting; --steps)
       if (lua_gc(lua, LUA_GCSTEP, 0) != 0) set_next_cycle(state);
-    }
   }
   state.granted_since_step = 0;
   state.granted_per_step = step_granted_bytes * static_cast<size_t>(1 + seen / 1000);
@@ -137,7 +134,10 @@ bool take_steps(ScriptState& state, lua_State* lua, Due what) {
 void* allocate_for_script(void* of, void* block, size_t old_bytes, size_t bytes) noexcept {
   ScriptState& state = *static_cast<ScriptState*>(of);
   const bool is_text = block == nullptr && old_bytes == LUA_TSTRING;
-  if (block == nullptr) old_bytes = 0;
+  if (block == nullptr) {
+    old_bytes = 0;
+    state.work_left -= block_work;
+  }
   forget_long_text(state, block, old_bytes);
   if (bytes == 0) {
     std::free(block);

@@ -27,8 +27,8 @@ struct ScriptFault {
 /// What calls may still use. Several calls share one: each takes off what it used. A call begins only where
 /// both are above 0, and may end up to a few ms below.
 struct ScriptBudget {
-  /// Units of work: about one for an instruction of Lua's machine, and for 16 to 64 bytes that a function of
-  /// the library touches or that memory is asked for. A unit takes 5 to 20 ns.
+  /// Units of work: about one for an instruction of Lua's machine, 12 for a new value on the heap, and one
+  /// for 16 bytes that are granted or that a function of the library touches. A unit takes 5 to 20 ns.
   int64_t work = 0;
   /// Seconds of processor time of the calling thread: a backstop for work that is dearer than it counts.
   double cpu_s = 0;

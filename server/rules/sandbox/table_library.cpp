@@ -28,7 +28,8 @@ int table_concat(lua_State* lua) {
     if (!first) luaL_addlstring(&made, separator, separator_bytes);
     lua_geti(lua, 1, i);
     if (lua_isstring(lua, -1) == 0)
-      luaL_error(lua, "invalid value (at index %I) in table for 'concat'", static_cast<LUAI_UACINT>(i));
+      luaL_error(lua, "invalid value (%s) at index %I in table for 'concat'", luaL_typename(lua, -1),
+                 static_cast<LUAI_UACINT>(i));
     const auto bytes = static_cast<int64_t>(lua_rawlen(lua, -1) + separator_bytes);
     charge(lua, item_work + bytes / static_cast<int64_t>(script_bytes_per_work));
     luaL_addvalue(&made);
@@ -68,12 +69,9 @@ int table_remove(lua_State* lua) {
   const lua_Integer size = checked_length(lua);
   lua_Integer position = luaL_optinteger(lua, 2, size);
   lua_settop(lua, 2);
-  if (!lua_isnil(lua, 2))
-    luaL_argcheck(lua,
-                  static_cast<lua_Unsigned>(size) + 1U - static_cast<lua_Unsigned>(position) <=
-                          static_cast<lua_Unsigned>(size) ||
-                      static_cast<lua_Unsigned>(position) == static_cast<lua_Unsigned>(size) + 1U,
-                  2, "position out of bounds");
+  if (position != size)
+    luaL_argcheck(lua, static_cast<lua_Unsigned>(position) - 1U <= static_cast<lua_Unsigned>(size), 2,
+                  "position out of bounds");
   lua_geti(lua, 1, position);
   for (; position < size; ++position) {
     charge(lua, item_work);
