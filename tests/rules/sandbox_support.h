@@ -11,7 +11,7 @@
 
 namespace scree {
 
-/// Of tests: 8 MiB and a million units of work a call.
+/// What tests give: 8 MiB, and a million units of work a call.
 inline ScriptOptions small_options() {
   ScriptOptions options;
   options.name = "test";

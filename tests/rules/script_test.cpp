@@ -296,6 +296,14 @@ TEST(ScriptMemory, garbage_of_short_calls_is_freed_between_them) {
   EXPECT_LT(played.script.used().memory_most_bytes, 2U << 20U);
 }
 
+TEST(ScriptMemory, a_long_text_that_nobody_needs_slows_nothing_down_for_long) {
+  Played played;
+  ASSERT_TRUE(played.run("for i = 1, 3 do local s = ('xxxxxxxxxx'):rep(6000) end"));
+  EXPECT_EQ(played.ask("collectgarbage('count') > 60"), "true");
+  EXPECT_EQ(played.ask("(function() for i = 1, 400000 do end return collectgarbage('count') < 60 end)()"),
+            "true");
+}
+
 TEST(ScriptConsole, shows_values_and_runs_statements) {
   Played played;
   EXPECT_EQ(played.ask("1 + 1, 'a', nil, 1.5"), "2\ta\tnil\t1.5");

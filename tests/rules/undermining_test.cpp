@@ -1,4 +1,6 @@
 // Scripts that try to run on, to fill the memory or to reach the machine.
+#include <algorithm>
+
 #include "tests/rules/sandbox_support.h"
 
 namespace scree {

@@ -1,5 +1,5 @@
 // Lua's basic functions. pcall() and its like look at the budget once the function has ended, however it did.
-#include <cstring>
+#include <algorithm>
 #include <string_view>
 
 #include "server/rules/sandbox/library.h"
@@ -54,7 +54,7 @@ int base_print(lua_State* lua) {
 int base_next(lua_State* lua) {
   luaL_checktype(lua, 1, LUA_TTABLE);
   lua_settop(lua, 2);
-  charge(lua, 1);  // looks at the clock, too: a step over many empty places takes long
+  charge(lua, 3);  // looks at the clock, too: a step over many empty places takes long
   if (lua_next(lua, 1) != 0) return 2;
   lua_pushnil(lua);
   return 1;
@@ -88,7 +88,7 @@ int pcall_ended(lua_State* lua, int status, lua_KContext skipped) {
 
 int base_pcall(lua_State* lua) {
   luaL_checkany(lua, 1);
-  charge(lua, 2);
+  charge(lua, 8);
   lua_pushboolean(lua, 1);
   lua_insert(lua, 1);
   return pcall_ended(lua, lua_pcallk(lua, lua_gettop(lua) - 2, LUA_MULTRET, 0, 0, pcall_ended), 0);
@@ -109,7 +109,7 @@ int xpcall_ended(lua_State* lua, int status, lua_KContext) {
 
 int base_xpcall(lua_State* lua) {
   luaL_checktype(lua, 2, LUA_TFUNCTION);
-  charge(lua, 2);
+  charge(lua, 8);
   const int arguments = lua_gettop(lua) - 2;
   lua_pushvalue(lua, 2);
   lua_pushboolean(lua, 1);

@@ -2,7 +2,8 @@
 // instruction: if it were refused, Lua would collect all garbage at each try, without a hook.
 //
 // Collection is ours, too: Lua's own is stopped. Tables with weak keys cost the collector quadratic time in a
-// part that cannot be interrupted, so collect() looks for them before each step that it has Lua take.
+// part that cannot be interrupted (16,000 entries: 0.6 s), so collect() looks for them before each step that
+// it has Lua take.
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -16,11 +17,17 @@ namespace {
 /// Texts of this size and more shorten the interval.
 constexpr size_t long_text_bytes = script_interval_bytes / script_interval;
 
-/// Of one step: 20,000 values are marked or swept, 0.1 ms.
+/// One step marks or sweeps 20,000 values, 0.1 ms.
 constexpr int step_factor_percent = 40;
 constexpr size_t step_granted_bytes = size_t{16} << 10U;
-/// Of a new block, beside that of its bytes: to find, mark and free it. So steps of collection are paid for
-/// before they are due, and a call with a small budget does not end for the garbage of others.
+/// A long text slows the script down, also one that nobody needs. So while there is one, steps and cycles go
+/// on where nothing is granted, too: a step is a fifth of the time between two.
+constexpr int looks_between_steps = 4096;
+constexpr int looks_between_cycles = 65536;
+/// The end of a call counts as so many looks.
+constexpr int looks_of_call = 512;
+/// A new block counts this, beside its bytes: it must be found, marked and freed. So steps of collection are
+/// paid for before they are due, and a call with a small budget does not end for the garbage of others.
 constexpr int64_t block_work = 12;
 
 void forget_long_text(ScriptState& state, const void* block, size_t bytes) {
@@ -33,6 +40,7 @@ void note_long_text(ScriptState& state, const void* block, size_t bytes) {
   if (bytes < long_text_bytes || size >= state.long_texts_by_size.size()) return;
   state.long_texts.insert(block);
   ++state.long_texts_by_size[size];
+  state.long_text_is_new = true;
   hook_soon(state);
 }
 
@@ -96,6 +104,12 @@ void set_next_cycle(ScriptState& state) {
   const size_t room = state.memory < state.memory_limit ? state.memory_limit - state.memory : 0;
   state.collect_at = state.memory + std::min(room / 2, state.memory + script_memory_min_bytes);
   state.collecting = false;
+  state.looks_since_cycle = 0;
+}
+
+void count_looks(ScriptState& state, int looks) {
+  state.looks_since_step = std::min(state.looks_since_step + looks, looks_between_steps);
+  state.looks_since_cycle = std::min(state.looks_since_cycle + looks, looks_between_cycles);
 }
 
 /// Whether a full collection is due, or steps are.
@@ -104,10 +118,11 @@ enum class Due : uint8_t { nothing, steps, all };
 Due due(const ScriptState& state) {
   const size_t margin = state.memory_limit / 16;
   if (state.memory > state.memory_limit - margin && state.granted_since_full > margin) return Due::all;
-  const bool cycle = state.collecting || state.memory >= state.collect_at;
-  return cycle && state.granted_since_step >= std::max(step_granted_bytes, state.granted_per_step)
-             ? Due::steps
-             : Due::nothing;
+  const bool cycle = state.collecting || state.memory >= state.collect_at || state.long_text_is_new ||
+                     (!state.long_texts.empty() && state.looks_since_cycle >= looks_between_cycles);
+  const size_t granted_max = std::max(step_granted_bytes, state.granted_per_step);
+  const bool waits = state.granted_since_step < granted_max && state.looks_since_step < looks_between_steps;
+  return cycle && !waits ? Due::steps : Due::nothing;
 }
 
 /// Returns whether a metatable had weak keys.
@@ -119,12 +134,15 @@ bool take_steps(ScriptState& state, lua_State* lua, Due what) {
     state.granted_since_full = 0;
     set_next_cycle(state);
   } else {
+    // What is new now, the cycle after this one finds.
+    if (!state.collecting) state.long_text_is_new = false;
     state.collecting = true;
     // More steps at a time where there is much to look at before them.
     for (int64_t steps = 1 + seen / 1000; steps > 0 && state.collecting; --steps)
       if (lua_gc(lua, LUA_GCSTEP, 0) != 0) set_next_cycle(state);
   }
   state.granted_since_step = 0;
+  state.looks_since_step = 0;
   state.granted_per_step = step_granted_bytes * static_cast<size_t>(1 + seen / 1000);
   return found;
 }
@@ -175,6 +193,7 @@ int prepare_collection(lua_State* lua) {
 
 void collect(lua_State* lua) {
   ScriptState& state = state_of(lua);
+  count_looks(state, 1);
   const Due what = due(state);
   if (what == Due::nothing || !take_steps(state, lua, what)) return;
   lua_pushliteral(lua,
@@ -183,6 +202,7 @@ void collect(lua_State* lua) {
 }
 
 void collect_after_call(ScriptState& state) noexcept {
+  count_looks(state, looks_of_call);
   const Due what = due(state);
   if (what != Due::nothing) take_steps(state, state.lua, what);
 }

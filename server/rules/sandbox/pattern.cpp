@@ -2,7 +2,7 @@
 
 #include <array>
 #include <bitset>
-#include <cctype>
+#include <optional>
 #include <re2/re2.h>
 #include <string>
 #include <vector>

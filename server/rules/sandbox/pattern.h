@@ -14,7 +14,7 @@ class RE2;
 
 namespace scree {
 
-/// Of Lua's, LUA_MAXCAPTURES.
+/// As Lua's own LUA_MAXCAPTURES.
 inline constexpr int script_captures_max = 32;
 
 class ScriptPattern {
@@ -39,7 +39,7 @@ class ScriptPattern {
 
   bool anchored() const { return anchored_; }
   int captures() const { return captures_; }
-  /// Of `()`: the capture is a place, not a text.
+  /// Whether the capture is a place, `()`, not a text.
   bool is_place(int capture) const { return places_[capture]; }
   /// Characters and classes: how much work a byte of the text may take.
   int items() const { return items_; }

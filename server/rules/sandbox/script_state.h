@@ -41,7 +41,10 @@ struct ScriptState {
   std::unordered_set<const void*> long_texts;
   std::array<uint32_t, 24> long_texts_by_size{};  // index: bits of the size
   size_t granted = 0;                             // since the last look
-  size_t collect_at = 0;                          // memory at which a cycle of collection begins
+  bool long_text_is_new = false;                  // since the cycle of collection began
+  int looks_since_step = 0;
+  int looks_since_cycle = 0;
+  size_t collect_at = 0;  // memory at which a cycle of collection begins
   size_t granted_since_step = 0;
   size_t granted_per_step = 0;  // more where there are many metatables
   size_t granted_since_full = SIZE_MAX / 2;
@@ -69,7 +72,7 @@ struct ScriptState {
   std::string text;  // what a noexcept helper hands to its caller that may raise
 };
 
-/// Of any coroutine.
+/// Any coroutine of the script will do.
 ScriptState& state_of(lua_State* lua) noexcept;
 
 // meter.cpp

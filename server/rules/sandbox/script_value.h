@@ -66,7 +66,7 @@ class ScriptValue {
 
   /// A table's value under a key, nil where there is none; of a value that is no table, an error.
   Result<ScriptValue> field(std::string_view key) const;
-  /// Of a table: from 1 to length().
+  /// A table's item, from 1 to length().
   Result<ScriptValue> item(int64_t index) const;
   Result<int64_t> length() const;
   /// Each pair of a table, in no certain order, until an error. Keys and values are valid in the call alone.

@@ -14,7 +14,7 @@ std::string function_text(const lua_Debug& at) {
   return "in function <" + showable(at.short_src, LUA_IDSIZE) + ":" + std::to_string(at.linedefined) + ">";
 }
 
-/// Of the error itself; no code of the script is asked.
+/// The text of the error itself; no code of the script is asked.
 std::string message_of(lua_State* lua, int index) {
   if (lua_type(lua, index) == LUA_TSTRING || lua_type(lua, index) == LUA_TNUMBER) {
     lua_pushvalue(lua, index);
