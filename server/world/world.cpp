@@ -206,6 +206,25 @@ std::vector<StoreContent> World::stores() const {
   return state_->stores.contents();
 }
 
+const Ledger& World::ledger() const {
+  return state_->ledger;
+}
+
+const MaterialLedger& World::materials() const {
+  return state_->materials;
+}
+
+std::vector<KnownJoint> World::joints() const {
+  std::vector<KnownJoint> joints;
+  joints.reserve(state_->joints.size());
+  for (const auto& [id, one] : state_->joints) joints.push_back({id, *one.joint});
+  return joints;
+}
+
+bool World::has_joint(JointId id) const {
+  return state_->joints.contains(id);
+}
+
 const GameValue& World::game() const {
   return state_->game.value();
 }

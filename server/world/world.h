@@ -78,6 +78,12 @@ class World {
   const std::vector<Region>& regions() const;
   std::vector<RegionMass> region_masses() const;
   std::vector<StoreContent> stores() const;
+  const Ledger& ledger() const;
+  const MaterialLedger& materials() const;
+  /// By id.
+  std::vector<KnownJoint> joints() const;
+  /// Whether there is a joint of that id.
+  bool has_joint(JointId id) const;
   /// What the host's rules keep with the world, show, and made of persons.
   const GameValue& game() const;
   /// Of the body as it is now; nothing: there is none of that id.

@@ -114,6 +114,22 @@ void Script::define_method(std::string_view type, std::string_view name, BoundFu
   lua_settop(lua, 0);
 }
 
+void Script::take_vectors(std::string_view global) {
+  check_between_calls(*state_);
+  lua_State* lua = state_->lua;
+  lua_pushglobaltable(lua);
+  lua_pushlstring(lua, global.data(), global.size());
+  CHECK_EQ(lua_rawget(lua, 1), LUA_TTABLE, "the metatable of vectors is a table");
+  lua_pushliteral(lua, "__metatable");
+  CHECK_NE(lua_rawget(lua, 2), LUA_TNIL, "scripts cannot reach the metatable of vectors");
+  lua_settop(lua, 2);
+  lua_rawsetp(lua, LUA_REGISTRYINDEX, &registry_vectors);
+  lua_pushlstring(lua, global.data(), global.size());
+  lua_pushnil(lua);
+  lua_rawset(lua, 1);
+  lua_settop(lua, 0);
+}
+
 void Script::define_values(std::string_view table, const std::function<void(ScriptWriter& to)>& write) {
   check_between_calls(*state_);
   lua_State* lua = state_->lua;

@@ -97,8 +97,10 @@ std::string display_value(lua_State* lua, int index, int depth, bool inner) {
 std::string display_values(lua_State* lua) {
   std::string all;
   const int values = lua_gettop(lua);
-  for (int i = 1; i <= values && all.size() < script_print_bytes_max; ++i)
-    all += (i > 1 ? "\t" : "") + display_value(lua, i, display_depth, false);
+  for (int i = 1; i <= values && all.size() < script_print_bytes_max; ++i) {
+    if (i > 1) all += '\t';
+    all += display_value(lua, i, display_depth, false);
+  }
   if (all.size() <= script_print_bytes_max) return all;
   return showable(all, script_print_bytes_max) + "…";
 }

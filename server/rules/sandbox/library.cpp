@@ -7,6 +7,7 @@ namespace scree {
 const char registry_libraries = 0;
 const char registry_metatables = 0;
 const char registry_scratch = 0;
+const char registry_vectors = 0;
 
 namespace {
 

@@ -81,6 +81,11 @@ class Script {
   /// Puts constants into a global table: `write` writes its values, each after a name().
   void define_values(std::string_view table, const std::function<void(ScriptWriter& to)>& write);
 
+  /// The table that a global variable holds becomes the metatable of what ScriptWriter::vector() writes, and
+  /// the variable goes. Between calls, after the host's own text that made it. It must have a __metatable:
+  /// what a script can reach may get a finalizer, which no budget watches.
+  void take_vectors(std::string_view global);
+
   using Ended = tl::expected<void, ScriptFault>;
   /// Runs a file of the folder, "main.lua", or a text named `chunk` in messages.
   Ended load(std::string_view path, ScriptBudget& budget);

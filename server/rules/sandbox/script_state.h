@@ -151,6 +151,6 @@ int take_written(ScriptState& state, lua_State* lua, const ScriptWriter& writer)
 
 /// Keys in the registry, by their addresses.
 extern const char registry_libraries, registry_metatables, registry_types, registry_patterns,
-    registry_modules, registry_handles, registry_scratch;
+    registry_modules, registry_handles, registry_scratch, registry_vectors;
 
 }  // namespace scree

@@ -144,6 +144,12 @@ Result<void> ScriptValue::each(
   return {};
 }
 
+ReadScope::ReadScope(const ScriptValue& of) : lua_(of.lua()), top_(lua_gettop(of.lua())) {}
+
+ReadScope::~ReadScope() {
+  lua_settop(lua_, top_);
+}
+
 ScriptWriter::ScriptWriter(lua_State* lua) : lua_(lua) {}
 
 /// A value lies on the stack: it is put into the open table, or counts.
@@ -200,6 +206,24 @@ void ScriptWriter::function(const ScriptFunction& value) {
 void ScriptWriter::handle(const ScriptHandle& value) {
   make_room(lua_);
   push_handle(lua_, value);
+  pushed();
+}
+
+void ScriptWriter::vector(double x, double y, double z) {
+  make_room(lua_);
+  lua_createtable(lua_, 0, 3);
+  const auto set = [&](const char* key, double value) {
+    lua_pushstring(lua_, key);
+    lua_pushnumber(lua_, value);
+    lua_rawset(lua_, -3);
+  };
+  set("x", x);
+  set("y", y);
+  set("z", z);
+  if (lua_rawgetp(lua_, LUA_REGISTRYINDEX, &registry_vectors) == LUA_TTABLE)
+    lua_setmetatable(lua_, -2);
+  else
+    lua_pop(lua_, 1);
   pushed();
 }
 

@@ -87,6 +87,20 @@ class ScriptValue {
   std::string name_;
 };
 
+/// Takes what was read since it was made off the stack again. Values that fields and items gave meanwhile are
+/// no longer valid then.
+class ReadScope {
+ public:
+  explicit ReadScope(const ScriptValue& of);
+  ~ReadScope();
+  ReadScope(const ReadScope&) = delete;
+  ReadScope& operator=(const ReadScope&) = delete;
+
+ private:
+  lua_State* lua_;
+  int top_;
+};
+
 /// Writes values, one after another: arguments or results, or, between open_table() and close_table(), what
 /// lies in that table. There a value is the next item of a list, or that of the name said just before:
 ///   to.open_table(); to.name("at"); to.number(1); to.close_table();
@@ -101,6 +115,8 @@ class ScriptWriter {
   void text(std::string_view value);
   void function(const ScriptFunction& value);
   void handle(const ScriptHandle& value);
+  /// A table with the fields x, y and z, and with the metatable that Script::take_vectors() got.
+  void vector(double x, double y, double z);
   void open_table();
   void close_table();
   /// The key of the next value; only in a table.
