@@ -67,8 +67,8 @@ Result<void> read_fields(void* to, const ScriptValue& table, const FieldTable& f
 
 void write_fields(const void* from, ScriptWriter& to, const FieldTable& fields, const RulesMoment& moment) {
   for (const FieldRow& row : fields.rows) {
-    const bool is_written = row.write != nullptr && row_applies(row, from) &&
-                            (row.is_there == nullptr || row.is_there(from));
+    const bool is_written =
+        row.write != nullptr && row_applies(row, from) && (row.is_there == nullptr || row.is_there(from));
     if (!is_written) continue;
     to.name(row.name);
     row.write(from, to, moment);

@@ -47,7 +47,8 @@ namespace {
 
 Result<void> finish_prop(void* of, const GivenFields&, const RulesMoment&) {
   const Prop& prop = static_cast<const AddPropRequest*>(of)->prop;
-  if (prop.parts.empty()) return fail("a body needs parts: say box = half its sides, sphere = radius, or parts");
+  if (prop.parts.empty())
+    return fail("a body needs parts: say box = half its sides, sphere = radius, or parts");
   return validate(prop);
 }
 
@@ -68,9 +69,8 @@ constexpr FieldRow part_shorthand(std::string_view name, std::string_view what) 
 }
 
 constexpr FieldRow parts_row() {
-  FieldRow row =
-      field_by<ListCodec<TableCodec<prop_part_fields>>, &AddPropRequest::prop, &Prop::parts>(
-          "parts", "convex solids that it is made of");
+  FieldRow row = field_by<ListCodec<TableCodec<prop_part_fields>>, &AddPropRequest::prop, &Prop::parts>(
+      "parts", "convex solids that it is made of");
   row.type = "part[]";
   return row;
 }
@@ -88,7 +88,8 @@ constexpr std::array add_prop_rows{
     field<&AddPropRequest::prop, &Prop::motion>("motion", "dynamic (as usual), kinematic or fixed"),
     field<&AddPropRequest::prop, &Prop::tag>("tag", "a number of the game's own"),
     field<&AddPropRequest::prop, &Prop::friction>("friction", "coefficient; 0.6 as usual"),
-    field<&AddPropRequest::prop, &Prop::restitution>("bounce", "share of the speed that a blow gives back, 0 to 1"),
+    field<&AddPropRequest::prop, &Prop::restitution>("bounce",
+                                                     "share of the speed that a blow gives back, 0 to 1"),
     field<&AddPropRequest::prop, &Prop::drag>("drag", "share of its speed that the air takes in a second"),
     field<&AddPropRequest::prop, &Prop::spin_drag>("spin_drag", "likewise of its spin"),
     field<&AddPropRequest::prop, &Prop::gravity>("gravity", "share of the world's gravity; 1 as usual"),
@@ -145,9 +146,8 @@ constexpr FieldTable add_prop_fields{"add_prop", "a body", "Adds a body of the g
                                      finish_prop};
 constexpr FieldTable remove_prop_fields{"remove_prop", "a remove_prop", "Takes a prop away.",
                                         remove_prop_rows};
-constexpr FieldTable move_prop_fields{"move_prop", "a move",
-                                      "Puts a prop elsewhere, or changes how it moves; the rest stays.",
-                                      move_prop_rows};
+constexpr FieldTable move_prop_fields{
+    "move_prop", "a move", "Puts a prop elsewhere, or changes how it moves; the rest stays.", move_prop_rows};
 constexpr FieldTable push_fields{"push", "a push", "Gives a prop or a piece an impulse.", push_rows,
                                  finish_at_body<PushRequest, &PushRequest::body>};
 constexpr FieldTable break_fields{"break", "a break", "Breaks a piece where it is.", break_rows,

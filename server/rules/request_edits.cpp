@@ -29,7 +29,6 @@ Result<void> finish_blast(void* of, const GivenFields& given, const RulesMoment&
   return {};
 }
 
-
 template <typename Edit>
 Result<void> finish_store(void* of, const GivenFields& given, const RulesMoment&) {
   auto& edit = *static_cast<Edit*>(of);
@@ -40,18 +39,19 @@ Result<void> finish_store(void* of, const GivenFields& given, const RulesMoment&
 
 constexpr std::string_view seed_words = "of the random numbers; as usual one of the tick's";
 
-constexpr auto carve_rows = joined(
-    shape_fields<&CarveRequest::shape>(),
-    std::array{
-        field<&CarveRequest::seeds>("pieces", "into about so many it breaks; 32 as usual"),
-        field<&CarveRequest::pattern>("pattern", "how it breaks: natural (as usual), uniform, radial, even, …"),
-        field<&CarveRequest::blast_speed_m_s>("speed", "by which pieces fly out, m/s; 6 as usual"),
-        field<&CarveRequest::impact_m>("impact",
-                                       "place of the blow, towards which pieces fly; as usual the shape's top"),
-        field<&CarveRequest::random_seed>("seed", seed_words),
-        field<&CarveRequest::authored_m>("points", "of the pattern authored: one for each piece"),
-        body_field<&CarveRequest::piece>("body", "the piece that is carved; as usual the terrain is"),
-    });
+constexpr auto carve_rows =
+    joined(shape_fields<&CarveRequest::shape>(),
+           std::array{
+               field<&CarveRequest::seeds>("pieces", "into about so many it breaks; 32 as usual"),
+               field<&CarveRequest::pattern>("pattern",
+                                             "how it breaks: natural (as usual), uniform, radial, even, …"),
+               field<&CarveRequest::blast_speed_m_s>("speed", "by which pieces fly out, m/s; 6 as usual"),
+               field<&CarveRequest::impact_m>(
+                   "impact", "place of the blow, towards which pieces fly; as usual the shape's top"),
+               field<&CarveRequest::random_seed>("seed", seed_words),
+               field<&CarveRequest::authored_m>("points", "of the pattern authored: one for each piece"),
+               body_field<&CarveRequest::piece>("body", "the piece that is carved; as usual the terrain is"),
+           });
 
 constexpr auto fill_rows =
     joined(shape_fields<&FillRequest::shape>(),
@@ -90,22 +90,23 @@ constexpr std::array transfer_rows{
 }  // namespace
 
 constexpr FieldTable carve_fields{"carve", "a carve", "Breaks a shape out of the terrain, or out of a piece.",
-                              carve_rows, finish_carve};
+                                  carve_rows, finish_carve};
 constexpr FieldTable fill_fields{"fill", "a fill", "Fills a shape with rock.", fill_rows,
-                             check_shape<FillRequest>};
-constexpr FieldTable paint_fields{"paint", "a paint", "Changes the material of the rock in a shape.", paint_rows,
-                              check_shape<PaintRequest>};
+                                 check_shape<FillRequest>};
+constexpr FieldTable paint_fields{"paint", "a paint", "Changes the material of the rock in a shape.",
+                                  paint_rows, check_shape<PaintRequest>};
 constexpr FieldTable cut_out_fields{
     "cut_out", "a cut_out",
     "Cuts a shape out of the terrain as a body that never becomes terrain, until it is released.",
     cut_out_rows, check_shape<CutOutRequest>};
-constexpr FieldTable blast_fields{"blast", "a blast", "Sets energy free: rock breaks and is thrown.", blast_rows,
-                              finish_blast};
-constexpr FieldTable dig_fields{"dig", "a dig", "Takes the terrain in a shape into a store, or a piece, whole.",
-                            dig_rows, finish_store<DigRequest>};
+constexpr FieldTable blast_fields{"blast", "a blast", "Sets energy free: rock breaks and is thrown.",
+                                  blast_rows, finish_blast};
+constexpr FieldTable dig_fields{"dig", "a dig",
+                                "Takes the terrain in a shape into a store, or a piece, whole.", dig_rows,
+                                finish_store<DigRequest>};
 constexpr FieldTable place_fields{"place", "a place", "Fills a shape out of a store.", place_rows,
-                              finish_store<PlaceRequest>};
+                                  finish_store<PlaceRequest>};
 constexpr FieldTable transfer_fields{"transfer", "a transfer", "Moves rock from a store to another.",
-                                 transfer_rows, nullptr};
+                                     transfer_rows, nullptr};
 
 }  // namespace scree

@@ -16,10 +16,23 @@ extern const FieldTable carve_fields, fill_fields, paint_fields, blast_fields, d
     transfer_fields, cut_out_fields;  // request_edits.cpp
 extern const FieldTable add_prop_fields, prop_part_fields, remove_prop_fields, move_prop_fields, push_fields,
     break_fields, release_fields;  // request_bodies.cpp
-extern const FieldTable add_joint_fields, joint_side_fields, joint_limits_fields, joint_motor_fields,
-    remove_joint_fields, set_motor_fields;                                              // request_joints.cpp
+extern const FieldTable add_joint_fields, joint_side_fields, remove_joint_fields,
+    set_motor_fields;                                                           // request_joints.cpp
 extern const FieldTable set_region_fields, remove_region_fields, stand_fields;  // request_regions.cpp
 
+inline constexpr std::array joint_limits_rows{
+    field<&JointLimits::low>("low", "radians of a hinge, metres of a slider"),
+    field<&JointLimits::high>("high", "likewise"),
+};
+inline constexpr FieldTable joint_limits_fields{"joint_limits", "limits", "How far a joint turns, or slides.",
+                                                joint_limits_rows};
+
+inline constexpr std::array joint_motor_rows{
+    field<&JointMotor::speed>("speed", "rad/s of a hinge, m/s of a slider"),
+    field<&JointMotor::greatest>("greatest", "newton metres, or newtons; 0: there is no motor"),
+};
+inline constexpr FieldTable joint_motor_fields{"joint_motor", "a motor", "What drives a joint.",
+                                               joint_motor_rows};
 
 template <ShapeKind kind, bool is, auto... Path>
 bool shape_is(const void* of) {
@@ -64,7 +77,8 @@ constexpr std::array<FieldRow, 6> joint_nature_fields() {
       if_applies(has_length,
                  field<Path..., &Joint::length_m>("length", "of a distance, and of a rope at most; metres")),
       field<Path..., &Joint::break_force_n>("break_force", "at which it breaks, newtons; 0: at none"),
-      if_applies(has_torque, field<Path..., &Joint::break_torque_nm>("break_torque", "likewise, newton metres")),
+      if_applies(has_torque,
+                 field<Path..., &Joint::break_torque_nm>("break_torque", "likewise, newton metres")),
       field<Path..., &Joint::touches>("touches", "whether the two bodies may touch each other"),
   };
 }

@@ -11,16 +11,6 @@ constexpr std::array side_rows{
     field<&JointSide::turn>("turn", "of the joint's axes in the body's; a hinge turns about x"),
 };
 
-constexpr std::array limits_rows{
-    field<&JointLimits::low>("low", "radians of a hinge, metres of a slider"),
-    field<&JointLimits::high>("high", "likewise"),
-};
-
-constexpr std::array motor_rows{
-    field<&JointMotor::speed>("speed", "rad/s of a hinge, m/s of a slider"),
-    field<&JointMotor::greatest>("greatest", "newton metres, or newtons; 0: there is no motor"),
-};
-
 Result<void> check_joint(void* of, const GivenFields&, const RulesMoment&) {
   return validate(static_cast<const AddJointRequest*>(of)->joint);
 }
@@ -28,15 +18,13 @@ Result<void> check_joint(void* of, const GivenFields&, const RulesMoment&) {
 }  // namespace
 
 constexpr FieldTable joint_side_fields{"joint_side", "a side of a joint", "What a joint holds.", side_rows};
-constexpr FieldTable joint_limits_fields{"joint_limits", "limits", "How far a joint turns, or slides.",
-                                         limits_rows};
-constexpr FieldTable joint_motor_fields{"joint_motor", "a motor", "What drives a joint.", motor_rows};
 
 namespace {
 
 constexpr std::array add_joint_rows = joined(
     std::array{
-        needed(field<&AddJointRequest::joint, &Joint::kind>("joint_kind", "fixed, hinge, slider, ball, distance or rope")),
+        needed(field<&AddJointRequest::joint, &Joint::kind>("joint_kind",
+                                                            "fixed, hinge, slider, ball, distance or rope")),
         needed(field_by<TableCodec<joint_side_fields>, &AddJointRequest::joint, &Joint::a>("a", "one side")),
         needed(field_by<TableCodec<joint_side_fields>, &AddJointRequest::joint, &Joint::b>("b", "the other")),
     },

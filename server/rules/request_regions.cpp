@@ -60,7 +60,8 @@ bool is_by_persons(const void* of) {
 
 constexpr std::array set_region_rows{
     needed(field<&SetRegionRequest::region, &Region::name>("name", "its own; one of that name is replaced")),
-    field<&SetRegionRequest::region, &Region::form>("form", "box (as usual), sphere or cylinder, which stands upright"),
+    field<&SetRegionRequest::region, &Region::form>(
+        "form", "box (as usual), sphere or cylinder, which stands upright"),
     needed(field<&SetRegionRequest::region, &Region::centre_m>("at", "its centre")),
     if_applies(is_form<RegionForm::box>,
                needed(field<&SetRegionRequest::region, &Region::half_m>("half", "half the sides of a box"))),
@@ -71,8 +72,10 @@ constexpr std::array set_region_rows{
         "forbid", "any of edits, dents, falls and pieces"),
     field<&SetRegionRequest::region, &Region::editors>(
         "editors", "who may edit in spite of it: nobody (as usual), role, persons or all"),
-    if_applies(is_by_role, field<&SetRegionRequest::region, &Region::role>("role", "of editors: this one and those above")),
-    if_applies(is_by_persons, field<&SetRegionRequest::region, &Region::persons>("persons", "of editors: names that tokens state")),
+    if_applies(is_by_role, field<&SetRegionRequest::region, &Region::role>(
+                               "role", "of editors: this one and those above")),
+    if_applies(is_by_persons, field<&SetRegionRequest::region, &Region::persons>(
+                                  "persons", "of editors: names that tokens state")),
     if_applies(is_by_persons, field<&SetRegionRequest::region, &Region::teams>("teams", "of editors: teams")),
     field<&SetRegionRequest::region, &Region::tells>("tells", "whether on.enter and on.exit hear of it"),
     field<&SetRegionRequest::region, &Region::counts>("counts", "whether regions.masses() counts its rock"),

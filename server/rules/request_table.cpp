@@ -119,11 +119,12 @@ Result<Request> changed_request(const Request& before, const ScriptValue& table,
 
 std::span<const FieldTable* const> request_field_tables() {
   static constexpr std::array tables{
-      &carve_fields,      &fill_fields,        &paint_fields,       &blast_fields,    &dig_fields,
-      &place_fields,      &transfer_fields,    &cut_out_fields,     &add_prop_fields, &prop_part_fields,
-      &remove_prop_fields, &move_prop_fields,  &push_fields,        &break_fields,    &release_fields,
-      &add_joint_fields,  &joint_side_fields,  &joint_limits_fields, &joint_motor_fields,
-      &remove_joint_fields, &set_motor_fields, &set_region_fields,  &remove_region_fields, &stand_fields,
+      &carve_fields,      &fill_fields,         &paint_fields,         &blast_fields,
+      &dig_fields,        &place_fields,        &transfer_fields,      &cut_out_fields,
+      &add_prop_fields,   &prop_part_fields,    &remove_prop_fields,   &move_prop_fields,
+      &push_fields,       &break_fields,        &release_fields,       &add_joint_fields,
+      &joint_side_fields, &joint_limits_fields, &joint_motor_fields,   &remove_joint_fields,
+      &set_motor_fields,  &set_region_fields,   &remove_region_fields, &stand_fields,
   };
   return tables;
 }

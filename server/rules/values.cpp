@@ -206,8 +206,7 @@ void write_store(ScriptWriter& to, const StoreName& store, const RulesMoment& mo
 namespace {
 
 Result<PieceId> read_id(const ScriptValue& value, std::string_view type) {
-  const uint64_t number =
-      value.is_number() ? TRY(read_whole(value)) : TRY(value.handle(type));
+  const uint64_t number = value.is_number() ? TRY(read_whole(value)) : TRY(value.handle(type));
   if (number == 0 || number > std::numeric_limits<PieceId>::max())
     return value.refuse(std::to_string(number) + " is the number of no " + std::string(type));
   return static_cast<PieceId>(number);
