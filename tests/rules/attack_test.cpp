@@ -18,13 +18,13 @@ double attacked_thread_s() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-struct Attack {
+struct RuleAttack {
   const char* name;
   const char* text;
   bool faults = true;  ///< it is ended; else it does no harm
 };
 
-class RulesAttack : public ::testing::TestWithParam<Attack> {};
+class RulesAttack : public ::testing::TestWithParam<RuleAttack> {};
 
 TEST_P(RulesAttack, ticks_stay_in_time_and_an_honest_mod_goes_on) {
   RulesWorld game(
@@ -54,44 +54,50 @@ TEST_P(RulesAttack, ticks_stay_in_time_and_an_honest_mod_goes_on) {
 INSTANTIATE_TEST_SUITE_P(
     All, RulesAttack,
     ::testing::Values(
-        Attack{"endless_loop", "on.tick(function() while true do end end)"},
-        Attack{"endless_loop_in_pcall",
-               "on.tick(function() while true do pcall(function() while true do end end) end end)"},
-        Attack{"endless_loop_in_a_coroutine",
-               "on.tick(function() coroutine.wrap(function() while true do end end)() end)"},
-        Attack{"deep_recursion", "on.tick(function() local function f(n) return 1 + f(n + 1) end f(1) end)"},
-        Attack{"long_text", "on.tick(function() local s = 'x'; while true do s = s .. s end end)"},
-        Attack{"a_gigabyte", "on.tick(function() local s = string.rep('x', 2 ^ 30) end)"},
-        Attack{"repeated_text",
-               "on.tick(function() local t = {}; for i = 1, 1e9 do t[i] = ('x'):rep(60000) .. i end end)"},
-        Attack{"pattern_bomb",
-               "on.tick(function() local s = ('a'):rep(30000); while true do s:find(('a*'):rep(20) .. 'b') "
-               "end end)"},
-        Attack{
+        RuleAttack{"endless_loop", "on.tick(function() while true do end end)"},
+        RuleAttack{"endless_loop_in_pcall",
+                   "on.tick(function() while true do pcall(function() while true do end end) end end)"},
+        RuleAttack{"endless_loop_in_a_coroutine",
+                   "on.tick(function() coroutine.wrap(function() while true do end end)() end)"},
+        RuleAttack{"deep_recursion",
+                   "on.tick(function() local function f(n) return 1 + f(n + 1) end f(1) end)"},
+        RuleAttack{"long_text", "on.tick(function() local s = 'x'; while true do s = s .. s end end)"},
+        RuleAttack{"a_gigabyte", "on.tick(function() local s = string.rep('x', 2 ^ 30) end)"},
+        RuleAttack{
+            "repeated_text",
+            "on.tick(function() local t = {}; for i = 1, 1e9 do t[i] = ('x'):rep(60000) .. i end end)"},
+        RuleAttack{
+            "pattern_bomb",
+            "on.tick(function() local s = ('a'):rep(30000); while true do s:find(('a*'):rep(20) .. 'b') "
+            "end end)"},
+        RuleAttack{
             "metatables",
             "on.tick(function() local t = {}; for i = 1, 1e7 do t = setmetatable({}, { __index = t }) end; "
             "return t.x end)"},
-        Attack{"coroutines",
-               "on.tick(function() local t = {}; for i = 1, 1e6 do t[i] = coroutine.create(print) end end)"},
-        Attack{"throws_in_each_tick", "on.tick(function() error({}) end)"},
-        Attack{"ten_thousand_bodies",
-               "on.tick(function() for i = 1, 10000 do bodies.add{ box = vec(1, 1, 1), at = vec(i % 50, 5, "
-               "0) } end "
-               "end)"},
-        Attack{"a_flood_of_messages",
-               "on.tick(function() for i = 1, 1e6 do message.send('c', ('x'):rep(4096)) end end)"},
-        Attack{"a_flood_of_lines", "on.tick(function() for i = 1, 1e6 do print(i) end end)"},
-        Attack{"a_flood_of_values",
-               "on.tick(function() for i = 1, 1e6 do store.set('k' .. i, ('x'):rep(9000)) end end)"},
-        Attack{"timers", "on.tick(function() for i = 1, 1e6 do after(1, function() end) end end)"},
-        Attack{"handlers", "on.tick(function() for i = 1, 1e6 do on.tick(function() end) end end)"},
-        Attack{"questions",
-               "on.tick(function() for i = 1, 1e6 do world.ray(vec(0, 5, 0), vec(0, -1, 0), 100) end end)"},
-        Attack{"sorts",
-               "on.tick(function() local t = {}; for i = 1, 20000 do t[i] = -i end; while true do "
-               "table.sort(t, function(a, b) return true end) end end)"},
-        Attack{"globals_of_the_host", "world = nil; on = nil; print = nil", false}),
-    [](const ::testing::TestParamInfo<Attack>& attack) { return attack.param.name; });
+        RuleAttack{
+            "coroutines",
+            "on.tick(function() local t = {}; for i = 1, 1e6 do t[i] = coroutine.create(print) end end)"},
+        RuleAttack{"throws_in_each_tick", "on.tick(function() error({}) end)"},
+        RuleAttack{
+            "ten_thousand_bodies",
+            "on.tick(function() for i = 1, 10000 do bodies.add{ box = vec(1, 1, 1), at = vec(i % 50, 5, "
+            "0) } end "
+            "end)"},
+        RuleAttack{"a_flood_of_messages",
+                   "on.tick(function() for i = 1, 1e6 do message.send('c', ('x'):rep(4096)) end end)"},
+        RuleAttack{"a_flood_of_lines", "on.tick(function() for i = 1, 1e6 do print(i) end end)"},
+        RuleAttack{"a_flood_of_values",
+                   "on.tick(function() for i = 1, 1e6 do store.set('k' .. i, ('x'):rep(9000)) end end)"},
+        RuleAttack{"timers", "on.tick(function() for i = 1, 1e6 do after(1, function() end) end end)"},
+        RuleAttack{"handlers", "on.tick(function() for i = 1, 1e6 do on.tick(function() end) end end)"},
+        RuleAttack{
+            "questions",
+            "on.tick(function() for i = 1, 1e6 do world.ray(vec(0, 5, 0), vec(0, -1, 0), 100) end end)"},
+        RuleAttack{"sorts",
+                   "on.tick(function() local t = {}; for i = 1, 20000 do t[i] = -i end; while true do "
+                   "table.sort(t, function(a, b) return true end) end end)"},
+        RuleAttack{"globals_of_the_host", "world = nil; on = nil; print = nil", false}),
+    [](const ::testing::TestParamInfo<RuleAttack>& attack) { return attack.param.name; });
 
 }  // namespace
 }  // namespace scree

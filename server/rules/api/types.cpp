@@ -39,6 +39,15 @@ constexpr ApiType written_types[] = {
      "person?: person -- whose body it is\nmaterial?: string -- of terrain and pieces",
      "What a ray or a ball met."},
     {"overlap", "terrain: boolean\nbodies: body[]", "What has a place within a ball or a box."},
+    {"sign_options",
+     "to?: person|string -- for whom: a person, or a team by its name; nil: for all\n"
+     "colour?: string -- \"#rrggbb\"\nlasts?: number -- seconds until it ends by itself\n"
+     "counts?: boolean -- whether the time that is left stands after the text",
+     "How a sign is shown."},
+    {"cue_options",
+     "size?: number -- metres across, of what sounds or of the puff: up to 16\n"
+     "energy?: number -- joules: how loud, or how much\nmaterial?: material\nto?: person|string",
+     "How a cue sounds or looks."},
     {"ledger_row",
      "terrain: number -- gain since the start\npieces: number\ndust: number\npoured: number -- in\n"
      "stored: number",
