@@ -219,7 +219,8 @@ bool Mod::remove_timer(uint64_t timer) {
 
 std::optional<std::optional<std::string>> Mod::written(const std::string& key) const {
   const auto at = written_.find(key);
-  return at != written_.end() ? std::optional(at->second) : std::nullopt;
+  if (at == written_.end()) return std::nullopt;
+  return std::optional<std::optional<std::string>>(std::in_place, at->second);
 }
 
 void Mod::say(const std::string& line) {
