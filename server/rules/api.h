@@ -53,7 +53,7 @@ struct ApiEvent {
 /// A table that functions take or give, by its fields.
 struct ApiType {
   std::string_view name;
-  std::string_view fields;  ///< "at: vec, radius: number, …"
+  std::string_view fields;  ///< a line each: "radius?: number -- metres"; empty: it is no table
   std::string_view what;
 };
 
