@@ -2,9 +2,10 @@
 
 namespace scree {
 
+namespace {
+
 // Scripts never get the metatable: __metatable hides it, so that nobody gives vectors a __gc.
-std::string_view rules_prelude() {
-  return R"LUA(
+constexpr std::string_view prelude_text = R"LUA(
 ---@class vec
 ---@field x number
 ---@field y number
@@ -107,6 +108,11 @@ end
 
 vector_metatable = meta
 )LUA";
+
+}  // namespace
+
+std::string_view rules_prelude() {
+  return prelude_text;
 }
 
 Script::Ended load_prelude(Script& script, ScriptBudget& budget) {

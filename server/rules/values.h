@@ -31,11 +31,11 @@ void write_vec(ScriptWriter& to, glm::vec3 value);
 /// A direction of length 1 from a vec of any length but 0.
 Result<glm::vec3> read_unit(const ScriptValue& value);
 
-/// Of length 1; about the upright axis where none is said.
+/// The turn has length 1. Where no axis is said, it is the upright one.
 Result<glm::quat> read_turn(const ScriptValue& value);
 void write_turn(ScriptWriter& to, const glm::quat& value);
 
-/// Of the world's palette; the error lists its names.
+/// A material of the world's palette; the error lists its names.
 Result<Material> read_material(const ScriptValue& value, const RulesMoment& moment);
 /// Its name.
 void write_material(ScriptWriter& to, Material material, const RulesMoment& moment);

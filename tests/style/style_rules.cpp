@@ -91,6 +91,7 @@ std::vector<Layer> other_layers() {
       {"server/replay/", {"server/store/"}},
       {"server/host/", {"server/world/"}},
       {"server/rules/sandbox/", {"shared/base/"}},
+      {"server/rules/api/", {"server/rules/"}},
       {"server/rules/", {"server/host/", "server/store/", "server/rules/sandbox/"}},
       {"server/app/", {"server/net/", "server/replay/", "server/rules/", "ground/", "content/files/"}},
       {"client/mirror/", {"proto/"}},
