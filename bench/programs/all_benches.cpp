@@ -110,6 +110,8 @@ std::vector<Bench> benches_from_l() {
        run_support_bench},
       {"transforms", "900 boxes pushed about, and a blast of 1,000 pieces: bits of a pose, four ways",
        run_transforms_bench},
+      {"voxels", "a carve of 2 m in voxels of 0.25, 0.15 and 0.1 m: time, memory and bytes of an edit",
+       run_voxels_bench},
       {"wire", "bytes on the wire of a 2 m carve into 64 pieces, and of each merge", run_wire_bench},
       {"worst", "the most expensive ticks: modelled time against measured time", run_worst_bench},
   };

@@ -42,6 +42,7 @@ BenchReport run_storm_bench(const BenchOptions& options);
 BenchReport run_beams_bench(const BenchOptions& options);
 BenchReport run_support_bench(const BenchOptions& options);
 BenchReport run_transforms_bench(const BenchOptions& options);
+BenchReport run_voxels_bench(const BenchOptions& options);
 BenchReport run_wire_bench(const BenchOptions& options);
 BenchReport run_worst_bench(const BenchOptions& options);
 

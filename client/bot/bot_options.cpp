@@ -78,7 +78,7 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
       ->capture_default_str();
   // A radius over the server's limit is allowed, to show the server's refusal; so are too many seeds.
   bounded(app.add_option("--radius", bot.carver.radius_m,
-                         "radius of a carve or a dig, metres; servers allow 8 at most"),
+                         "radius of a carve or a dig, metres; servers allow 8 at most, and 5.4 in voxels of 0.1 m"),
           {0.0, 1e6})
       ->envname("SCREE_RADIUS")
       ->capture_default_str();

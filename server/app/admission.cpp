@@ -34,8 +34,10 @@ std::optional<VoxelBox> box_of(const Request& request, float voxel_size_m) {
     const VoxelCoord voxel{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
     return VoxelBox{voxel, voxel + VoxelCoord{1, 1, 1}};
   }
-  const std::optional<Shape> shape = shape_of(request);
-  if (!shape || !validate_edit(*shape)) return std::nullopt;
+  std::optional<Shape> shape = shape_of(request);
+  if (const auto* const blast = std::get_if<BlastRequest>(&request))
+    shape = sphere(blast->centre_m, blast_reach_m(blast->energy_j, voxel_size_m));
+  if (!shape || !validate_edit(*shape, voxel_size_m)) return std::nullopt;
   return band_box(in_voxels(*shape, voxel_size_m));
 }
 

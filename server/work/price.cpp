@@ -46,8 +46,9 @@ struct Pricing {
   float operator()(const MovePropRequest&) const { return limits::prop_cost_us; }
   float operator()(const PushRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const BlastRequest& request) const {
-    const Shape shape = sphere(request.centre_m, blast_reach_m(request.energy_j));
-    const float voxels = voxels_of(band_box(in_voxels(shape, field.source().voxel_size_m)));
+    const float dx = field.source().voxel_size_m;
+    const Shape shape = sphere(request.centre_m, blast_reach_m(request.energy_j, dx));
+    const float voxels = voxels_of(band_box(in_voxels(shape, dx)));
     return edit_price_us(shape, field) + limits::blast_voxel_cost_us * voxels +
            cut_price_us(cutter_for(cutter, voxels), voxels, pieces_of_blast(request.energy_j));
   }

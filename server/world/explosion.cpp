@@ -59,7 +59,7 @@ struct Shell {
 
 /// Shells of half a voxel.
 std::vector<Shell> shells_of(const World::State& state, const BlastRequest& blast) {
-  const float dx = state.config.terrain.voxel_size_m, reach_m = blast_reach_m(blast.energy_j);
+  const float dx = state.config.terrain.voxel_size_m, reach_m = blast_reach_m(blast.energy_j, dx);
   const Window codes = gather(state.field, band_box(in_voxels(sphere(blast.centre_m, reach_m), dx)));
   const MaterialReader materials(state.field, codes.box);
   std::vector<Shell> shells(static_cast<size_t>(2.0F * reach_m / dx) + 1);
@@ -104,7 +104,7 @@ std::optional<float> blast_radius_m(const World::State& state, const BlastReques
   if (!breaks) return std::nullopt;
   const float least_m = std::max(limits::edit_reach_min_m,
                                  limits::request_reach_min_voxels * state.config.terrain.voxel_size_m);
-  return std::clamp(radius_m, least_m, limits::edit_reach_max_m);
+  return std::clamp(radius_m, least_m, greatest_edit_reach_m(state.config.terrain.voxel_size_m));
 }
 
 CarveRequest carve_of(const BlastRequest& blast, float radius_m, uint32_t seeds) {

@@ -11,6 +11,7 @@
 #include "server/world/rules.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
+#include "shared/base/edit_reach.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -90,8 +91,9 @@ void crush_by_halves(World::State& state, const VoxelBox& box, int64_t section_v
                      NeckPush* push, TickDelta& delta) {
   const VoxelCoord size = box.size();
   const int longest = std::max({size.x, size.y, size.z});
-  const float reach_m = 0.5F * static_cast<float>(longest) * state.config.terrain.voxel_size_m;
-  if (reach_m <= limits::edit_reach_max_m) {
+  const float dx = state.config.terrain.voxel_size_m;
+  const float reach_m = 0.5F * static_cast<float>(longest) * dx;
+  if (reach_m <= greatest_edit_reach_m(dx)) {
     crush(state, crushing(state, box, section_voxels), party, push, delta);
     return;
   }

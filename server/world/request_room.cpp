@@ -33,25 +33,26 @@ Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const
               "or have the limit raised to " + all + " (--pieces-max)"};
 }
 
-std::optional<CarveRequest> carve_in(const Request& request) {
+std::optional<CarveRequest> carve_in(const Request& request, float voxel_size_m) {
   if (const auto* carve = std::get_if<CarveRequest>(&request)) return *carve;
   if (const auto* cut_out = std::get_if<CutOutRequest>(&request))
     return CarveRequest{.shape = cut_out->shape, .seeds = 1};
   const auto* blast = std::get_if<BlastRequest>(&request);
   if (blast == nullptr) return std::nullopt;
-  return carve_of(*blast, blast_reach_m(blast->energy_j), pieces_of_blast(blast->energy_j));
+  return carve_of(*blast, blast_reach_m(blast->energy_j, voxel_size_m), pieces_of_blast(blast->energy_j));
 }
 
 bool may_loosen(const Request& request) {
   const auto* carve = std::get_if<CarveRequest>(&request);
   if (carve != nullptr && carve->piece != 0) return false;
   const auto* dig = std::get_if<DigRequest>(&request);
-  return carve_in(request) || std::holds_alternative<FillRequest>(request) ||
+  return carve != nullptr || std::holds_alternative<CutOutRequest>(request) ||
+         std::holds_alternative<BlastRequest>(request) || std::holds_alternative<FillRequest>(request) ||
          std::holds_alternative<PlaceRequest>(request) || (dig != nullptr && dig->piece == 0);
 }
 
 PieceGrant grant_for(const World::State& state, const Command& command) {
-  const std::optional<CarveRequest> carve = carve_in(command.body);
+  const std::optional<CarveRequest> carve = carve_in(command.body, state.config.terrain.voxel_size_m);
   const bool adds = std::holds_alternative<AddPieceRequest>(command.body);
   const uint32_t wanted = carve ? carve->seeds : (adds ? 1 : 0);
   if (wanted == 0) return {};
@@ -63,7 +64,7 @@ PieceGrant grant_for(const World::State& state, const Command& command) {
 }
 
 float cost_with(const World::State& state, const WaitingRequest& request, const PieceGrant& grant) {
-  std::optional<CarveRequest> carve = carve_in(request.command.body);
+  std::optional<CarveRequest> carve = carve_in(request.command.body, state.config.terrain.voxel_size_m);
   const bool adds = std::holds_alternative<AddPieceRequest>(request.command.body);
   if (adds && grant.pieces == 0) return limits::refusal_cost_us;
   if (!carve || grant.pieces == carve->seeds) return request.cost_us;

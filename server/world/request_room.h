@@ -14,8 +14,9 @@ namespace scree {
 /// carve ever fits.
 Refused no_room(const World::State& state, uint32_t seeds, uint64_t party, const PieceGrant& grant);
 
-/// As the carve that a request is, or that its blast is at most; nothing: it makes no pieces.
-std::optional<CarveRequest> carve_in(const Request& request);
+/// As the carve that a request is, or that its blast is at most in voxels of that size; nothing: it makes no
+/// pieces.
+std::optional<CarveRequest> carve_in(const Request& request, float voxel_size_m);
 
 /// Whether terrain may fall because of it.
 bool may_loosen(const Request& request);

@@ -21,6 +21,10 @@ inline constexpr uint32_t authored_seeds_max = 256;
 /// Reach (half the longest extent) of one carve or fill, metres. Cost grows with its cube; above: refused.
 inline constexpr float edit_reach_max_m = 8.0F;
 
+/// The same in voxels, which counts where voxels are finer than 0.148 m (edit_reach.h): a box of it fits
+/// window_side_max, and becomes terrain again within stamp_voxels_max. Above: refused.
+inline constexpr float edit_reach_max_voxels = 54.0F;
+
 /// Smallest reach of an edit, metres: half a default voxel; below, nothing would change. Refused.
 inline constexpr float edit_reach_min_m = 0.125F;
 
@@ -47,13 +51,13 @@ inline constexpr float height_max_m = 480.0F;
 inline constexpr int window_side_max = 128;
 
 /// Voxels of the window around a piece that becomes terrain: their mass fits an int, and memory is bounded.
-/// The largest carve of the smallest voxels stays below, however it turned, by stamp and slices; the ball of
+/// The largest carve (edit_reach_max_voxels) stays below, however it turned, by stamp and slices; the ball of
 /// the method sphere may not, and the world stamps such a piece instead. Above: refused.
 inline constexpr size_t stamp_voxels_max = size_t{1} << 23;
 
-/// Voxel sizes that a world may have, metres. Below, a box of edit_reach_max_m could not become terrain again
-/// within stamp_voxels_max, nor, below 0.14, fit window_side_max; above, a piece would be coarser than
-/// anything it lies on. Refused where a world is created.
+/// Voxel sizes that a world may have, metres. Below, an edit would reach less than 5 m, and the mass of the
+/// largest world come near ledger_mass_max; above, a piece would be coarser than anything it lies on. Refused
+/// where a world is created.
 inline constexpr float voxel_size_min_m = 0.1F;
 inline constexpr float voxel_size_max_m = 2.0F;
 

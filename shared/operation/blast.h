@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "shared/base/edit_reach.h"
 #include "shared/base/limits.h"
 #include "shared/base/roots.h"
 #include "shared/material/palette.h"
@@ -37,6 +38,10 @@ inline float blast_reach_m(float energy_j) {
   const float sound_j = is_blast_energy(energy_j) ? energy_j : blast_energy_min_j;
   return std::clamp(half_ball_radius_m(sound_j / blast_loosening_j_m3), 2.0F * limits::edit_reach_min_m,
                     limits::edit_reach_max_m);
+}
+/// Likewise in voxels of this size: no farther than an edit reaches.
+inline float blast_reach_m(float energy_j, float voxel_size_m) {
+  return std::min(blast_reach_m(energy_j), greatest_edit_reach_m(voxel_size_m));
 }
 
 /// Pieces that a blast makes at most.

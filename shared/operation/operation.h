@@ -214,9 +214,9 @@ struct PreparedStamp;
 Applied apply(const Operation& operation, Field& field, PieceTable& pieces,
               const PreparedStamp* prepared = nullptr);
 
-/// Whether an operation may have this shape: it is valid, neither too small nor too large, and its centre
-/// lies in the world. Only then is its box a bounded one near the world.
-Result<void> validate_edit(const Shape& shape);
+/// Whether an operation may have this shape in a field of such voxels: it is valid, neither too small nor too
+/// large, and its centre lies in the world. Only then is its box a bounded one near the world.
+Result<void> validate_edit(const Shape& shape, float voxel_size_m);
 
 /// Whether `apply` can be called at all, in a field of such voxels: shape valid, counts within limits, pieces
 /// known, windows bounded. For what comes off a wire. The pieces' volumes must be valid themselves: made by

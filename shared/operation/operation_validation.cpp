@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <string>
 
+#include "shared/base/edit_reach.h"
 #include "shared/base/limits.h"
 #include "shared/base/plain_number.h"
 #include "shared/operation/limits.h"
@@ -97,8 +98,8 @@ Result<void> validate_place(const VoxelBox& box, const std::string& what) {
   return fail("the " + what + " is outside the world");
 }
 
-Result<void> validate_cut(const PieceCut& cut, PieceId first_piece) {
-  TRY(validate_edit(cut.shape));
+Result<void> validate_cut(const PieceCut& cut, PieceId first_piece, float voxel_size_m) {
+  TRY(validate_edit(cut.shape, voxel_size_m));
   if (!in_world(dequantise(cut.pose).position_m)) return fail("the piece that is cut is outside the world");
   if (first_piece > UINT32_MAX - limits::seeds_max - limits::cut_rests_max)
     return fail("the piece ids are used up");
@@ -110,7 +111,7 @@ struct Validator {
   float voxel_size_m;
 
   Result<void> operator()(const CarveOperation& op) const {
-    TRY(validate_edit(op.shape));
+    TRY(validate_edit(op.shape, voxel_size_m));
     if (!is_finite(op.impact_m)) return fail("the impact's position is not a finite number");
     if (!in_world(op.impact_m)) return fail("the impact is outside the world");
     TRY(validate_carve_pattern(op.pattern));
@@ -119,11 +120,11 @@ struct Validator {
   }
   Result<void> operator()(const FillOperation& op) const {
     if (op.material) TRY(validate_material(*op.material));
-    return validate_edit(op.shape);
+    return validate_edit(op.shape, voxel_size_m);
   }
   Result<void> operator()(const PaintOperation& op) const {
     TRY(validate_material(op.material));
-    return validate_edit(op.shape);
+    return validate_edit(op.shape, voxel_size_m);
   }
   Result<void> operator()(const StampOperation& op) const {
     TRY(known(op.piece, pieces));
@@ -139,7 +140,7 @@ struct Validator {
     TRY(known(op.piece, pieces));
     if (!is_finite(op.impact_voxels)) return fail("the impact's position is not a finite number");
     TRY(validate_shatter_pattern(op.pattern));
-    if (op.cut) TRY(validate_cut(*op.cut, op.first_piece));
+    if (op.cut) TRY(validate_cut(*op.cut, op.first_piece, voxel_size_m));
     return validate_seeds(op.cutter, op.seeds, op.first_piece);
   }
   Result<void> operator()(const IslandOperation& op) const {
@@ -154,11 +155,11 @@ struct Validator {
   }
   Result<void> operator()(const DigOperation& op) const {
     if (op.piece != 0) TRY(known(op.piece, pieces));
-    return validate_edit(op.shape);
+    return validate_edit(op.shape, voxel_size_m);
   }
   Result<void> operator()(const PlaceOperation& op) const {
     TRY(validate_material(op.material));
-    return validate_edit(op.shape);
+    return validate_edit(op.shape, voxel_size_m);
   }
   Result<void> operator()(const SlideOperation& op) const {
     TRY(validate_material(op.material));
@@ -182,12 +183,13 @@ struct Validator {
 
 }  // namespace
 
-Result<void> validate_edit(const Shape& shape) {
+Result<void> validate_edit(const Shape& shape, float voxel_size_m) {
   TRY(validate(shape));
-  const float reach = reach_of(shape);
-  if (reach > limits::edit_reach_max_m + limits::edit_reach_rounding_m)
+  const float reach = reach_of(shape), most = greatest_edit_reach_m(voxel_size_m);
+  if (reach > most + limits::edit_reach_rounding_m)
     return fail("half the shape's longest extent is " + metres(reach) + ", and may be at most " +
-                metres(limits::edit_reach_max_m));
+                metres(most) +
+                (most < limits::edit_reach_max_m ? " in voxels of " + metres(voxel_size_m) : std::string()));
   if (reach < limits::edit_reach_min_m - limits::edit_reach_rounding_m)
     return fail("half the shape's longest extent is " + metres(reach) + ", and must be at least " +
                 metres(limits::edit_reach_min_m));

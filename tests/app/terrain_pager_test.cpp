@@ -290,7 +290,7 @@ TEST_F(PagerTest, shapes_that_no_operation_may_have_are_refused_by_the_simulatio
                               box(glm::vec3(0.0F), glm::abs(far) + 1.0F), sphere(200.0F * far, 1.0F),
                               crater(glm::vec3(0.0F), far_m)};
       for (const Shape& shape : shapes) {
-        ASSERT_FALSE(validate_edit(shape)) << far_m;
+        ASSERT_FALSE(validate_edit(shape, 0.25F)) << far_m;
         const Command commands[] = {{1, ++asked, CarveRequest{.shape = shape}},
                                     {1, ++asked, FillRequest{shape}},
                                     {1, ++asked, PaintRequest{shape, material::ice}}};

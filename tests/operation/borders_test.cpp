@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <gtest/gtest.h>
 
+#include "shared/base/edit_reach.h"
 #include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/operation/operation.h"
@@ -42,12 +43,13 @@ TEST(Borders, a_reach_of_exactly_a_limit_is_within_it_wherever_the_shape_lies) {
   Random random(335);
   for (int round = 0; round < 2000; ++round) {
     const glm::vec3 place_m = some_place(random);
-    for (const float reach_m : {limits::edit_reach_max_m, limits::edit_reach_min_m})
-      for (const Shape& shape : shapes_of_reach(reach_m, place_m, random)) {
-        const Result<void> valid = validate(FillOperation{shape}, {}, 0.25F);
-        ASSERT_TRUE(valid) << valid.error().message << ", kind " << static_cast<int>(shape.kind) << " at "
-                           << place_m.x << " " << place_m.y << " " << place_m.z;
-      }
+    for (const float voxel_m : {0.25F, limits::voxel_size_min_m})
+      for (const float reach_m : {greatest_edit_reach_m(voxel_m), limits::edit_reach_min_m})
+        for (const Shape& shape : shapes_of_reach(reach_m, place_m, random)) {
+          const Result<void> valid = validate(FillOperation{shape}, {}, voxel_m);
+          ASSERT_TRUE(valid) << valid.error().message << ", kind " << static_cast<int>(shape.kind) << " at "
+                             << place_m.x << " " << place_m.y << " " << place_m.z;
+        }
   }
 }
 
@@ -55,15 +57,50 @@ TEST(Borders, a_reach_beyond_a_limit_is_refused_wherever_the_shape_lies) {
   Random random(336);
   for (int round = 0; round < 500; ++round) {
     const glm::vec3 place_m = some_place(random);
-    for (const float reach_m : {limits::edit_reach_max_m + 0.01F, limits::edit_reach_min_m - 0.01F})
-      for (const Shape& shape : shapes_of_reach(reach_m, place_m, random))
-        ASSERT_FALSE(validate(FillOperation{shape}, {}, 0.25F)) << static_cast<int>(shape.kind);
+    for (const float voxel_m : {0.25F, limits::voxel_size_min_m})
+      for (const float reach_m : {greatest_edit_reach_m(voxel_m) + 0.01F, limits::edit_reach_min_m - 0.01F})
+        for (const Shape& shape : shapes_of_reach(reach_m, place_m, random))
+          ASSERT_FALSE(validate(FillOperation{shape}, {}, voxel_m)) << static_cast<int>(shape.kind);
   }
+}
+
+TEST(Borders, an_edit_reaches_8_m_down_to_voxels_of_15_cm_and_5_m_in_the_smallest) {
+  EXPECT_EQ(greatest_edit_reach_m(2.0F), 8.0F);
+  EXPECT_EQ(greatest_edit_reach_m(0.15F), 8.0F) << "worlds of earlier versions";
+  EXPECT_NEAR(greatest_edit_reach_m(limits::voxel_size_min_m), 5.4F, 1e-5F);
+}
+
+/// The operations with a shape, each with this one.
+std::vector<Operation> operations_of(const Shape& shape) {
+  ShatterOperation cut{.piece = 1, .seeds = 4, .first_piece = 10};
+  cut.cut = PieceCut{shape, {}};
+  return {CarveOperation{.shape = shape, .seeds = 4, .impact_m = shape.a, .first_piece = 10},
+          FillOperation{shape},
+          PaintOperation{shape, material::rock},
+          DigOperation{shape},
+          PlaceOperation{.shape = shape, .material = material::rock},
+          cut};
+}
+
+TEST(Borders, what_reaches_too_far_for_fine_voxels_is_refused_with_the_greatest_reach) {
+  Volume volume;
+  volume.window = Window(VoxelBox{{0, 0, 0}, {4, 4, 4}}, code_solid);
+  volume.mass = mass_of(volume.window);
+  const PieceTable pieces{{1, std::make_shared<const Volume>(std::move(volume))}};
+  for (const Operation& operation : operations_of(sphere({0.0F, 0.0F, 0.0F}, 6.0F))) {
+    EXPECT_TRUE(validate(operation, pieces, 0.25F)) << operation.index();
+    const Result<void> valid = validate(operation, pieces, 0.1F);
+    ASSERT_FALSE(valid) << operation.index();
+    EXPECT_EQ(valid.error().message,
+              "half the shape's longest extent is 6 m, and may be at most 5.4 m in voxels of 0.1 m");
+  }
+  for (const Operation& operation : operations_of(sphere({0.0F, 0.0F, 0.0F}, 5.4F)))
+    EXPECT_TRUE(validate(operation, pieces, 0.1F)) << operation.index();
 }
 
 TEST(Borders, the_largest_edit_of_the_smallest_voxels_fits_a_window) {
   Random random(337);
-  const float reach_m = limits::edit_reach_max_m + limits::edit_reach_rounding_m;
+  const float reach_m = greatest_edit_reach_m(limits::voxel_size_min_m) + limits::edit_reach_rounding_m;
   for (int round = 0; round < 200; ++round) {
     const glm::vec3 place_m = some_place(random);
     for (const Shape& shape : {sphere(place_m, reach_m), box(place_m, glm::vec3(reach_m))}) {
@@ -77,7 +114,7 @@ TEST(Borders, the_largest_edit_of_the_smallest_voxels_fits_a_window) {
 class LargestPiece : public ::testing::Test {
  protected:
   LargestPiece() {
-    const Shape shape = box({0.0F, -20.0F, 0.0F}, glm::vec3(limits::edit_reach_max_m));
+    const Shape shape = box({0.0F, -20.0F, 0.0F}, glm::vec3(greatest_edit_reach_m(limits::voxel_size_min_m)));
     apply(CarveOperation{shape, SeedPattern::uniform, 1, 1, shape.a, 1}, field, pieces);
   }
   const Volume& volume() const { return *pieces.at(1); }

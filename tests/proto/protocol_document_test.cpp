@@ -216,6 +216,7 @@ std::map<std::string, double> stated_limits() {
           {"interest_keep_factor", limits::interest_keep_factor},
           {"edit_reach_min_m", limits::edit_reach_min_m},
           {"edit_reach_max_m", limits::edit_reach_max_m},
+          {"edit_reach_max_voxels", limits::edit_reach_max_voxels},
           {"added_piece_bytes_max", limits::added_piece_bytes_max},
           {"added_piece_side_max", limits::added_piece_side_max},
           {"added_piece_voxels_max", limits::added_piece_voxels_max},

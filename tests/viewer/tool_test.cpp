@@ -10,33 +10,33 @@
 #include "client/viewer/session/refusal_words.h"
 #include "content/builtin_palette.h"
 #include "shared/base/limits.h"
+#include "shared/operation/operation.h"
 
 namespace scree {
 namespace {
 
 TEST(Tool, every_shape_is_within_the_servers_limits) {
   const MaterialMasses nothing;
-  for (const ToolKind kind : all_kinds<ToolKind>)
-    for (const float radius_m : {tool_radius_min_m, 2.0F, tool_radius_max_m}) {
-      Tool tool;
-      tool.use = ToolUse::carve;
-      tool.kind = kind;
-      tool.radius_m = radius_m;
-      const glm::vec3 direction = glm::normalize(glm::vec3(1, -2, 3));
-      const auto carve = std::get<CarveRequest>(
-          request_of(tool, {1.0F, 2.0F, 3.0F}, direction, 7, {builtin_palette(), nothing}));
-      EXPECT_TRUE(validate(carve.shape));
-      EXPECT_LE(reach_of(carve.shape), limits::edit_reach_max_m + 1e-4F) << name_of(kind) << " " << radius_m;
-      EXPECT_GE(reach_of(carve.shape), limits::edit_reach_min_m);
-      EXPECT_LT(distance(carve.shape, carve.impact_m), 0.0F) << "the surface is opened";
-      EXPECT_LE(carve.seeds, limits::seeds_max);
-    }
+  for (const float voxel_m : {0.25F, limits::voxel_size_min_m})
+    for (const ToolKind kind : all_kinds<ToolKind>)
+      for (const float radius_m : {tool_radius_min_m, 2.0F, tool_radius_max_m}) {
+        Tool tool;
+        tool.use = ToolUse::carve;
+        tool.kind = kind;
+        tool.radius_m = radius_m;
+        const glm::vec3 direction = glm::normalize(glm::vec3(1, -2, 3));
+        const auto carve = std::get<CarveRequest>(
+            request_of(tool, {1.0F, 2.0F, 3.0F}, direction, 7, {builtin_palette(), nothing, voxel_m}));
+        EXPECT_TRUE(validate_edit(carve.shape, voxel_m)) << name_of(kind) << " " << radius_m;
+        EXPECT_LT(distance(carve.shape, carve.impact_m), 0.0F) << "the surface is opened";
+        EXPECT_LE(carve.seeds, limits::seeds_max);
+      }
 }
 
 TEST(Tool, what_is_filled_stands_on_the_rock_and_what_is_painted_is_in_it) {
   const glm::vec3 hit_m(1.0F, 2.0F, 3.0F), down(0.0F, -1.0F, 0.0F);
   const MaterialMasses carried{{material::soil, 500}};
-  const ToolHolder holder{builtin_palette(), carried};
+  const ToolHolder holder{builtin_palette(), carried, 0.25F};
   Tool tool;
   const auto dig = std::get<DigRequest>(request_of(tool, hit_m, down, 1, holder));
   EXPECT_EQ(dig.store, StoreName{});
@@ -47,7 +47,8 @@ TEST(Tool, what_is_filled_stands_on_the_rock_and_what_is_painted_is_in_it) {
   EXPECT_FALSE(place.solid);
   EXPECT_GT(centre_of(place.shape).y, hit_m.y);
   EXPECT_TRUE(
-      std::get<PlaceRequest>(request_of(tool, hit_m, down, 1, {builtin_palette(), carried, true})).solid);
+      std::get<PlaceRequest>(request_of(tool, hit_m, down, 1, {builtin_palette(), carried, 0.25F, true}))
+          .solid);
   change(tool, Action::fill);
   const auto fill = std::get<FillRequest>(request_of(tool, hit_m, down, 1, holder));
   EXPECT_LT(distance(fill.shape, hit_m), 0.0F) << "it touches";

@@ -8,6 +8,7 @@
 #include "server/world/limits.h"
 #include "server/world/recorded_values.h"
 #include "server/world/world.h"
+#include "shared/base/edit_reach.h"
 #include "shared/base/limits.h"
 #include "tests/support/rounds.h"
 
@@ -36,7 +37,7 @@ TEST(WorldConfig, voxels_beyond_the_limits_are_refused) {
   for (const float size_m : {0.05F, 0.0F, -0.25F, nan, infinite, 5.0F, limits::voxel_size_min_m * 0.999F,
                              limits::voxel_size_max_m * 1.001F})
     expect_refused(world_of(size_m, 60), "limits.voxel_size_min_m, voxel_size_max_m");
-  EXPECT_NE(refusal(world_of(0.05F, 60)).find("voxel_size_m is 0.05, not within 0.15 to 2 "),
+  EXPECT_NE(refusal(world_of(0.05F, 60)).find("voxel_size_m is 0.05, not within 0.1 to 2 "),
             std::string::npos);
 }
 
@@ -75,11 +76,12 @@ TEST_P(WorldAtItsEnds, carves_throws_and_merges) {
   const auto world = World::create(config);
   ASSERT_TRUE(world) << world.error().message;
   CarveRequest whole;
-  whole.shape = box({0.0F, -7.0F, 0.0F}, glm::vec3(limits::edit_reach_max_m));
+  const float reach_m = greatest_edit_reach_m(GetParam().voxel_size_m);
+  whole.shape = box({0.0F, 1.0F - reach_m, 0.0F}, glm::vec3(reach_m));
   whole.seeds = 1;
   whole.blast_speed_m_s = limits::blast_speed_max_m_s;
   CarveRequest many = whole;
-  many.shape = sphere({40.0F, -4.0F, 0.0F}, limits::edit_reach_max_m);
+  many.shape = sphere({40.0F, -0.5F * reach_m, 0.0F}, reach_m);
   many.pattern = SeedPattern::radial;
   many.seeds = 64;
   const Command carves[] = {{1, 1, whole}, {0, 1, many}};

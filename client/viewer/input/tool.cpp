@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "shared/base/check.h"
+#include "shared/base/edit_reach.h"
 #include "shared/base/limits.h"
 
 namespace scree {
@@ -48,7 +49,7 @@ uint32_t scaled(uint32_t seeds, float factor) {
 
 }  // namespace
 
-Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction) {
+Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, float voxel_size_m) {
   const glm::vec3 centre_m = hit_m + direction * (tool.radius_m * traits_of(tool.use).depth_in_radii);
   switch (tool.kind) {
     case ToolKind::sphere:
@@ -60,7 +61,7 @@ Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction) {
     case ToolKind::tunnel:
       // Half the longest extent, the rounded ends included, must not be over the server's limit.
       const float length_m =
-          std::min(tunnel_length_in_radii * tool.radius_m, 2.0F * limits::edit_reach_max_m) -
+          std::min(tunnel_length_in_radii * tool.radius_m, 2.0F * greatest_edit_reach_m(voxel_size_m)) -
           2.0F * tool.radius_m;
       return capsule(centre_m, centre_m + direction * length_m, tool.radius_m);
   }
@@ -90,7 +91,7 @@ std::optional<Material> placed_by(const Tool& tool, const MaterialMasses& carrie
 
 Request request_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, uint32_t number,
                    const ToolHolder& holder) {
-  const Shape shape = shape_of(tool, hit_m, direction);
+  const Shape shape = shape_of(tool, hit_m, direction, holder.voxel_size_m);
   switch (tool.use) {
     case ToolUse::carve:
       break;

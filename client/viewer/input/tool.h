@@ -97,9 +97,9 @@ inline constexpr uint32_t tool_seeds_max = 256;
 /// A hand gives no points.
 inline constexpr auto tool_patterns = pointless_patterns;
 
-/// The shape of a use along `direction` (unit) that meets rock at `hit_m`. A tunnel goes along the
-/// direction; boxes stand upright.
-Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction);
+/// The shape of a use along `direction` (unit) that meets rock at `hit_m`, no larger than edits may be in
+/// voxels of that size. A tunnel goes along the direction; boxes stand upright.
+Shape shape_of(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction, float voxel_size_m);
 
 /// Number of seeds of a strike.
 uint32_t seeds_of(const Tool& tool);
@@ -115,6 +115,7 @@ std::optional<Material> placed_by(const Tool& tool, const MaterialMasses& carrie
 struct ToolHolder {
   const Palette& palette;
   const MaterialMasses& carried;
+  float voxel_size_m;      ///< of the world
   bool may_build = false;  ///< place solid rock; else rubble is placed
 };
 

@@ -13,6 +13,7 @@
 #include "client/viewer/session/refusal_words.h"
 #include "proto/person_name.h"
 #include "shared/base/check.h"
+#include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
 #include "shared/person/walker.h"
@@ -345,10 +346,10 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
   if (!connected()) return;
   const std::optional<glm::vec3> hit_m = aim(from_m, direction);
   if (!hit_m) return;
-  const Shape shape = shape_of(tool, *hit_m, direction);
+  const ToolHolder by = holder();
+  const Shape shape = shape_of(tool, *hit_m, direction, by.voxel_size_m);
   if (is_beyond_reach(shape, from_m))
     return refuse(told_of_reach(distance(shape, from_m), *reach_m()), "reach", now_s);
-  const ToolHolder by = holder();
   if (tool.use == ToolUse::place && by.carried.empty())
     return refuse("You carry nothing to place: dig some rock first", "store_missing", now_s);
   ask(request_of(tool, *hit_m, direction, requests_ + 1, by), now_s);
@@ -372,6 +373,7 @@ ToolHolder ViewerSession::holder() const {
   static const MaterialMasses nothing;
   const Mirror* const mirror = client_.mirror();
   return {palette(), mirror == nullptr ? nothing : mirror->carried(),
+          mirror == nullptr ? limits::voxel_size_min_m : mirror->terrain().voxel_size_m,
           welcome() != nullptr && may_act_as(welcome()->role, Role::builder)};
 }
 

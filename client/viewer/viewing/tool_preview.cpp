@@ -69,7 +69,7 @@ const std::optional<ToolAim>& ToolPreview::step(const Tool& tool, ViewerSession&
   const std::optional<glm::vec3> hit_m = session.aim(camera.eye_m, direction);
   if (!hit_m || session.is_replay()) return aim_;
   const ToolHolder holder = session.holder();
-  const Shape shape = shape_of(tool, *hit_m, direction);
+  const Shape shape = shape_of(tool, *hit_m, direction, holder.voxel_size_m);
   const bool is_beyond = session.is_beyond_reach(shape, camera.eye_m) || is_in_closed_region(session, shape);
   aim_ = {shape, is_beyond, put_by(tool, holder), rim_of(shape, *hit_m, session.field())};
   if (now_s >= next_measure_s_ && (measured_ != shape || measured_use_ != tool.use)) {
