@@ -69,6 +69,7 @@ void write(kept::Cut& to, const PendingRefracture& from) {
   to.set_random_seed(from.random_seed);
   to.set_impact(pack_vec3s({from.impact_m}));
   to.set_party(from.party);
+  to.set_blasted(from.blasted);
   if (from.thrown_by == nullptr) return;
   const Command carve{0, 0, *from.thrown_by, 0};
   to.set_thrown_by(to_string(encode(std::span(&carve, 1))));
@@ -81,6 +82,7 @@ PendingRefracture read(const kept::Cut& from, FieldChecker& check) {
   pending.pattern = check.kind<SeedPattern>(from.pattern(), "pattern");
   pending.random_seed = from.random_seed();
   pending.party = from.party();
+  pending.blasted = from.blasted();
   const auto impact = check.value_or_refuse(unpack_vec3s(from.impact(), "impact of a cut", 1));
   if (impact.size() == 1)
     pending.impact_m = impact.front();

@@ -227,7 +227,8 @@ struct PendingRefracture {
   /// The carve whose volume this is, whole: its blow throws the pieces. Null: they move on as parts of the
   /// piece.
   std::shared_ptr<const CarveRequest> thrown_by{};
-  uint64_t party = 0;  ///< whose carve it was (command.h); 0: the world itself
+  uint64_t party = 0;    ///< whose carve it was (command.h); 0: the world itself
+  bool blasted = false;  ///< the carve was a blast: it throws out what it breaks (ejecta.h)
 };
 
 /// Changed bricks around which islands are searched for.

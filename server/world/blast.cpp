@@ -4,6 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "server/world/ejecta.h"
 #include "shared/base/random.h"
 #include "shared/field/edit.h"
 
@@ -51,25 +52,31 @@ uint32_t number_of_place(glm::vec3 place_m) {
   return Random(number).next();
 }
 
-Blast::Blast(const World::State& state, const CarveRequest& request) : request_(request) {
+Blast::Blast(const World::State& state, const CarveRequest& request, BlowSide side) : request_(request) {
   spins_by_place_ = state.config.rules >= rules::by_place;
+  ejects_ = side == BlowSide::within && state.config.rules >= rules::ejecta;
   if (spins_by_place_) open_side_ = open_side(state.field, request.shape);
 }
 
-BodyState Blast::thrown(PieceId id, glm::vec3 centre_m) const {
-  const glm::vec3 source_m = 2.0F * centre_of(request_.shape) - request_.impact_m;
-  const glm::vec3 away = centre_m - source_m;
+Flight Blast::flight(glm::vec3 centre_m) const {
+  const glm::vec3 middle_m = centre_of(request_.shape);
+  const float reach_m = std::max(reach_of(request_.shape), 0.01F);
+  if (ejects_) return ejected({middle_m, reach_m, request_.blast_speed_m_s}, open_side_, centre_m);
+  const glm::vec3 away = centre_m - (2.0F * middle_m - request_.impact_m);
   const float distance_m = std::sqrt(glm::dot(away, away));
   // A blow against flat ground would otherwise press half of the pieces into it.
-  const glm::vec3 direction = away / std::max(distance_m, 0.01F) + open_share * open_side_;
-  const float reach_m = std::max(reach_of(request_.shape), 0.01F);
-  const float speed = request_.blast_speed_m_s * reach_m / (reach_m + distance_m);
+  return {.direction = away / std::max(distance_m, 0.01F) + open_share * open_side_,
+          .speed_m_s = request_.blast_speed_m_s * reach_m / (reach_m + distance_m)};
+}
+
+BodyState Blast::thrown(PieceId id, glm::vec3 centre_m) const {
+  const Flight off = flight(centre_m);
   const uint64_t which = spins_by_place_ ? number_of_place(centre_m) : id;
   Random random(request_.random_seed * 0x9E3779B97F4A7C15ULL + which);
-  const auto spin = [&] { return (random.unit() - 0.5F) * speed; };
+  const auto spin = [&] { return (random.unit() - 0.5F) * off.speed_m_s; };
   BodyState state;
   state.pose.position_m = centre_m;
-  state.velocity_m_s = direction * speed;
+  state.velocity_m_s = off.direction * off.speed_m_s;
   state.spin_rad_s = {spin(), spin(), spin()};
   return state;
 }

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "server/world/ejecta.h"
 #include "server/world/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -107,7 +108,7 @@ std::optional<float> blast_radius_m(const World::State& state, const BlastReques
   return std::clamp(radius_m, least_m, greatest_edit_reach_m(state.config.terrain.voxel_size_m));
 }
 
-CarveRequest carve_of(const BlastRequest& blast, float radius_m, uint32_t seeds) {
+CarveRequest carve_of(const BlastRequest& blast, float radius_m, uint32_t seeds, uint32_t by_rules) {
   CarveRequest carve;
   carve.shape = sphere(blast.centre_m, radius_m);
   carve.seeds = seeds;
@@ -116,6 +117,8 @@ CarveRequest carve_of(const BlastRequest& blast, float radius_m, uint32_t seeds)
   const float mass_kg = 2600.0F * blast.energy_j / (blast_loosening_j_m3 + blast_hardness_share * 5e7F);
   carve.blast_speed_m_s =
       std::min(std::sqrt(2.0F * thrown_share * blast.energy_j / mass_kg), limits::blast_speed_max_m_s);
+  if (by_rules >= rules::ejecta)
+    carve.blast_speed_m_s = std::min(carve.blast_speed_m_s, ejecta_speed_m_s(radius_m));
   return carve;
 }
 

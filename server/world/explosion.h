@@ -12,8 +12,8 @@ namespace scree {
 /// what goes off in the air breaks little. Nothing: there is no rock so near.
 std::optional<float> blast_radius_m(const World::State& state, const BlastRequest& blast);
 
-/// The carve that a blast is, into at most so many pieces.
-CarveRequest carve_of(const BlastRequest& blast, float radius_m, uint32_t seeds);
+/// The carve that a blast is by these rules (rules.h), into at most so many pieces.
+CarveRequest carve_of(const BlastRequest& blast, float radius_m, uint32_t seeds, uint32_t by_rules);
 
 /// Throws pieces and props about: each gets the impulse of the shock wave on its face. A wave's impulse on a
 /// square metre is 200 W^⅔ / R Pa s, of W kg of TNT (4.184 MJ) at R metres (M. A. Sadovsky, 1952). Rock

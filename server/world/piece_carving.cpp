@@ -44,7 +44,7 @@ Applied cut_piece(World::State& state, const ShatterOperation& operation, const 
   state.ledger.dust += applied.dust;
   const auto broken = static_cast<PieceId>(applied.created.size() - applied.rests);
   std::optional<Blast> blast;
-  if (thrown != nullptr) blast.emplace(state, *thrown);
+  if (thrown != nullptr) blast.emplace(state, *thrown, BlowSide::outside);
   const auto born = [&](PieceId id, const Volume& volume) {
     Newborn part{part_of(body, (volume.centre_voxels - centre_voxels) * dx), parent};
     if (id - operation.first_piece >= broken) {

@@ -7,7 +7,6 @@
 
 #include "server/work/limits.h"
 #include "server/work/price.h"
-#include "server/world/blast.h"
 #include "server/world/spawn.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -99,7 +98,8 @@ void refracture_piece(World::State& state, const PendingRefracture& pending, Sha
   std::optional<Blast> blast;
   const auto throw_part = [&](PieceId id, BodyState& part) {
     if (pending.thrown_by == nullptr) return;
-    if (!blast) blast.emplace(state, *pending.thrown_by);
+    if (!blast)
+      blast.emplace(state, *pending.thrown_by, pending.blasted ? BlowSide::within : BlowSide::outside);
     const BodyState flight = blast->thrown(id, part.pose.position_m);
     part.velocity_m_s += flight.velocity_m_s;
     part.spin_rad_s += flight.spin_rad_s;
@@ -129,7 +129,7 @@ void enter_refracture(World::State& state, const PendingRefracture& pending) {
 }
 
 void queue_refractures(World::State& state, const Applied& applied, const CarveRequest& request,
-                       uint64_t party, uint32_t wanted, bool whole) {
+                       BlowSide side, uint64_t party, uint32_t wanted, bool whole) {
   state.refractured_at = state.tick;
   share_out(state, applied,
             {.pieces = wanted,
@@ -137,7 +137,8 @@ void queue_refractures(World::State& state, const Applied& applied, const CarveR
              .random_seed = request.random_seed,
              .impact_m = request.impact_m,
              .thrown_by = whole ? std::make_shared<const CarveRequest>(request) : nullptr,
-             .party = state.charged(party)});
+             .party = state.charged(party),
+             .blasted = side == BlowSide::within});
 }
 
 void refracture_pieces(World::State& state, TickDelta& delta) {

@@ -3,6 +3,7 @@
 // are then.
 #pragma once
 
+#include "server/world/blast.h"
 #include "server/world/world_state.h"
 
 namespace scree {
@@ -15,7 +16,7 @@ void begin_in_stages(SeedPattern& pattern, uint32_t& seeds, uint32_t wanted);
 /// the seeds that the pattern would have in it if all were cut at once. `whole`: there is one, which the blow
 /// has not thrown yet.
 void queue_refractures(World::State& state, const Applied& applied, const CarveRequest& request,
-                       uint64_t party, uint32_t wanted, bool whole);
+                       BlowSide side, uint64_t party, uint32_t wanted, bool whole);
 
 /// Enters one that waits already.
 void enter_refracture(World::State& state, const PendingRefracture& pending);

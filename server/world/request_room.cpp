@@ -39,7 +39,8 @@ std::optional<CarveRequest> carve_in(const Request& request, float voxel_size_m)
     return CarveRequest{.shape = cut_out->shape, .seeds = 1};
   const auto* blast = std::get_if<BlastRequest>(&request);
   if (blast == nullptr) return std::nullopt;
-  return carve_of(*blast, blast_reach_m(blast->energy_j, voxel_size_m), pieces_of_blast(blast->energy_j));
+  return carve_of(*blast, blast_reach_m(blast->energy_j, voxel_size_m), pieces_of_blast(blast->energy_j),
+                  rules::newest);
 }
 
 bool may_loosen(const Request& request) {

@@ -38,10 +38,10 @@ namespace {
 
 using Checked = CheckedRequest;
 
-void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, uint64_t party,
-               TickDelta& delta) {
+void throw_out(World::State& state, const Applied& applied, const CarveRequest& request, BlowSide side,
+               uint64_t party, TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
-  const Blast blast(state, request);
+  const Blast blast(state, request, side);
   const auto born = [&](PieceId id, const Volume& volume) {
     return Newborn{blast.thrown(id, volume.centre_voxels * dx), {.owner = party}};
   };
@@ -170,8 +170,8 @@ CarveRequest at_rest(CarveRequest request) {
   return request;
 }
 
-Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, const PieceGrant& grant,
-              TickDelta& delta) {
+Outcome carve(World::State& state, const CarveRequest& request, BlowSide side, uint64_t party,
+              const PieceGrant& grant, TickDelta& delta) {
   const float dx = state.config.terrain.voxel_size_m;
   if (grant.pieces == 0) return tl::unexpected(no_room(state, request.seeds, party, grant));
   CHECK(grant.pieces <= request.seeds);
@@ -184,9 +184,9 @@ Outcome carve(World::State& state, const CarveRequest& request, uint64_t party, 
   const Applied applied = state.apply_and_record(operation, party, delta);
   state.enter_removed(applied);
   const bool whole = at_once == 1 && grant.pieces > 1;  // what is cut later is thrown then
-  throw_out(state, applied, whole ? at_rest(request) : request, party, delta);
+  throw_out(state, applied, whole ? at_rest(request) : request, side, party, delta);
   if (at_once < grant.pieces) {
-    queue_refractures(state, applied, request, party, grant.pieces, whole);
+    queue_refractures(state, applied, request, side, party, grant.pieces, whole);
     state.cut_later_us = cut_price_us(cutter, voxels, grant.pieces);
     if (!whole) state.cut_later_us -= cut_price_us(cutter, voxels, at_once);
   }
@@ -197,7 +197,9 @@ Outcome blow_up(World::State& state, const BlastRequest& request, uint64_t party
                 TickDelta& delta) {
   Outcome made = 0U;
   const std::optional<float> radius_m = blast_radius_m(state, request);
-  if (radius_m) made = carve(state, carve_of(request, *radius_m, grant.pieces), party, grant, delta);
+  if (radius_m)
+    made = carve(state, carve_of(request, *radius_m, grant.pieces, state.config.rules), BlowSide::within,
+                 party, grant, delta);
   if (made) throw_bodies(state, request);
   return made;
 }
@@ -227,7 +229,7 @@ struct Executing {
 
   Outcome operator()(const CarveRequest& request) const {
     if (request.piece != 0) return carve_piece(state, request, party, grant, delta);
-    return carve(state, request, party, grant, delta);
+    return carve(state, request, BlowSide::outside, party, grant, delta);
   }
   Outcome operator()(const CutOutRequest& request) const {
     return cut_out(state, request, party, grant, delta);

@@ -31,8 +31,10 @@ inline constexpr uint32_t joints = 8;
 /// Also, a look at a slope pays for the ground that it may have to generate; a break must be at its piece;
 /// and a prop whose density makes it too heavy is refused.
 inline constexpr uint32_t paid_looks = 9;
+/// Also, blasts throw what they break out of the hole (ejecta.h).
+inline constexpr uint32_t ejecta = 10;
 /// New worlds have these. A program goes by its own newest where a file names newer ones.
-inline constexpr uint32_t newest = paid_looks;
+inline constexpr uint32_t newest = ejecta;
 }  // namespace rules
 
 }  // namespace scree
