@@ -123,9 +123,10 @@ std::vector<Layer> other_layers() {
       {"client/viewer/", {"client/viewer/window/"}},
       {"client/web/", {"client/viewer/viewing/"}},
       {"tools/film/process/", {"shared/base/"}},
+      {"tools/rules/", {"tools/film/process/", "server/app/"}},
       {"tools/film/",
        {"tools/film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/synthesis/"}},
-      {"tests/", {"bench/", "studies/", "tools/film/", "tools/place/", "cmake/"}},
+      {"tests/", {"bench/", "studies/", "tools/film/", "tools/place/", "tools/rules/", "cmake/"}},
   };
 }
 
