@@ -74,11 +74,12 @@ program_of() {
   case "$1 ${2:-}" in
     'replay control') program=scree-admin consumed=2 subcommand=(replay) ;;
     'replay render') program=scree-render consumed=2 ;;
+    'rules list' | 'rules reload' | 'rules console') program=scree-admin subcommand=(rules) ;;
     'bench studies') program=scree-studies consumed=2 ;;
     'bench paper' | 'bench matrix' | 'bench peers' | 'bench scale') program=scree-studies ;;
   esac
   case $1 in
-    server | viewer | bot | replay | world | scene | import | export | place | admin | token | bench | pictures) ;;
+    server | viewer | bot | replay | world | scene | import | export | place | rules | admin | token | bench | pictures) ;;
     *) return 1 ;;
   esac
 }

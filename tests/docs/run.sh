@@ -39,7 +39,7 @@ on_fault() {
   faults=$((faults + 1))
 }
 
-on_file() { printf '%s' "$2" >"$1"; }
+on_file() { mkdir -p "$(dirname "$1")" && printf '%s' "$2" >"$1"; }
 
 stop_server() {
   [[ -n $server_pid ]] || return 0

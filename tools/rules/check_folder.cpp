@@ -69,7 +69,7 @@ Result<std::vector<FolderFault>> luacheck(const std::string& folder) {
   if (scratch.path().empty()) return fail("there is no folder for temporary files: set TMPDIR");
   const std::string config = scratch.path() + "/luacheckrc";
   TRY(write_new_file(config, TRY(luacheck_configuration()), Existing::refused));
-  const ProgramEnd end = TRY(run_program(
+  const ProgramEnd end = TRY(run_to_end(
       {"luacheck", "--config", config, "--no-cache", "--no-color", "--formatter", "plain", "--codes", "."},
       "which finds unknown names: install the package lua-check", folder));
   if (end.status > luacheck_found_max) return fail("luacheck failed: " + end.output);
