@@ -9,8 +9,8 @@ local largest = 1.5 -- radius of a carve, metres
 -- A tower in fills, about the middle of its foot: four legs, a slab, a shaft, a roof.
 local tower = {
   { shape = "box", at = vec(0, 4.5, 0), half = vec(3, 0.5, 3), material = "concrete" },
-  { shape = "box", at = vec(0, 8, 0), half = vec(2.5, 3, 2.5), material = "brick" },
-  { shape = "box", at = vec(0, 11.5, 0), half = vec(3, 0.5, 3), material = "concrete" },
+  { shape = "box", at = vec(0, 7, 0), half = vec(2.5, 2, 2.5), material = "brick" },
+  { shape = "box", at = vec(0, 9.5, 0), half = vec(3, 0.5, 3), material = "concrete" },
 }
 for _, leg in ipairs{ vec(2, 2, 2), vec(-2, 2, 2), vec(2, 2, -2), vec(-2, 2, -2) } do
   tower[#tower + 1] = { shape = "box", at = leg, half = vec(0.75, 2.25, 0.75), material = "brick" }

@@ -6,19 +6,13 @@
 
 #include "server/rules/api.h"
 #include "server/rules/limits.h"
+#include "server/rules/mod_name.h"
 #include "server/rules/prelude.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
 namespace {
-
-bool is_mod_name(std::string_view name) {
-  const auto fits = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  };
-  return !name.empty() && name.size() <= limits::mod_name_bytes_max && std::ranges::all_of(name, fits);
-}
 
 /// "main.lua:3: no such …", with the traceback below.
 std::string words_of(const std::string& what, const ScriptFault& fault) {
@@ -182,7 +176,7 @@ void Mod::reply(const Reply& reply, RulesMoment& moment, ScriptBudget& budget) {
   const ScriptFunction function = at->function;
   awaited_.erase(at);
   const auto write = [&](ScriptWriter& to) { write_reply(to, reply, moment); };
-  call_once(function, "a reply", moment, budget, write, nullptr);
+  if (!call_once(function, "a reply", moment, budget, write, nullptr)) ++timer_faults_;
 }
 
 bool Mod::awaits(uint32_t request) const {

@@ -14,7 +14,7 @@ std::string_view trimmed(std::string_view text) {
 
 WordedField field_of_text(std::string_view text) {
   const size_t colon = text.find(": ");
-  CHECK(colon != std::string_view::npos, "a field in a row of rules is `name: type`", text);
+  CHECK(colon != std::string_view::npos, "a field in a row of rules is `name: type`");
   WordedField field;
   field.name = trimmed(text.substr(0, colon));
   if (field.name.ends_with('?')) {

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "server/rules/mod.h"
+#include "server/rules/mod_name.h"
 #include "tools/rules/types_text.h"
 #include "tools/rules/written_file.h"
 

@@ -220,7 +220,7 @@ Result<void> where(TestCall& call) {
   return {};
 }
 
-constexpr TestFunction rows[] = {
+constexpr TestFunction person_rows[] = {
     {"join", "name: string, options?: join_options", "person",
      "Somebody joins: with `role` (builder as usual), `team`, and in a world whose persons walk `at`.", join},
     {"leave", "person: person", "", "The person's connection ends.", leave},
@@ -241,7 +241,7 @@ constexpr TestFunction rows[] = {
 }  // namespace
 
 std::span<const TestFunction> test_person_functions() {
-  return rows;
+  return person_rows;
 }
 
 }  // namespace scree

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fmt/format.h>
 
+#include "server/formats/world_value.h"
 #include "server/rules/api.h"
 #include "server/rules/request_table.h"
 #include "server/rules/sandbox/json_values.h"
@@ -199,7 +200,7 @@ Result<void> cues(TestCall& call) {
   return {};
 }
 
-constexpr TestFunction rows[] = {
+constexpr TestFunction world_rows[] = {
     {"world", "options?: world_options", "",
      "Makes a world, with `terrain`, `voxel`, `seed`, `persons` and `settings`: flat, 0.25 m, and as usual. "
      "Without it, the first call that needs a world makes one.",
@@ -227,7 +228,7 @@ constexpr TestFunction rows[] = {
 };
 
 template <size_t... Index>
-std::vector<TestFunction> kind_rows(std::index_sequence<Index...>) {
+std::vector<TestFunction> request_rows(std::index_sequence<Index...>) {
   return {TestFunction{test_request_kinds()[Index], "person: person?, fields: table", "reply",
                        "As t:request of that kind.", request_of_kind<Index>}...};
 }
@@ -260,8 +261,8 @@ std::vector<std::string_view> test_request_kinds() {
 
 std::span<const TestFunction> test_world_functions() {
   static const std::vector<TestFunction> all = [] {
-    std::vector<TestFunction> functions(std::begin(rows), std::end(rows));
-    const auto kinds = kind_rows(std::make_index_sequence<kinds_written>{});
+    std::vector<TestFunction> functions(std::begin(world_rows), std::end(world_rows));
+    const auto kinds = request_rows(std::make_index_sequence<kinds_written>{});
     functions.insert(functions.end(), kinds.begin(), kinds.end());
     return functions;
   }();

@@ -16,12 +16,12 @@ namespace scree {
 
 /// What became of a test.
 struct TestOutcome {
-  std::string file;     ///< "tests/first.lua"
-  std::string name;     ///< as the file says it; empty: the file itself could not be run
-  std::string failure;  ///< "tests/first.lua:12: 3 is not 4", and more lines; empty: it passed
+  std::string file;       ///< "tests/first.lua"
+  std::string name{};     ///< as the file says it; empty: the file itself could not be run
+  std::string failure{};  ///< "tests/first.lua:12: 3 is not 4", and more lines; empty: it passed
   double seconds = 0.0;
-  Tick ticks = 0;                ///< of all its worlds
-  std::vector<std::string> log;  ///< of the rules
+  Tick ticks = 0;                  ///< of all its worlds
+  std::vector<std::string> log{};  ///< of the rules
 };
 
 /// A function of a test's own object: t:NAME(…).

@@ -5,7 +5,7 @@
 
 #include "server/doors/access.h"
 #include "server/doors/authorizer.h"
-#include "server/world/world_snapshot.h"
+#include "server/formats/world_value.h"
 #include "shared/base/check.h"
 #include "shared/base/overloaded.h"
 

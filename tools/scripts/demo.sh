@@ -16,14 +16,18 @@ area_m=10 stage_m=(9 4) world=(--terrain canyon --spawn 30,9,19,63,-7)
 # rock may be thin.
 blast_pieces=100
 
-out="$root/out/demo" scene='' carves=20 seed=7 rate=3 offscreen=auto size=1280x720
-server_pid='' past_pid='' viewer_pid='' bot_pid=''
+# A game has a bot for each line of options, after the first one (games/NAME).
+bots=()
+
+out="$root/out/demo" scene='' game='' carves=20 seed=7 rate=3 offscreen=auto size=1280x720
+server_pid='' past_pid='' viewer_pid='' bot_pid='' more_bots=()
 
 usage() {
   cat <<'TEXT'
-usage: ./scree demo [--scene NAME] [--out DIR] [--carves N] [--seed N] [--rate N] [--size WxH] [--offscreen]
+usage: ./scree demo [--scene NAME | --game NAME] [--out DIR] [--carves N] [--seed N] [--rate N] [--size WxH] [--offscreen]
 
   --scene NAME   show this scene instead of the canyon; ./scree scene list lists them
+  --game NAME    let bots play a game with rules of its own: demolition, floor, plots or quarry
   --out DIR      folder for pictures, reports and logs (default: out/demo)
   --carves N     number of carves of the bot (default: 20)
   --seed N       seed of the bot's random choices (default: 7)
@@ -47,7 +51,7 @@ die() {
 parse() {
   while (($#)); do
     case $1 in
-      --scene | --out | --carves | --seed | --rate | --size)
+      --scene | --game | --out | --carves | --seed | --rate | --size)
         (($# > 1)) || die "$1 needs a value"
         printf -v "${1#--}" '%s' "$2"
         shift
@@ -61,6 +65,7 @@ parse() {
     esac
     shift
   done
+  [[ -z $scene || -z $game ]] || die "--scene and --game exclude each other"
   [[ $carves =~ ^[1-9][0-9]{0,5}$ ]] || die "--carves: write a number from 1 to 999999"
   # Of few carves, or slow ones, not so many pieces are ever in flight.
   if ((carves < 3)) || [[ $rate =~ ^[01](\.|$) ]]; then blast_pieces=30; fi
@@ -69,7 +74,7 @@ parse() {
 # Ends what is still running, and only that.
 cleanup() {
   local pid
-  for pid in $viewer_pid $bot_pid $past_pid $server_pid; do
+  for pid in $viewer_pid $bot_pid "${more_bots[@]}" $past_pid $server_pid; do
     kill -TERM "$pid" 2>/dev/null || true
   done
   wait
@@ -104,6 +109,30 @@ make_scene() {
   mapfile -t stage_m < <(jq -r '.centre[]' "$out/scene.json")
 }
 
+# set_game: its world, where it is looked at from, and what bots do in it: the first one's carves are the demo's.
+set_game() {
+  world=(--terrain flat --game "$game") blast_pieces=20
+  case $game in
+    demolition)
+      world+=(--spawn 0,22,34,0,-25) stage_m=(24 0) area_m=3
+      bots=("--centre -24 0 --area 3 --carves $carves --rate $rate --radius 1.4 --seed $((seed + 1))")
+      ;;
+    floor)
+      world+=(--persons walk --spawn 0,9,15,0,-35) carves=0 blast_pieces=5
+      bots=("--carves 0 --walk 30 --seed $((seed + 1))" "--carves 0 --walk 30 --seed $((seed + 2))")
+      ;;
+    quarry)
+      world+=(--spawn 0,16,34,0,-25) carves=0 blast_pieces=0
+      bots=("--carves 0 --digs 12 --centre -18 -10 --area 4 --rate 2" "--carves 0 --digs 12 --centre 18 -10 --area 4 --rate 2")
+      ;;
+    plots)
+      world+=(--spawn 0,16,28,0,-25) stage_m=(0 0) area_m=5
+      bots=("--message plots claim --centre -16 -16 --area 5 --carves $carves --rate $rate --seed $((seed + 1))")
+      ;;
+    *) die "there is no game '$game': choose demolition, floor, plots or quarry" ;;
+  esac
+}
+
 # start_server [OPTIONS…]
 start_server() {
   "$bin/scree-server" --host 127.0.0.1 --port 0 "${world[@]}" --report "$out/server.json" "$@" \
@@ -130,7 +159,13 @@ start_bot() {
     --carves "$carves" --seed "$seed" --rate "$rate" --linger --check-hash --timeout "$1" \
     --report "$out/bot.json" >"$out/bot.log" 2>&1 &
   bot_pid=$!
-  say "a bot carves $carves times"
+  local options
+  for options in "${bots[@]}"; do
+    # shellcheck disable=SC2086  # options are words
+    "$bin/scree-bot" --host 127.0.0.1 --port "$port" $options --timeout "$1" >>"$out/bots.log" 2>&1 &
+    more_bots+=($!)
+  done
+  if [[ -n $game ]]; then say "$((1 + ${#bots[@]})) bots play $game"; else say "a bot carves $carves times"; fi
 }
 
 play_in_window() {
@@ -213,6 +248,7 @@ main() {
   rm -f "$out"/scene.{world,world-wal,world-shm,json} "$out"/session.scree{,-wal,-shm} "$out"/{server,bot,past}.{json,out,log} "$out"/{viewer,browser}.log "$out"/{before,blast,settled,browser}.png
   trap cleanup EXIT
   [[ -z $scene ]] || make_scene
+  [[ -z $game ]] || set_game
   if [[ $offscreen == auto && -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]]; then
     start_server --record "$out/session.scree"
     play_in_window
