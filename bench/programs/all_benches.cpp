@@ -85,6 +85,8 @@ std::vector<Bench> benches_from_l() {
        run_recombine_bench},
       {"regions", "the same blows with 256 regions far away, in each other, and with one that counts",
        run_regions_bench},
+      {"rules", "a storm of 1,000 pieces with a handler of a script for each event; a reload",
+       run_rules_bench},
       {"replay",
        "recording: ticks with and without, bytes, keyframes of a large world; seeking and verifying a "
        "session of "

@@ -34,6 +34,7 @@ BenchReport run_query_bench(const BenchOptions& options);
 BenchReport run_raymarch_bench(const BenchOptions& options);
 BenchReport run_recombine_bench(const BenchOptions& options);
 BenchReport run_regions_bench(const BenchOptions& options);
+BenchReport run_rules_bench(const BenchOptions& options);
 BenchReport run_replay_bench(const BenchOptions& options);
 BenchReport run_seams_bench(const BenchOptions& options);
 BenchReport run_sizes_bench(const BenchOptions& options);
