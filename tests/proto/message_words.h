@@ -176,6 +176,9 @@ inline Lines words(const AdminRequest& act) {
                  },
                  [](const ListStoresRequest&) { return Lines{"list stores"}; },
                  [](const ListRegionMassesRequest& list) { return Lines{"list masses of " + list.region}; },
+                 [](const ControlRulesRequest& c) {
+                   return Lines{fmt::format("rules: {} '{}', '{}'", name_of(c.control), c.rules, c.line)};
+                 },
                  [](const ControlReplayRequest& control) {
                    return Lines{fmt::format("control replay: {}, speed {}, {} {}", name_of(control.play),
                                             control.speed, name_of(control.move), control.value)};

@@ -172,6 +172,7 @@ inline Lines describe(const AdminListMessage& m) {
         mass.origin.region, mass.origin.party, mass.cut, row_number(mass.material), mass.pieces, mass.dust,
         mass.carried, mass.back, mass.away));
   if (m.left_out > 0) lines.push_back(fmt::format("{} more are left out", m.left_out));
+  if (!m.text.empty()) lines.push_back(fmt::format("text: {}", m.text));
   return lines;
 }
 

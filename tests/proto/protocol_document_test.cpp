@@ -28,6 +28,7 @@
 #include "tests/proto/prop_words.h"
 #include "tests/proto/query_words.h"
 #include "tests/proto/region_words.h"
+#include "tests/proto/rules_words.h"
 #include "tests/proto/store_words.h"
 #include "tests/support/wire_samples.h"
 
@@ -179,6 +180,18 @@ std::map<std::string, double> stated_limits_of_streams() {
           {"tile_bytes_per_tick_all", limits::tile_bytes_per_tick_all}};
 }
 
+/// Limits of what the rules of a game show and tell.
+std::map<std::string, double> stated_limits_of_rules() {
+  return {{"signs_max", limits::signs_max},
+          {"sign_text_bytes_max", limits::sign_text_bytes_max},
+          {"notices_a_tick_max", limits::notices_a_tick_max},
+          {"channel_bytes_max", limits::channel_bytes_max},
+          {"channel_data_bytes_max", limits::channel_data_bytes_max},
+          {"signs_wait_s", limits::signs_wait_s},
+          {"console_line_bytes_max", limits::console_line_bytes_max},
+          {"admin_text_bytes_max", limits::admin_text_bytes_max}};
+}
+
 /// All others.
 std::map<std::string, double> stated_limits() {
   return {{"message_bytes_max", limits::message_bytes_max},
@@ -252,6 +265,7 @@ std::map<std::string, double> stated_limits() {
 TEST(ProtocolDocument, its_limits_are_the_programs) {
   std::map<std::string, double> limits_by_name = stated_limits();
   limits_by_name.merge(stated_limits_of_streams());
+  limits_by_name.merge(stated_limits_of_rules());
   static const std::regex row(R"(\n\| `(\w+)` \| ([0-9.,]+) \|)");
   const std::string text = document();
   size_t found = 0;

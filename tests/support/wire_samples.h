@@ -10,6 +10,7 @@
 #include "shared/base/random.h"
 #include "tests/support/materials.h"
 #include "tests/support/query_samples.h"
+#include "tests/support/rules_samples.h"
 #include "tests/support/store_samples.h"
 
 namespace scree::samples {
@@ -366,14 +367,14 @@ inline std::vector<ClientMessage> client_messages_but_stores() {
 /// The last one is unknown.
 inline std::vector<ServerMessage> server_messages() {
   std::vector<ServerMessage> messages = server_messages_but_stores();
-  const std::vector<ServerMessage> more = store_server_messages();
-  messages.insert(messages.end() - 1, more.begin(), more.end());
+  for (const auto& more : {store_server_messages(), rules_server_messages()})
+    messages.insert(messages.end() - 1, more.begin(), more.end());
   return messages;
 }
 inline std::vector<ClientMessage> client_messages() {
   std::vector<ClientMessage> messages = client_messages_but_stores();
-  const std::vector<ClientMessage> more = store_client_messages();
-  messages.insert(messages.end() - 1, more.begin(), more.end());
+  for (const auto& more : {store_client_messages(), rules_client_messages()})
+    messages.insert(messages.end() - 1, more.begin(), more.end());
   return messages;
 }
 

@@ -15,6 +15,7 @@
 #include "shared/operation/limits.h"
 #include "tests/fuzz/support/any_operation.h"
 #include "tests/fuzz/support/any_request.h"
+#include "tests/fuzz/support/any_rules_act.h"
 #include "tests/fuzz/support/target.h"
 
 namespace scree {
@@ -189,12 +190,23 @@ PersonPlacesMessage any_persons(FuzzInput& input) {
   return message;
 }
 
+ServerMessage any_of_rules(FuzzInput& input) {
+  if (input.below(4) == 0) return CuesMessage{input.byte(), {any_cue(input)}};
+  if (input.below(4) == 0) return ChannelMessage{any_channel_data(input)};
+  SignsMessage message;
+  for (uint32_t count = input.below(4); count > 0; --count) message.signs.push_back(any_sign(input));
+  if (input.below(8) != 7) std::ranges::sort(message.signs, sign_before);
+  return message;
+}
+
 ServerMessage any_about_persons(FuzzInput& input) {
-  switch (input.below(3)) {
+  switch (input.below(4)) {
     case 0:
       return any_regions(input);
     case 1:
       return any_persons(input);
+    case 2:
+      return any_of_rules(input);
     default: {
       StoresMessage message;
       for (uint32_t count = input.below(3); count > 0; --count)
@@ -254,6 +266,7 @@ class Session {
       CHECK(!repair->chunks.empty() && repair->chunks.size() <= limits::repair_chunks_max);
       CHECK_EQ(repair->chunks.size(), repair->hashes.size());
     }
+    CHECK(mirror_.signs().size() <= limits::signs_max);
     CHECK(mirror_.held_chunks().size() <= limits::mirror_chunks_max);
     CHECK(mirror_.pieces().size() <= limits::mirror_pieces_max);
     for (const auto& [id, piece] : mirror_.pieces()) {

@@ -11,6 +11,7 @@
 #include "shared/base/check.h"
 #include "tests/fuzz/support/any_question.h"
 #include "tests/fuzz/support/any_request.h"
+#include "tests/fuzz/support/any_rules_act.h"
 #include "tests/fuzz/support/fuzz_server.h"
 #include "tests/fuzz/support/target.h"
 
@@ -89,7 +90,10 @@ AdminMessage any_admin(FuzzInput& input) {
   if (input.below(4) != 0) admin.token = FuzzServer::admin_token;
   const std::string address = "10.0.0." + std::to_string(input.below(4));
   const uint64_t session = input.below(12);
-  switch (input.below(9)) {
+  switch (input.below(10)) {
+    case 9:
+      admin.act = ControlRulesRequest{any_number_as<RulesControl>(input), "", input.text(64)};
+      break;
     case 0:
       admin.act = ListSessionsRequest{};
       break;
@@ -197,7 +201,9 @@ ClientMessage any_message(FuzzInput& input, FuzzServer& server) {
       const uint32_t number = input.byte();
       if (kind == 0) return FillMessage{{known(any_shape(input)), any_fill(input)}, number};
       if (kind == 2) return any_query(input, number);
+      if (kind == 1 && input.flag()) return RulesMessage{{any_rules_act(input)}, number};
       if (kind == 1) return PaintMessage{{known(any_shape(input)), any_material(input)}, number};
+      if (kind == 3 && input.flag()) return ChannelMessage{any_channel_data(input)};
       if (kind == 3) return CutOutMessage{{known(any_shape(input))}, number};
       if (kind == 4) return ReleaseMessage{{input.byte()}, number};
       if (kind == 6) return AddPieceMessage{any_added_piece(input), number};
