@@ -24,7 +24,10 @@ void GameStream::serve(const ServedTick& tick, Outlet& outlet, ServedPart& part)
   CuesMessage cues{tick.tick(), {}};
   for (const Notice& notice : notices) {
     if (!is_meant(notice.to, session, own_team)) continue;
-    if (const auto* const cue = std::get_if<Cue>(&notice.what)) cues.cues.push_back(*cue);
+    // A replay that plays fast has the notices of several ticks in one.
+    if (const auto* const cue = std::get_if<Cue>(&notice.what);
+        cue != nullptr && cues.cues.size() < limits::notices_a_tick_max)
+      cues.cues.push_back(*cue);
     if (const auto* const data = std::get_if<ChannelData>(&notice.what))
       outlet.send(share(ChannelMessage{*data}), part);
     if (const auto* const line = std::get_if<NoticeLine>(&notice.what); line != nullptr && meets_)
