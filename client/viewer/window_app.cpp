@@ -250,6 +250,7 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
     hud_.crosshair(facts);
     const float aspect = static_cast<float>(window_.width()) / static_cast<float>(window_.height());
     const Camera& camera = viewing_.camera;
+    hud_.signs(viewing_.signs(aspect, now_s));
     hud_.names(viewing_.session.figures(now_s),
                camera.projection(aspect, viewing_.view_radius_m()) * camera.view(), eye().person());
     if (choice_.figures || choice_.all_figures) hud_.figures(facts, choice_.all_figures);

@@ -87,6 +87,45 @@ TEST_F(FilmPictures, particles_can_be_left_out) {
   EXPECT_NE(frame("with", 5), frame("without", 5));
 }
 
+/// A recording in which a game shows a sign from tick 10 on, and makes a cue in tick 14.
+void record_game(const std::string& path, bool for_all) {
+  World world(small_world());
+  auto recorder = Recorder::create(path, {"test", small_world()});
+  ASSERT_TRUE(recorder.has_value()) << recorder.error().message;
+  const Audience to = for_all ? Audience{} : Audience{.kind = AudienceKind::session, .session = 3};
+  Sign bar{.name = "score", .to = to, .kind = SignKind::bar, .text = "12 t"};
+  bar.share = 0.5F;
+  bar.until = 18;
+  for (Tick tick = 1; tick <= 30; ++tick) {
+    std::vector<Command> commands;
+    if (tick == 10) commands = {{0, 0, RulesRequest{ShowSign{bar}}}};
+    if (tick == 14)
+      commands = {{0, 0, RulesRequest{Notice{to, Cue{.place_m = {3.0F, 1.0F, 2.0F}, .energy_j = 1e5F}}}}};
+    (*recorder)->push(world.step(commands), commands);
+  }
+  const auto finished = (*recorder)->finish();
+  ASSERT_TRUE(finished.has_value()) << finished.error().message;
+}
+
+TEST_F(FilmPictures, a_film_shows_a_games_signs_as_long_as_they_last_and_its_cues_are_heard) {
+  FilmOptions game = options("game/"), silent = options("silent/");
+  game.recording = (folder / "game.scree").string();
+  silent.recording = (folder / "silent.scree").string();
+  record_game(game.recording, true);
+  record_game(silent.recording, false);
+  rendered(game);
+  rendered(silent);
+  // Frames of ticks 8, 10, 12, 14, 16 and 18.
+  for (size_t i = 0; i < 6; ++i) EXPECT_EQ(frame("game", i) == frame("silent", i), i == 0 || i == 5) << i;
+  const auto heard = [&](const char* of) {
+    const std::vector<float> samples = samples_in((folder / of / "sound.wav").string());
+    return std::ranges::find_if(samples, [](float sample) { return sample != 0.0F; }) - samples.begin();
+  };
+  EXPECT_GT(heard("game"), 3 * 1600 * 2);
+  EXPECT_LT(heard("game"), 5 * 1600 * 2);
+  EXPECT_EQ(heard("silent"), 6 * 1600 * 2) << "it was for somebody else";
+}
+
 TEST_F(FilmPictures, a_film_has_all_frames) {
   rendered(options("film.mp4"));
   EXPECT_FALSE(has_partial(folder));

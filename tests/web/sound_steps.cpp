@@ -16,7 +16,7 @@ void put(const Value* values, size_t count) {
 
 scree::SoundEvent any_event(scree::Random& random) {
   scree::SoundEvent event;
-  event.kind = static_cast<scree::PieceEventKind>(random.below(3));
+  event.kind = static_cast<scree::PieceEventKind>(random.below(7));
   event.size_m = 0.05F + 3.0F * random.unit() * random.unit();
   event.mass_kg = (300.0F + 7000.0F * random.unit()) * event.size_m * event.size_m * event.size_m;
   event.impulse_n_s = event.mass_kg * (0.4F + 9.0F * random.unit());

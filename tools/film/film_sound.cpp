@@ -53,7 +53,8 @@ Result<void> write_film_sound(const FilmPlan& plan, double frames_per_s, Recorde
       if (time_s < 0.0) continue;
       track.render_to(time_s);
       const Camera camera = camera_at(plan.shot, time_s);
-      for (const PieceEvent& event : tick.events) track.add(heard(event, camera));
+      for (const PieceEvent& event : tick.events)
+        if (is_heard(event.kind)) track.add(heard(event, camera));
     }
   }
   track.render_to(static_cast<double>(plan.span.frames) / frames_per_s);

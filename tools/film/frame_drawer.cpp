@@ -61,7 +61,10 @@ Result<Image> FrameDrawer::draw(RecordedScene& scene, const MirrorChanges& chang
   if (drawn_.particles) renderer_->set_particles(scene.particles(camera.eye_m));
   LineList lines;
   add_joints(lines, scene.joints(), scene.scene(), camera.eye_m);
-  return renderer_->draw_image(*methods_.shown(), camera, drawn_.size.width, drawn_.size.height, lines);
+  auto image =
+      TRY(renderer_->draw_image(*methods_.shown(), camera, drawn_.size.width, drawn_.size.height, lines));
+  painter_.paint(image, scene.signs(), scene.sign_moment(), camera);
+  return image;
 }
 
 }  // namespace scree

@@ -10,6 +10,7 @@
 #include "client/render/scene/work_pool.h"
 #include "client/viewer/pictures/egl_context.h"
 #include "client/viewer/pictures/picture_size.h"
+#include "client/viewer/signs/sign_painter.h"
 #include "tools/film/frame_sink.h"
 #include "tools/film/recorded_scene.h"
 
@@ -47,6 +48,7 @@ class FrameDrawer {
   std::unique_ptr<Renderer> renderer_;
   WorkPool pool_;
   MethodSwitch methods_;
+  SignPainter painter_;
   const Field* field_ = nullptr;  ///< whose details are drawn
 };
 

@@ -6,6 +6,7 @@
 
 #include "client/mirror/pose_between.h"
 #include "client/viewer/base/limits.h"
+#include "client/viewer/events/cue_event.h"
 #include "server/replay/recorded_field.h"
 #include "shared/base/check.h"
 
@@ -75,8 +76,21 @@ void RecordedScene::show(std::shared_ptr<const TickDelta> delta, MirrorChanges& 
   for (const EndedJoint& ended : now_->joints_removed) joints_.erase(ended.id);
   const double now_s = seconds_of(static_cast<double>(now_->tick));
   std::vector<PieceEvent> events = piece_events_.step(scene(), now_s, *palette());
+  follow_rules(events);
   dust_.add(events, now_s);
   if (!events.empty()) events_.push_back({static_cast<double>(now_->tick), std::move(events)});
+}
+
+/// A film has no session and no team: what was for all is shown and heard.
+void RecordedScene::follow_rules(std::vector<PieceEvent>& events) {
+  for (const Notice& notice : now_->notices)
+    if (const auto* cue = std::get_if<Cue>(&notice.what); cue != nullptr &&
+                                                          notice.to.kind == AudienceKind::all &&
+                                                          events.size() < limits::piece_events_per_step_max)
+      events.push_back(event_of(*cue, *palette()));
+  if (now_->signs == nullptr) return;
+  signs_ = *now_->signs;
+  std::erase_if(signs_, [](const Sign& sign) { return sign.to.kind != AudienceKind::all; });
 }
 
 /// The pieces alive after the tick, where they are then.

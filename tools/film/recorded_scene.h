@@ -13,11 +13,12 @@
 #include "client/render/scene/particle.h"
 #include "client/viewer/events/dust.h"
 #include "client/viewer/events/piece_event_detector.h"
+#include "client/viewer/signs/shown_signs.h"
 #include "server/replay/replay_source.h"
 
 namespace scree {
 
-/// What pieces did from one tick to the next.
+/// What pieces did, and a game's cues that all got, from one tick to the next.
 struct TickEvents {
   double tick = 0.0;  ///< the later one
   std::vector<PieceEvent> events;
@@ -43,6 +44,11 @@ class RecordedScene {
   const std::shared_ptr<const Palette>& palette() const { return source_->header().world.palette; }
   /// What pieces did since the moment before, in order.
   const std::vector<TickEvents>& events() const { return events_; }
+  /// A game's signs that all saw, and the moment by which they are shown.
+  const std::vector<Sign>& signs() const { return signs_; }
+  SignMoment sign_moment() const {
+    return {moment_, static_cast<double>(source_->header().world.tick_rate_hz)};
+  }
   /// In the air; the farthest from the eye first.
   std::vector<Particle> particles(glm::vec3 eye_m) { return dust_.at(seconds_of(moment_), eye_m); }
 
@@ -52,6 +58,7 @@ class RecordedScene {
   double seconds_of(double tick) const { return tick / source_->header().world.tick_rate_hz; }
   Result<void> read_ahead();
   void show(std::shared_ptr<const TickDelta> delta, MirrorChanges& changes);
+  void follow_rules(std::vector<PieceEvent>& events);
   void update_pieces(MirrorChanges& changes);
   void update_props(MirrorChanges& changes);
   void move_pieces(float part);
@@ -64,6 +71,7 @@ class RecordedScene {
   ScenePieces pieces_;
   SceneProps props_;
   SceneJoints joints_;
+  std::vector<Sign> signs_;
   PieceEventDetector piece_events_;
   Dust dust_;
   std::vector<TickEvents> events_;

@@ -61,6 +61,10 @@ inline constexpr double line_shown_s = 15.0;
 /// least impulse are left out.
 inline constexpr size_t piece_events_per_step_max = 96;
 
+/// Messages of a game's rules that wait for the program, which takes them in each frame. Above: the oldest
+/// are dropped.
+inline constexpr size_t messages_heard_max = 256;
+
 /// Seconds that dust stays in the air: less than settled_s, so that pictures of what has settled have none.
 inline constexpr float particle_seconds_max = 1.9F;
 

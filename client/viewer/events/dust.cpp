@@ -39,6 +39,15 @@ constexpr Throw throw_of(PieceEventKind kind) {
       return {.puffs = 5.0F, .chips = 7.0F, .speed_m_s = 1.7F, .thickness = 0.50F};
     case PieceEventKind::settle:
       return {.puffs = 4.0F, .chips = 0.0F, .speed_m_s = 0.8F, .thickness = 0.42F};
+    case PieceEventKind::dust:
+      return {.puffs = 7.0F, .chips = 0.0F, .speed_m_s = 2.0F, .thickness = 0.46F};
+    case PieceEventKind::sparks:
+      return {.puffs = 0.0F, .chips = 24.0F, .speed_m_s = 4.5F, .thickness = 0.0F};
+    case PieceEventKind::thud:
+    case PieceEventKind::snap:
+    case PieceEventKind::ring:
+    case PieceEventKind::rattle:
+      return {.puffs = 0.0F, .chips = 0.0F, .speed_m_s = 0.0F, .thickness = 0.0F};  // heard alone
   }
   return {};
 }
@@ -68,8 +77,13 @@ glm::vec3 anywhere(Random& random) {
   return in_cube / std::max(glm::length(in_cube), 1.0F);
 }
 
-/// How hard it was, 0..1: a blow of 6 m/s is as hard as any. Cracks and merges have no speed of their own.
+/// How hard it was, 0..1: a blow of 6 m/s is as hard as any. Cracks and merges have no speed of their own. A
+/// cue of 1 kJ is as hard as these; by the fourth root of the energy, at most twice that.
 float hardness(const PieceEvent& event) {
+  if (is_cue(event.kind)) {
+    const float energy_j = 0.5F * event.impulse_n_s * event.impulse_n_s / std::max(event.mass_kg, 1e-3F);
+    return std::clamp(std::sqrt(std::sqrt(energy_j / 1000.0F)), 0.2F, 2.0F);
+  }
   if (event.kind != PieceEventKind::strike) return 1.0F;
   return std::clamp(event.impulse_n_s / std::max(event.mass_kg, 1e-3F) / 6.0F, 0.1F, 1.0F);
 }
@@ -114,7 +128,8 @@ void Dust::throw_puffs(const PieceEvent& event, int count, double now_s) {
     Grain grain;
     const glm::vec3 out = anywhere(random);
     // What strikes or settles raises dust at its foot, along the ground.
-    const float down = event.kind == PieceEventKind::crack ? 0.0F : 0.7F;
+    const bool rises = event.kind == PieceEventKind::strike || event.kind == PieceEventKind::settle;
+    const float down = rises ? 0.7F : 0.0F;
     grain.first.place_m = event.place_m + half_m * (out - glm::vec3(0.0F, down, 0.0F));
     grain.speed_m_s = thrown.speed_m_s * (0.4F + random.unit()) *
                       glm::vec3(out.x, down > 0.0F ? 0.25F * random.unit() : 0.6F * out.y, out.z);

@@ -16,7 +16,6 @@
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
-#include "shared/person/walker.h"
 
 namespace scree {
 namespace {
@@ -160,10 +159,18 @@ void ViewerSession::apply(const Client::Applied& applied, double now_s, SessionS
                         [&](const PersonsMessage& persons) { conversation_.apply(persons); },
                         [&](const SaidMessage& said) { conversation_.apply(said, now_s); },
                         [&](const PhysicsMessage& physics) { physics_ = physics; },
+                        [&](const CuesMessage& cues) { note(cues, step); },
+                        [&](const ChannelMessage& heard) { step.heard.push_back(heard); },
                         [](const auto&) {}},  // the mirror's alone
              applied.received.message);
   saw_pieces_ = saw_pieces_ || !applied.changes.pieces_added.empty();
   append(step.changes, applied.changes);
+}
+
+/// Of the frame that is shown; more than one screen can use are left out.
+void ViewerSession::note(const CuesMessage& cues, SessionStep& step) {
+  for (const Cue& cue : cues.cues)
+    if (step.cues.size() < limits::piece_events_per_step_max) step.cues.push_back(cue);
 }
 
 void ViewerSession::settle(const ReplyMessage& reply, double arrived_s, double now_s) {
@@ -240,80 +247,14 @@ const ScenePieces& ViewerSession::pieces(double now_s) {
   return pieces_;
 }
 
-/// The session whose body a prop is: of a person here, or of one who was in the recording; else nothing.
-std::optional<uint64_t> ViewerSession::person_of(PieceId body, const Prop& prop) const {
-  const auto& persons = client_.mirror()->persons();
-  if (const auto person = persons.find(body); person != persons.end()) return person->second;
-  if (prop.motion != PropMotion::kinematic || prop.tag == 0) return std::nullopt;
-  const uint64_t recorded = recorded_person(prop.tag);
-  const bool was_there = std::ranges::any_of(
-      recorded_cursors_, [&](const PlayerCursor& one) { return one.session == recorded; });
-  return was_there ? std::optional(recorded) : std::nullopt;
-}
-
-const SceneProps& ViewerSession::props(double now_s) {
-  props_.clear();
-  const Mirror* mirror = client_.mirror();
-  if (mirror == nullptr) return props_;
-  const double tick = client_.draw_tick(now_s);
-  // Persons are shown as figures.
-  for (const auto& [id, motion] : mirror->props())
-    if (!person_of(id, *motion.prop))
-      props_.emplace_hint(props_.end(), id, SceneProp{motion.prop, mirror->pose_at(motion, tick)});
-  return props_;
-}
-
-const Figures& ViewerSession::figures(double now_s) {
-  std::vector<PlayerCursor> all = cursors_;
-  all.insert(all.end(), recorded_cursors_.begin(), recorded_cursors_.end());
-  const Mirror* mirror = client_.mirror();
-  PersonFacts facts;
-  if (mirror != nullptr) facts.field = &field();
-  add_bodies(now_s, all, facts);
-  std::vector<uint64_t> present;
-  for (const PlayerCursor& one : all) present.push_back(one.session);
-  for (const Person& one : conversation_.persons().persons) present.push_back(one.session);
-  colours_.follow(present);
-  facts.colours = &colours_;
-  figures_.step(all, now_s, facts);
-  return figures_;
-}
-
-/// Adds those on foot; who tells no cursor looks ahead.
-void ViewerSession::add_bodies(double now_s, std::vector<PlayerCursor>& all, PersonFacts& facts) {
-  const Mirror* mirror = client_.mirror();
-  if (mirror == nullptr) return;
-  const double tick = client_.draw_tick(now_s);
-  for (const auto& [id, motion] : mirror->props()) {
-    const std::optional<uint64_t> person = person_of(id, *motion.prop);
-    if (!person || (welcome() != nullptr && *person == welcome()->session)) continue;
-    const Pose pose = mirror->pose_at(motion, tick);
-    const glm::vec3 feet_m = pose.position_m - glm::vec3(0.0F, 0.5F * Walker::height_m, 0.0F);
-    facts.feet_m.emplace(*person, feet_m);
-    const glm::vec3 eye_m = feet_m + glm::vec3(0.0F, Walker::eye_above_m, 0.0F);
-    if (std::ranges::none_of(all, [&](const PlayerCursor& one) { return one.session == *person; }))
-      all.push_back({*person, "", eye_m, eye_m + pose.rotation * glm::vec3(0.0F, 0.0F, -5.0F)});
-  }
-}
-
-bool ViewerSession::persons_walk() const {
-  return client_.mirror() != nullptr && scree::persons_walk(client_.mirror()->status());
-}
-
-void ViewerSession::stand(bool away) {
-  StandMessage message;
-  message.request = ++requests_;
-  message.away = away;
-  client_.send(message);
-}
-
-void ViewerSession::walk(const WalkInput& input, glm::vec3 look) {
-  CHECK(foreseen_walk_ && mirror() != nullptr);
-  if (const auto message = foreseen_walk_->step(input, look, *mirror())) client_.send(*message);
-}
-
 void ViewerSession::say(const std::string& text) {
   if (!text.empty()) client_.send(SayMessage{text});
+}
+
+bool ViewerSession::send(ChannelData data) {
+  if (!connected() || !validate(data)) return false;
+  client_.send(ChannelMessage{std::move(data)});
+  return true;
 }
 
 bool ViewerSession::carved() const {

@@ -35,6 +35,8 @@ struct SessionStep {
   bool other_world = false;  ///< and it is not of the world that was shown before
   bool jumped = false;       ///< a replay is at another moment: what changed did not happen
   MirrorChanges changes;
+  std::vector<Cue> cues{};           ///< of a game's rules, at most limits::piece_events_per_step_max
+  std::vector<ChannelData> heard{};  ///< what the rules have for this program
 };
 
 struct SessionChoice {
@@ -130,6 +132,8 @@ class ViewerSession {
   void walk(const WalkInput& input, glm::vec3 look);
   /// To all persons.
   void say(const std::string& text);
+  /// To the server's rules. False: it is none that can be sent (validate()), or there is no connection.
+  bool send(ChannelData data);
   /// Switches the server's PhysicsMessages on or off; and the last one, null before the first.
   void want_physics(bool physics) { wants_physics_ = physics; }
   const PhysicsMessage* physics() const { return physics_ ? &*physics_ : nullptr; }
@@ -173,6 +177,7 @@ class ViewerSession {
   void begin(const Client::Joined& joined, double now_s, SessionStep& step);
   void lose(double now_s, const ConnectionEnd& end);
   void apply(const Client::Applied& applied, double now_s, SessionStep& step);
+  static void note(const CuesMessage& cues, SessionStep& step);
   void settle(const ReplyMessage& reply, double arrived_s, double now_s);
   void show_notice(std::string words, double now_s);
   void refuse(std::string words, std::string_view refusal, double now_s);

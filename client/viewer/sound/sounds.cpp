@@ -29,7 +29,8 @@ void Sounds::play_aloud(bool on) {
 void Sounds::step(const std::vector<PieceEvent>& events, const Camera& camera, double now_s) {
   if (silent()) return;
   std::vector<SoundEvent> sounds;
-  for (const PieceEvent& event : events) sounds.push_back(heard(event, camera));
+  for (const PieceEvent& event : events)
+    if (is_heard(event.kind)) sounds.push_back(heard(event, camera));
   if (speaker_ && !sounds.empty()) speaker_->play(sounds);
   if (!file_) return;
   write_until(now_s);

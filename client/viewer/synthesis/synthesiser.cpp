@@ -28,11 +28,10 @@ float strength_of(const Blow& blow) {
 bool is_sound(const SoundEvent& event) {
   const auto within = [](float number, float least, float most) { return number >= least && number <= most; };
   constexpr float huge = 1e12F;
-  return event.kind <= PieceEventKind::settle && within(event.size_m, 1e-3F, 1e4F) &&
-         within(event.mass_kg, 1e-3F, huge) && within(event.impulse_n_s, 1e-6F, huge) &&
-         within(event.pitch, 0.05F, 20.0F) && within(event.damping_s, 0.005F, 5.0F) &&
-         within(event.noise, 0.0F, 1.0F) && within(event.distance_m, 0.0F, huge) &&
-         within(event.side, -1.0F, 1.0F);
+  return is_heard(event.kind) && within(event.size_m, 1e-3F, 1e4F) && within(event.mass_kg, 1e-3F, huge) &&
+         within(event.impulse_n_s, 1e-6F, huge) && within(event.pitch, 0.05F, 20.0F) &&
+         within(event.damping_s, 0.005F, 5.0F) && within(event.noise, 0.0F, 1.0F) &&
+         within(event.distance_m, 0.0F, huge) && within(event.side, -1.0F, 1.0F);
 }
 
 bool is_near(const SoundEvent& a, const SoundEvent& b) {

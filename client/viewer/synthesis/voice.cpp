@@ -62,6 +62,17 @@ constexpr Manner manner_of(PieceEventKind kind) {
       return {1.0F, 0.35F, 0.25F, 0.5F, 0.3F, 0.06F, 0.35F};
     case PieceEventKind::settle:
       return {0.6F, 0.45F, 0.0F, 0.25F, 0.35F, 0.05F, 0.3F};
+    case PieceEventKind::thud:  // of cues: a layer each, with a little of the others
+      return {1.0F, 0.9F, 0.05F, 0.06F, 0.0F, 0.02F, 0.1F};
+    case PieceEventKind::snap:
+      return {1.0F, 0.1F, 0.1F, 0.9F, 0.1F, 0.05F, 0.2F};
+    case PieceEventKind::ring:
+      return {1.0F, 0.01F, 1.0F, 0.01F, 0.0F, 0.01F, 0.1F};
+    case PieceEventKind::rattle:
+      return {0.8F, 0.04F, 0.0F, 0.03F, 0.9F, 0.02F, 0.45F};
+    case PieceEventKind::dust:
+    case PieceEventKind::sparks:
+      break;  // seen alone
   }
   return {};
 }

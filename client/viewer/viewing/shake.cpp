@@ -26,7 +26,7 @@ float wave(double now_s, double rate_hz, double offset) {
 }
 
 float strength_of(const PieceEvent& event, glm::vec3 eye_m) {
-  if (event.kind == PieceEventKind::settle || event.mass_kg <= 0.0F) return 0.0F;
+  if (event.kind == PieceEventKind::settle || is_cue(event.kind) || event.mass_kg <= 0.0F) return 0.0F;
   const float energy_j = 0.5F * event.impulse_n_s * event.impulse_n_s / event.mass_kg;
   const float away = glm::distance(event.place_m, eye_m) / half_way_m;
   return std::sqrt(energy_j / full_energy_j) / (1.0F + away * away);

@@ -123,7 +123,10 @@ Result<Image> Viewing::picture(double now_s, int width, int height) {
   }
   // Who only looks on is no part of the world.
   view->renderer().set_limbs(session.figures(now_s).limbs(camera.eye_m, {}, !options.overlay.shown));
-  return view->renderer().draw_image(*view->methods().shown(), camera, width, height, lines);
+  Result<Image> image = view->renderer().draw_image(*view->methods().shown(), camera, width, height, lines);
+  if (image && session.mirror() != nullptr)
+    painter_.paint(*image, session.mirror()->signs(), sign_moment(now_s), camera);
+  return image;
 }
 
 Result<void> Viewing::shoot(const ScreenshotOrder& order, double now_s) {

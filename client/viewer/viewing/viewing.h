@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "client/viewer/signs/sign_painter.h"
 #include "client/viewer/sound/sounds.h"
 #include "client/viewer/viewing/options.h"
 #include "client/viewer/viewing/visit.h"
@@ -23,7 +24,8 @@ class Viewing : public Visit {
   void play_sound(bool on);
   /// Takes the screenshots that are due.
   Result<void> shoot_due(double now_s);
-  /// The picture of this moment, of --size or of so many pixels; with --overlay, all of the overlay in it.
+  /// The picture of this moment, of --size or of so many pixels, with a game's signs; with --overlay, all of
+  /// the overlay in it.
   Result<Image> picture(double now_s) { return picture(now_s, options.width, options.height); }
   Result<Image> picture(double now_s, int width, int height);
   /// Writes the trace, and ends the file of sound, if they were asked for.
@@ -42,6 +44,7 @@ class Viewing : public Visit {
   void tell_content_faults();
 
   Sounds sounds_;
+  SignPainter painter_;
   std::string told_fault_;  ///< of the server's content
 };
 

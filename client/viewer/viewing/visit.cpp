@@ -3,6 +3,8 @@
 #include <glm/trigonometric.hpp>
 #include <utility>
 
+#include "client/viewer/base/limits.h"
+#include "client/viewer/events/cue_event.h"
 #include "client/viewer/session/region_lines.h"
 
 namespace scree {
@@ -82,7 +84,9 @@ Result<void> Visit::step(double now_s) {
     dust_.clear();
   }
   events_.clear();
-  if (session.mirror() != nullptr) follow_pieces(now_s);
+  if (session.mirror() != nullptr) follow_pieces(step.cues, now_s);
+  if (hears_) heard_.insert(heard_.end(), step.heard.begin(), step.heard.end());
+  while (heard_.size() > limits::messages_heard_max) heard_.pop_front();
   const TraceSpan span(trace.get(), "viewer", "update");
   TRY(view->follow(step, session, camera, now_s));
   if (session.mirror() == nullptr) return {};
@@ -94,10 +98,29 @@ Result<void> Visit::step(double now_s) {
   return {};
 }
 
+std::deque<ChannelData> Visit::drain_heard() {
+  hears_ = true;
+  return std::exchange(heard_, {});
+}
+
+/// In a replay, Sign::until is a tick of the recording.
+SignMoment Visit::sign_moment(double now_s) {
+  const double rate_hz = session.tick_rate_hz();
+  if (session.is_replay() && session.timeline().is_known())
+    return {session.timeline().moment(now_s), rate_hz};
+  return {session.mirror() == nullptr ? 0.0 : static_cast<double>(session.mirror()->tick()), rate_hz};
+}
+
+std::vector<ShownSign> Visit::signs(float aspect, double now_s) {
+  if (session.mirror() == nullptr || session.mirror()->signs().empty()) return {};
+  return shown_signs(session.mirror()->signs(), sign_moment(now_s), camera, aspect);
+}
+
 /// What they do is heard and seen.
-void Visit::follow_pieces(double now_s) {
+void Visit::follow_pieces(const std::vector<Cue>& cues, double now_s) {
   if (!listens_ && !particles_ && !shakes_) return;
   events_ = piece_events_.step(session.scene(now_s), now_s, session.palette());
+  for (const Cue& cue : cues) events_.push_back(event_of(cue, session.palette()));
   if (shakes_) shake_.add(events_, camera.eye_m, now_s);
   if (!particles_) return;
   dust_.add(events_, now_s);

@@ -2,6 +2,7 @@
 // drawing and a page have in common. Needs the GL context current.
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "client/viewer/session/overlay.h"
 #include "client/viewer/session/view.h"
 #include "client/viewer/session/viewer_session.h"
+#include "client/viewer/signs/shown_signs.h"
 #include "client/viewer/viewing/auto_quality.h"
 #include "client/viewer/viewing/shake.h"
 #include "client/viewer/viewing/tool_preview.h"
@@ -36,7 +38,14 @@ class Visit {
 
   /// Takes in messages, begins work and shows finished work.
   Result<void> step(double now_s);
-  /// What pieces did in the last step; nothing while neither dust nor listen() asks for it.
+  /// What a game's signs show now, in a picture of that shape.
+  std::vector<ShownSign> signs(float aspect, double now_s);
+  SignMoment sign_moment(double now_s);
+  /// What a game's rules had for this program since the last call; takes it. Nothing is kept before the first
+  /// call, and at most limits::messages_heard_max: then the oldest are dropped.
+  std::deque<ChannelData> drain_heard();
+  /// What pieces did in the last step, and a game's cues; nothing while neither dust nor listen() asks for
+  /// it.
   const std::vector<PieceEvent>& events() const { return events_; }
   void listen(bool on) { listens_ = on; }
 
@@ -76,12 +85,14 @@ class Visit {
 
  private:
   void stand_at_spawn();
-  void follow_pieces(double now_s);
+  void follow_pieces(const std::vector<Cue>& cues, double now_s);
 
   ToolPreview preview_;
   PieceEventDetector piece_events_;
   Dust dust_;
   std::vector<PieceEvent> events_;
+  std::deque<ChannelData> heard_;
+  bool hears_ = false;  ///< drain_heard() is called
   bool listens_ = false;
   bool particles_;
   bool details_;

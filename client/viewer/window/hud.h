@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "client/viewer/signs/shown_signs.h"
 #include "client/viewer/viewing/hud_facts.h"
 #include "client/viewer/viewing/settings.h"
 #include "client/viewer/viewing/tool_preview.h"
@@ -73,6 +74,8 @@ class Hud {
   /// The persons' names, over their figures in the picture, but for one through whose eye one looks.
   void names(const Figures& figures, const glm::mat4& view_projection,
              std::optional<uint64_t> looked_through = {});
+  /// What a game shows: lines and bars above, markers at their places. Nothing where there is none.
+  void signs(const std::vector<ShownSign>& shown);
   /// In the middle: the cross, and what became of the last strike.
   void crosshair(const HudFacts& facts);
   /// In the middle, over everything else, for mouse and keyboard.

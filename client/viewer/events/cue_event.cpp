@@ -1,0 +1,52 @@
+#include "client/viewer/events/cue_event.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace scree {
+namespace {
+
+/// Smaller is heard and seen as this.
+constexpr float cue_size_min_m = 0.02F;
+constexpr float cue_mass_min_kg = 0.01F;
+constexpr glm::vec3 glow{1.0F, 0.62F, 0.16F};
+
+PieceEventKind kind_of(CueKind kind) {
+  switch (kind) {
+    case CueKind::thud:
+      return PieceEventKind::thud;
+    case CueKind::crack:
+      return PieceEventKind::snap;
+    case CueKind::ring:
+      return PieceEventKind::ring;
+    case CueKind::rattle:
+      return PieceEventKind::rattle;
+    case CueKind::dust:
+      return PieceEventKind::dust;
+    case CueKind::sparks:
+      return PieceEventKind::sparks;
+  }
+  return PieceEventKind::thud;
+}
+
+}  // namespace
+
+PieceEvent event_of(const Cue& cue, const Palette& palette) {
+  const MaterialRow& row = palette.row_or_first(cue.material);
+  PieceEvent event;
+  event.kind = kind_of(cue.kind);
+  event.place_m = cue.place_m;
+  event.size_m = std::max(cue.size_m, cue_size_min_m);
+  event.material = cue.material;
+  event.mass_kg = std::max(row.density_kg_m3 * event.size_m * event.size_m * event.size_m, cue_mass_min_kg);
+  event.impulse_n_s = std::sqrt(2.0F * event.mass_kg * cue.energy_j);
+  event.sound = row.sound;
+  const auto& [red, green, blue] = row.look.colour;
+  if (cue.kind == CueKind::sparks)
+    event.dust = glow;
+  else if (cue.material != palette.ground.bulk)
+    event.dust = {red, green, blue};
+  return event;
+}
+
+}  // namespace scree
