@@ -1,6 +1,7 @@
 #include "client/web/bridge.h"
 
 #include <cmath>
+#include <deque>
 #include <emscripten/html5.h>
 #include <memory>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "client/viewer/base/camera_text.h"
 #include "client/viewer/synthesis/hearing.h"
+#include "client/viewer/synthesis/limits.h"
 #include "client/web/page_client.h"
 #include "client/web/page_state.h"
 #include "client/web/socket_bridge.h"
@@ -23,7 +25,9 @@ namespace {
 struct Page {
   std::unique_ptr<PageClient> client;
   std::string error;
-  std::string camera, asked, catalogue, state, names, marks;
+  std::string camera, asked, catalogue, state, names, signs, marks;
+  std::deque<ChannelData> waiting;
+  ChannelData heard;
   std::vector<SoundEvent> sounds;
 };
 
@@ -64,19 +68,6 @@ bool is_within(float value, float least, float most) {
 int set_number(float& value, float wanted, float least, float most) {
   if (!is_within(wanted, least, most)) return 0;
   value = wanted;
-  return 1;
-}
-
-int set_seeds(int seeds) {
-  if (seeds < 0 || seeds > static_cast<int>(tool_seeds_max)) return 0;
-  client().tool.seeds = static_cast<uint32_t>(seeds);
-  return 1;
-}
-
-int say(const std::string& line) {
-  const bool fits = !line.empty() && line.size() <= limits::line_bytes_max;
-  if (!fits || !client().visit().session.connected()) return 0;
-  client().visit().session.say(line);
   return 1;
 }
 
@@ -303,7 +294,9 @@ int scree_set_blast(float metres_per_second) {
 }
 
 int scree_set_seeds(int seeds) {
-  return set_seeds(seeds);
+  if (seeds < 0 || seeds > static_cast<int>(tool_seeds_max)) return 0;
+  client().tool.seeds = static_cast<uint32_t>(seeds);
+  return 1;
 }
 
 // ---- others
@@ -313,7 +306,33 @@ void scree_reconnect() {
 }
 
 int scree_say(const char* text) {
-  return say(text);
+  const std::string line = text;
+  const bool fits = !line.empty() && line.size() <= limits::line_bytes_max;
+  if (!fits || !client().visit().session.connected()) return 0;
+  client().visit().session.say(line);
+  return 1;
+}
+
+// ---- a game's rules
+
+int scree_send(const char* channel, const uint8_t* bytes, uint32_t count) {
+  return client().visit().session.send({channel, {bytes, bytes + count}}) ? 1 : 0;
+}
+
+uint32_t scree_heard() {
+  if (page().waiting.empty()) page().waiting = client().visit().drain_heard();
+  if (page().waiting.empty()) return 0;
+  page().heard = std::move(page().waiting.front());
+  page().waiting.pop_front();
+  return static_cast<uint32_t>(page().heard.bytes.size()) + 1;
+}
+
+const char* scree_heard_channel() {
+  return page().heard.channel.c_str();
+}
+
+const uint8_t* scree_heard_bytes() {
+  return page().heard.bytes.data();
 }
 
 // ---- sound
@@ -322,7 +341,9 @@ uint32_t scree_sounds() {
   Visit& visit = client().visit();
   visit.listen(true);
   page().sounds.clear();
-  for (const PieceEvent& event : visit.events()) page().sounds.push_back(heard(event, visit.camera));
+  for (const PieceEvent& event : visit.events())
+    if (is_heard(event.kind) && page().sounds.size() < limits::sound_events_max)
+      page().sounds.push_back(heard(event, visit.camera));
   return static_cast<uint32_t>(page().sounds.size() * sizeof(SoundEvent));
 }
 
@@ -363,6 +384,11 @@ const char* scree_state() {
 const char* scree_names() {
   page().names = names_text(client());
   return page().names.c_str();
+}
+
+const char* scree_signs() {
+  page().signs = signs_text(client());
+  return page().signs.c_str();
 }
 
 const char* scree_marks() {

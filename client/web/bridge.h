@@ -143,6 +143,18 @@ void scree_reconnect();
 /// A line to all persons. 0: it is empty, too long (limits.line_bytes_max), or there is no connection.
 int scree_say(const char* text);
 
+// ---- a game's rules
+
+/// A message to the server's rules: a channel, 1 to 32 bytes of text, and at most
+/// limits::channel_data_bytes_max bytes. 0: it is none, or there is no connection.
+int scree_send(const char* channel, const uint8_t* bytes, uint32_t count);
+/// Takes the next message that the rules have for this page, as scree_heard_channel() and
+/// scree_heard_bytes() give it: its bytes and one; 0: there is none. After the first call, at most
+/// limits::messages_heard_max wait.
+uint32_t scree_heard();
+const char* scree_heard_channel();
+const uint8_t* scree_heard_bytes();
+
 // ---- sound
 
 /// What there is to hear of the last frame, for sound.wasm (sound_module.cpp): how many bytes, and then
@@ -213,6 +225,12 @@ const char* scree_state();
 /// Other persons within the picture, every frame if wanted: [{"session", "name", "colour": "#rrggbb", "x",
 /// "y" (parts of the width and height, from the upper left), "metres"}].
 const char* scree_names();
+/// What a game's signs show, every frame if wanted: a line of text each, of ten fields with tabs between
+/// them: 0 (a line), 1 (a bar) or 2 (a marker); "#rrggbb"; a bar's share, 0 to 1; of a marker x and y as in
+/// scree_names(), its opacity, and where it lies from the middle, to the right and down, 0 and 0 within the
+/// picture; its name; its words. Lines and bars come first, in order; markers the farthest first. "":
+/// nothing.
+const char* scree_signs();
 /// A replay's events, counted in columns of equal time: {"first" (column 0 begins after this tick),
 /// "ticks_per_column", "read_to" (up to this tick the recording has been looked through), "marks": [{"kind",
 /// "column", "count"}]}.

@@ -312,6 +312,24 @@ std::string names_text(PageClient& client) {
   return text_of(names);
 }
 
+/// By tabs and line feeds, which no text of a sign has: JSON would cost a page more to fetch.
+std::string signs_text(PageClient& client) {
+  std::string text;
+  for (const ShownSign& shown : client.visit().signs(client.aspect(), steady_now_s())) {
+    const Sign& sign = shown.sign;
+    const MarkerPlace place = shown.marker.value_or(MarkerPlace{});
+    const glm::vec2 way = place.way.value_or(glm::vec2(0.0F));
+    const auto number = [](float value) { return static_cast<double>(value); };
+    char numbers[128];
+    std::snprintf(numbers, sizeof numbers, "%d\t#%02x%02x%02x\t%.4f\t%.4f\t%.4f\t%.2f\t%.2f\t%.2f\t",
+                  static_cast<int>(sign.kind), sign.colour[0], sign.colour[1], sign.colour[2],
+                  number(sign.share), number(place.at.x), number(place.at.y), number(place.opacity),
+                  number(way.x), number(way.y));
+    text += numbers + sign.name + '\t' + shown.words + '\n';
+  }
+  return text;
+}
+
 std::string marks_text(PageClient& client) {
   const MarksMessage& told = client.visit().session.timeline().marks();
   Json marks = Json::array();

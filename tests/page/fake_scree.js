@@ -58,14 +58,14 @@ const marks = { first: 0, ticks_per_column: 4, read_to: 3840, marks: [] };
   for (let column = 7 * row; column < 960; column += 5 + 13 * row) marks.marks.push({ kind, column, count: 1 + column % (row + 2) });
 });
 
-const fake = { state, replay, calls: [], wish: 1, names: [], asked: [], frame: () => 1, begin: 0 };
+const fake = { state, replay, calls: [], wish: 1, names: [], signs: '', heard: [], asked: [], frame: () => 1, begin: 0 };
 globalThis.fake = fake;
 const start = new URLSearchParams(location.search).get('fake');
 if (start) Object.assign(fake, JSON.parse(start));
 if (fake.replays) fake.state = replay;
 
 const texts = {
-  state: () => JSON.stringify(fake.state), catalogue: () => JSON.stringify(catalogue), names: () => JSON.stringify(fake.names),
+  state: () => JSON.stringify(fake.state), catalogue: () => JSON.stringify(catalogue), names: () => JSON.stringify(fake.names), signs: () => fake.signs,
   marks: () => JSON.stringify(marks), camera: () => fake.state.camera, error: () => 'no reason at all', asked: () => JSON.stringify(fake.asked.splice(0)),
 };
 

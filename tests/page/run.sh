@@ -9,7 +9,7 @@ if ! cmp -s "$here/package-lock.json" "$folder/node_modules/.installed"; then
   echo "The modules of the page's tests are not installed in $folder: ./scree setup --web, then ./scree test, installs them." >&2
   exit 77
 fi
-if [[ $program =~ ^(session|proxy|first|keyboard|sound)_test\.js$ && ! -e ${SCREE_DIST:-}/index.html ]]; then
+if [[ $program =~ ^(session|proxy|first|keyboard|signs|sound)_test\.js$ && ! -e ${SCREE_DIST:-}/index.html ]]; then
   echo "There is no page in ${SCREE_DIST:-SCREE_DIST}: ./scree web builds it." >&2
   exit 77
 fi

@@ -18,12 +18,12 @@ function start(name, options, stdio) {
   return child;
 }
 
-/** A server with the page; `port` 0: a free one. */
-export async function host(options, port = 0) {
-  const child = start('scree-server', ['--port', String(port), '--web', DIST, ...options], ['ignore', 'pipe', 'ignore']);
+/** A server with the page; `port` 0: a free one. `program`: another one that takes the server's options. */
+export async function host(options, port = 0, program = 'scree-server') {
+  const child = start(program, ['--port', String(port), '--web', DIST, ...options], ['ignore', 'pipe', 'ignore']);
   const ended = once(child, 'close');
   const first = once(createInterface({ input: child.stdout }), 'line', { signal: AbortSignal.timeout(START_MS) });
-  const [line] = await Promise.race([first, ended.then(() => { throw new Error(`scree-server ${options.join(' ')} did not start`); })]);
+  const [line] = await Promise.race([first, ended.then(() => { throw new Error(`${program} ${options.join(' ')} did not start`); })]);
   const { listening } = JSON.parse(line);
   return {
     port: listening, url: `http://127.0.0.1:${listening}/`,

@@ -5,6 +5,7 @@ import { test } from 'node:test';
 import { AddressBar, at_port, format, parse } from './page/address.js';
 import { Backoff } from './page/backoff.js';
 import { all, brief } from './page/figures.js';
+import { Game } from './page/game.js';
 import { STICK, TAP, Thumbs, tilt } from './page/gestures.js';
 import { terrain_part } from './page/gate.js';
 import { read_glb, read_model } from './page/glb.js';
@@ -15,6 +16,7 @@ import { pad_state } from './page/pad.js';
 import { picture_name } from './page/picture.js';
 import { Socket, ask_why, session_url, told_url, why_closed } from './page/socket.js';
 import { is_read_on_the_way, is_withheld, insist, token_to_send } from './page/secrets.js';
+import { read_signs } from './page/signs.js';
 import { points } from './page/spark.js';
 import { rows } from './page/help.js';
 import { aim_text, bar_parts, carried_text, materials_for } from './page/tools.js';
@@ -537,4 +539,33 @@ test('a hostile model throws its reason, and is shown by its parts', (context) =
   assert.equal(read_model(new Uint8Array(30)), null);
   assert.equal(said.mock.callCount(), 1);
   assert.ok(read_model(box_glb()) instanceof Uint8Array);
+});
+
+test('signs are read from their lines', () => {
+  assert.deepEqual(read_signs(''), []);
+  const [bar, marker] = read_signs('1\t#ff8040\t0.2500\t0.5000\t0.5000\t1.00\t0.00\t0.00\tscore\t12 of 40 t\n2\t#ffffff\t0.0000\t0.9660\t0.5000\t0.80\t1.00\t0.00\ttower\t\n');
+  assert.deepEqual(bar, { kind: 1, colour: '#ff8040', share: 0.25, x: 0.5, y: 0.5, opacity: 1, way: null, name: 'score', words: '12 of 40 t' });
+  assert.deepEqual(marker.way, [1, 0]);
+  assert.equal(marker.words, '');
+});
+
+test('scripts of a game hear what comes, and send bytes', () => {
+  const waiting = [{ channel: 'shop', bytes: new Uint8Array([1]) }, { channel: 'shop', bytes: new Uint8Array([2]) }], sent = [];
+  const client = { take_heard: () => waiting.shift() ?? null, send: (channel, bytes) => sent.push([channel, [...bytes]]) > 0 };
+  const game = new Game(client), heard = [];
+  game.step();
+  assert.equal(waiting.length, 2, 'nobody listens: the client keeps them');
+  const stop = game.on('message', (channel, bytes) => heard.push([channel, ...bytes]));
+  game.step();
+  assert.deepEqual(heard, [['shop', 1], ['shop', 2]]);
+  stop();
+  waiting.push({ channel: 'shop', bytes: new Uint8Array([3]) });
+  game.step();
+  assert.equal(heard.length, 2);
+  assert.equal(game.send('shop', 'ü'), true);
+  game.send('shop', new Uint16Array([0x0102]).buffer);
+  game.send('shop', new DataView(new Uint8Array([7, 8, 9]).buffer, 1, 1));
+  assert.deepEqual(sent, [['shop', [0xc3, 0xbc]], ['shop', [2, 1]], ['shop', [8]]]);
+  assert.throws(() => game.on('else', () => {}), TypeError);
+  assert.throws(() => game.send('shop', 7), TypeError);
 });

@@ -94,8 +94,27 @@ export class Client {
   speed(factor) { return this.#number('replay_speed', factor) !== 0; }
   seek(tick) { this.#number('replay_seek', tick); }
 
+  /** Bytes to the server's rules; false: they are too many, or there is no connection. */
+  send(channel, bytes) {
+    const place = this.#wasm._malloc(Math.max(bytes.length, 1));
+    if (!place) return false;
+    this.#wasm.HEAPU8.set(bytes, place);
+    const sent = this.#wasm.ccall('scree_send', 'number', ['string', 'number', 'number'], [channel, place, bytes.length]);
+    this.#wasm._free(place);
+    return sent !== 0;
+  }
+  /** The next message of the rules, {channel, bytes}, as a copy; null: none. */
+  take_heard() {
+    const length = this.#number('heard') - 1;
+    if (length < 0) return null;
+    const place = this.#number('heard_bytes');
+    return { channel: this.#text('heard_channel'), bytes: this.#wasm.HEAPU8.slice(place, place + length) };
+  }
+
   catalogue() { return JSON.parse(this.#text('catalogue')); }
   state() { return JSON.parse(this.#text('state')); }
   names() { return JSON.parse(this.#text('names')); }
+  /** As text; signs.js reads it. */
+  signs() { return this.#text('signs'); }
   marks() { return JSON.parse(this.#text('marks')); }
 }

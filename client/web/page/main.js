@@ -5,6 +5,7 @@ import { Client, fetch_wasm } from './client.js';
 import { Cross } from './cross.js';
 import { $, write } from './dom.js';
 import { figures_page, show_brief } from './figures.js';
+import { Game } from './game.js';
 import { Gate, terrain_part } from './gate.js';
 import { help_page } from './help.js';
 import { listen } from './keyboard.js';
@@ -17,6 +18,7 @@ import { Panel } from './panel.js';
 import { draw_names, people_page, Talk } from './people.js';
 import { save_picture } from './picture.js';
 import { is_withheld, token_to_send } from './secrets.js';
+import { Signs } from './signs.js';
 import { Socket, session_url } from './socket.js';
 import { Timeline } from './timeline.js';
 import { tool_page, Tools } from './tools.js';
@@ -57,6 +59,8 @@ class Page {
   #sound = null;
   #sound_comes = null;
   #cross = new Cross();
+  #signs = new Signs();
+  #game;
   #mouse;
   #touch;
   #address;
@@ -84,8 +88,13 @@ class Page {
     this.#introduce();
     this.#make_panels();
     this.#listen();
-    // For a browser's console, and for tests.
-    globalThis.scree = { state: () => client.state(), camera: (text) => client.set('camera', text), sound: () => this.#sound?.peak() ?? -1 };
+    this.#game = new Game(client);
+    // For scripts of a game (docs/browser.md), for a browser's console, and for tests.
+    globalThis.scree = {
+      on: (event, listener) => this.#game.on(event, listener), send: (channel, data) => this.#game.send(channel, data),
+      state: () => client.state(), camera: (text) => client.set('camera', text), sound: () => this.#sound?.peak() ?? -1,
+    };
+    dispatchEvent(new Event('scree'));
     requestAnimationFrame((now_ms) => this.#frame(now_ms));
     setInterval(() => { if (document.hidden) this.#step(performance.now()); }, HIDDEN_MS);
   }
@@ -288,6 +297,8 @@ class Page {
     this.#socket.step();
     for (const action of this.#client.asked()) this.#act(action);
     this.#draw_names();
+    this.#signs.show(this.#client.signs(), canvas.clientWidth, canvas.clientHeight);
+    this.#game.step();
     if (now_ms - this.#panels_ms < PANELS_MS) return;
     this.#panels_ms = now_ms;
     this.#follow(this.#client.state(), now_ms);
