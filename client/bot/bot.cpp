@@ -62,6 +62,7 @@ tl::expected<void, ConnectionEnd> Bot::connect() {
   repairs_asked_ = 0;
   ++report_.connections;
   stand_on_ground();
+  for (const ChannelData& data : config_.says) client_.send(ChannelMessage{data});
   log("connected", fmt::format("connected to {} at tick {} as {}", report_.server, report_.welcome.tick,
                                name_of(report_.welcome.role)));
   return {};
@@ -158,6 +159,7 @@ void Bot::receive(const Client::Applied& applied) {
                         [&](const StatusMessage& status) { receive_status(status); },
                         [](const auto&) {}},  // the mirror has applied it
              received.message);
+  receive_rules(received.message);
 }
 
 void Bot::receive_frame(const FrameMessage& frame, Clock::time_point arrived) {
@@ -221,7 +223,8 @@ void Bot::receive_status(const StatusMessage& status) {
 }
 
 bool Bot::finished() const {
-  const bool handshake_only = config_.carves + config_.digs + config_.places + config_.walks == 0 &&
+  const bool handshake_only = config_.hears_s == 0.0 &&
+                              config_.carves + config_.digs + config_.places + config_.walks == 0 &&
                               !config_.linger && !config_.check_hash;
   return scripted_work_done() && (handshake_only || compared_);
 }
@@ -262,6 +265,7 @@ BotReport Bot::report() const {
   report.bytes_sent += client_.counters().sent_bytes;
   report.pieces_alive = mirror.pieces().size();
   report.chunks_held = mirror.held_chunks().size();
+  report.signs = mirror.signs();
   for (const MaterialMass& one : mirror.carried())
     report.carried[mirror.palette()->row_or_first(one.material).name] += one.mass;
   const double seconds = ms_between(first_frame_at_, last_frame_at_) / 1000.0;

@@ -26,10 +26,12 @@
 namespace scree {
 
 struct BotConfig : ServerEndpoint {
-  uint32_t carves = 20;  ///< 0: the bot ends after the handshake and one frame
-  uint32_t digs = 0;     ///< after the carves
-  uint32_t places = 0;   ///< after the digs, out of what the bot carries
-  uint32_t walks = 0;    ///< on foot, beside all of these; 0: the bot flies
+  uint32_t carves = 20;           ///< 0: the bot ends after the handshake and one frame
+  uint32_t digs = 0;              ///< after the carves
+  uint32_t places = 0;            ///< after the digs, out of what the bot carries
+  uint32_t walks = 0;             ///< on foot, beside all of these; 0: the bot flies
+  std::vector<ChannelData> says;  ///< to the server's rules, once it has joined; at each connection
+  double hears_s = 0.0;           ///< it stays so long for what the rules have for it
   uint64_t random_seed = 1;
   double rate_hz = 2.0;  ///< carves, digs and places a second; 0: as fast as replies come
   CarverConfig carver;
@@ -86,6 +88,7 @@ class Bot {
   void receive_reply(const ReplyMessage& reply, Clock::time_point arrived);
   void receive_frame(const FrameMessage& frame, Clock::time_point arrived);
   void receive_status(const StatusMessage& status);
+  void receive_rules(const ServerMessage& message);
   Result<bool> knows_paint() const;
   void ask(Clock::time_point now);
   std::optional<Kind> next_kind() const;
@@ -104,7 +107,10 @@ class Bot {
   void walk(Clock::time_point now);
   bool walked() const { return config_.walks == 0 || (walk_ && walk_->is_over()); }
   bool all_done() const { return first_frame_ != 0 && walked() && all_asked() && requests_.empty(); }
-  bool scripted_work_done() const { return all_done() && (!config_.linger || report_.settled); }
+  bool heard_enough() const;
+  bool scripted_work_done() const {
+    return all_done() && heard_enough() && (!config_.linger || report_.settled);
+  }
   void log(std::string_view kind, const std::string& line);
 
   BotConfig config_;

@@ -27,7 +27,8 @@ std::vector<std::string> names_of() {
 struct Words {
   std::string shape{name_of(CarverConfig{}.shape)};
   std::string pattern{name_of(usual_pattern)};
-  std::vector<float> centre_m{};  ///< empty: in the view of the world's spawn
+  std::vector<std::string> messages{};  ///< channel and text of each
+  std::vector<float> centre_m{};        ///< empty: in the view of the world's spawn
 };
 
 void add_interest(CLI::App& app, BotConfig& bot) {
@@ -120,6 +121,20 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
       ->check([](const std::string& name) { return name.empty() ? "must not be empty" : ""; }, "");
 }
 
+/// Channel and text, in turns.
+void add_rules(CLI::App& app, BotConfig& bot, Words& words) {
+  app.add_option("--message", words.messages,
+                 "CHANNEL TEXT: a message for the server's rules, once the bot has joined; may be given more "
+                 "than once")
+      ->expected(2)
+      ->take_all();
+  bounded(app.add_option("--hear", bot.hears_s,
+                         "seconds for which the bot stays to get what the rules show and tell"),
+          {0.0, 86400.0})
+      ->envname("SCREE_HEAR")
+      ->capture_default_str();
+}
+
 void add_ending(CLI::App& app, BotOptions& options) {
   BotConfig& bot = options.bot;
   app.add_flag("--linger", bot.linger, "wait until every piece has merged and the terrain is at rest")
@@ -138,12 +153,19 @@ void add_ending(CLI::App& app, BotOptions& options) {
 }
 
 /// Derives the rest of the configuration from the words.
-void complete(BotOptions& options, const Words& words) {
+Result<void> complete(BotOptions& options, const Words& words) {
+  for (size_t i = 0; i + 1 < words.messages.size(); i += 2) {
+    const std::string& text = words.messages[i + 1];
+    ChannelData data{words.messages[i], {text.begin(), text.end()}};
+    if (const auto valid = validate(data); !valid) return fail("--message: " + valid.error().message);
+    options.bot.says.push_back(std::move(data));
+  }
   CarverConfig& carver = options.bot.carver;
   carver.shape = *kind_named<ShapeKind>(words.shape);       // one of bot_shapes
   carver.pattern = kind_named<SeedPattern>(words.pattern);  // none: both
   options.bot.at_spawn = words.centre_m.empty();
   if (!options.bot.at_spawn) carver.centre_m = {words.centre_m[0], 0.0F, words.centre_m[1]};
+  return {};
 }
 
 }  // namespace
@@ -158,6 +180,7 @@ std::variant<BotOptions, int> parse_bot_options(int argc, char** argv) {
   add_interest(app, options.bot);
   add_carving(app, options.bot, words);
   add_moving(app, options.bot);
+  add_rules(app, options.bot, words);
   add_ending(app, options);
   try {
     app.parse(argc, argv);
@@ -170,7 +193,10 @@ std::variant<BotOptions, int> parse_bot_options(int argc, char** argv) {
   }
   cache.complete();
   if (const auto folder = cache.try_folder(); !folder) options.warning = folder.error().message;
-  complete(options, words);
+  if (const auto completed = complete(options, words); !completed) {
+    std::fprintf(stderr, "scree-bot: error: %s\n", completed.error().message.c_str());
+    return exit_usage;
+  }
   return options;
 }
 

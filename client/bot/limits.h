@@ -50,6 +50,12 @@ inline constexpr int bot_looks_max = 16;
 /// empty.
 inline constexpr float bot_place_min_m = 0.25F;
 
+/// Messages of a game's rules that a report has. Above: they are counted alone.
+inline constexpr size_t bot_heard_max = 256;
+
+/// Bytes of such a message that the log has. Above: it is cut.
+inline constexpr size_t bot_heard_shown_bytes = 200;
+
 /// Letters by which the name of a material may differ from the one that is proposed. Above: none is.
 inline constexpr size_t bot_mistyped_max = 2;
 

@@ -76,6 +76,28 @@ Json walks(const WalkReport& walks) {
           {"depth_worst_m", walks.depth_worst_m}};
 }
 
+Json json_of(const Sign& sign) {
+  Json json{{"name", sign.name}, {"kind", name_of(sign.kind)}, {"text", sign.text}};
+  if (sign.kind == SignKind::bar) json["share"] = sign.share;
+  if (sign.kind == SignKind::marker)
+    json["place_m"] = Json::array({sign.place_m.x, sign.place_m.y, sign.place_m.z});
+  if (sign.until != 0) json["until"] = sign.until;
+  return json;
+}
+
+/// Bytes as text; what is none is replaced (to_json()).
+Json rules(const BotReport& report) {
+  Json signs = Json::array(), heard = Json::array();
+  for (const Sign& sign : report.signs) signs.push_back(json_of(sign));
+  for (const ChannelData& data : report.rules.heard)
+    heard.push_back({{"channel", data.channel}, {"data", std::string(data.bytes.begin(), data.bytes.end())}});
+  return {{"signs", signs},
+          {"sign_lists", report.rules.signs},
+          {"cues", report.rules.cues},
+          {"messages", report.rules.messages},
+          {"heard", heard}};
+}
+
 Json ledger(const StatusMessage& status) {
   const int64_t error = status.ledger_terrain + status.ledger_pieces + status.ledger_dust +
                         status.ledger_stored - status.ledger_poured;
@@ -134,6 +156,8 @@ std::string to_json(const BotReport& report) {
   if (report.places.asked > 0) json["places"] = moves(report.places, report);
   if (report.digs.asked > 0 || report.places.asked > 0) json["carried"] = carried(report);
   if (report.walks.inputs > 0 || report.walks.refused > 0) json["walks"] = walks(report.walks);
+  const RulesReport& told = report.rules;
+  if (told.signs + told.cues + told.messages > 0) json["rules"] = rules(report);
   json["pieces"] = {{"made", seen.pieces_made},
                     {"merged", seen.pieces_merged},
                     {"discarded", seen.operations.of<DiscardOperation>()},

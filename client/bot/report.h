@@ -62,6 +62,14 @@ struct WalkReport {
   float depth_worst_m = -1.0F;  ///< in rock, of the person as the server tells it
 };
 
+/// What a game's rules showed and told a bot.
+struct RulesReport {
+  uint64_t signs = 0;              ///< lists of signs
+  uint64_t cues = 0;               ///< sounds and puffs
+  uint64_t messages = 0;           ///< of channels
+  std::vector<ChannelData> heard;  ///< the first of them, at most limits::bot_heard_max
+};
+
 /// A bot's digs, or its places.
 struct MoveReport {
   uint32_t asked = 0;
@@ -94,7 +102,9 @@ struct BotReport {
   MoveReport digs, places;
   std::map<std::string, MassUnits> carried;  ///< in the own store, by material
   WalkReport walks;
-  MirrorCounters seen;  ///< over all connections
+  RulesReport rules;
+  std::vector<Sign> signs;  ///< as they are at the end
+  MirrorCounters seen;      ///< over all connections
   uint64_t pieces_alive = 0;
   uint64_t chunks_held = 0;
   BytesByKind bytes;
