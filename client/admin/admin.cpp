@@ -302,6 +302,11 @@ Result<AdminListMessage> list_region_masses(const AdminServer& server, const std
   return std::move(asked.first);
 }
 
+Result<std::string> control_rules(const AdminServer& server, const ControlRulesRequest& wish) {
+  auto asked = TRY(ask<AdminListMessage>(server, wish));
+  return std::move(asked.first.text);
+}
+
 Result<SpaceAnswer> ask_space(const AdminServer& server, const Question& question, int64_t as_of) {
   const SpaceBox bounds = bounds_of(question);
   const glm::dvec3 middle_m = 0.5 * (bounds.lo + bounds.hi);

@@ -132,6 +132,12 @@ std::string region_masses_json(const AdminListMessage& list, const std::vector<R
 std::string region_masses_lines(const AdminListMessage& list, const std::vector<Region>& regions,
                                 const WorldFacts& world);
 
+/// Controls the server's rules, and returns what they said: lines for people, of any bytes.
+Result<std::string> control_rules(const AdminServer& server, const ControlRulesRequest& wish);
+/// For a terminal: of a line with anything but clean text, all that is not printable ASCII is escaped.
+std::string rules_lines(const std::string& text);
+std::string rules_json(const std::string& text);
+
 /// An answer, and the tick that it is of.
 struct SpaceAnswer {
   Tick tick = 0;
