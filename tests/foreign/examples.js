@@ -4,12 +4,15 @@ import { readFileSync } from 'node:fs';
 
 import protobuf from 'protobufjs';
 
+import { gameInWords, timeLeft, unpackSign } from './game.js';
 import { brickHash } from './hashes.js';
 import { Reader, quaternionOf, unpackBricks, unpackCoords, unpackTransforms } from './packed.js';
 import { World } from './world.js';
 
 const [document, proto] = process.argv.slice(2);
-const ServerMessage = new protobuf.Root().loadSync(proto, { keepCase: true }).lookupType('scree.wire.ServerMessage');
+const root = new protobuf.Root().loadSync(proto, { keepCase: true });
+const ServerMessage = root.lookupType('scree.wire.ServerMessage');
+const ClientMessage = root.lookupType('scree.wire.ClientMessage');
 const wordsOf = (coord) => `(${coord.join(', ')})`;
 const hex = (number, digits) => '0x' + number.toString(16).padStart(digits, '0');
 
@@ -43,6 +46,20 @@ const decoders = {
   },
 };
 
+/** Those of a game, of either side, in words. Returns null for others. */
+function gameOf(kind, bytes) {
+  const message = (kind === 'server message' ? ServerMessage : ClientMessage).decode(bytes.subarray(4));
+  if (message.kind === 'signs') checkCountdown(unpackSign(message.signs.signs[0]));
+  return message.kind ? gameInWords(message.kind, message[message.kind]) : null;
+}
+
+/** The page's rule for the time that is left. */
+function checkCountdown(round) {
+  const shown = [0n, 1n, 60n, 8641n, 8999n, 9000n].map((tick) => timeLeft(round, tick, 60));
+  const stated = ['2:30', '2:30', '2:29', '0:06', '0:01', null];
+  if (JSON.stringify(shown) !== JSON.stringify(stated)) throw new Error(`a countdown shows ${shown} in place of ${stated}`);
+}
+
 /** The world to which a part of a chunk came, for the next one. */
 let unfinished = null;
 
@@ -61,17 +78,18 @@ function applied(bytes) {
 }
 
 const blocks = [...readFileSync(document, 'utf8').matchAll(/^```example (.+)\n([^]*?)^```$/gm)];
-const count = { decoded: 0, applied: 0 };
+const count = { decoded: 0, applied: 0, game: 0 };
 for (const [block, kind, content] of blocks) {
   const lines = content.trimEnd().split('\n');
   const digits = lines.filter((line) => line.startsWith('bytes: ')).map((line) => line.slice(7));
   const bytes = Uint8Array.from(digits.join(' ').split(' '), (byte) => parseInt(byte, 16));
   if (kind === 'server message') count.applied += applied(bytes) ? 1 : 0;
-  if (!(kind in decoders)) continue;
+  const game = kind === 'server message' || kind === 'client message' ? gameOf(kind, bytes) : null;
+  if (!game && !(kind in decoders)) continue;
   const stated = lines.filter((line) => !line.startsWith('bytes: ')).join('\n');
-  const got = decoders[kind](bytes).join('\n');
+  const got = (game ?? decoders[kind](bytes)).join('\n');
   if (got !== stated) throw new Error(`${block}\nis decoded here as\n${got}`);
-  count.decoded++;
+  count[game ? 'game' : 'decoded']++;
 }
 console.log(JSON.stringify(count));
-if (count.decoded < 10 || count.applied < 5) throw new Error('examples are missing');
+if (count.decoded < 10 || count.applied < 5 || count.game < 4) throw new Error('examples are missing');

@@ -114,6 +114,9 @@ async function lies() {
   red.look(away);
   red.send('cursor', { eye: away, aim: away });
   await red.refused('reach', 'dig', { shape: ball(beside(away, 0, -2, 0), 1) });
+  red.tell('shop', 'buy 1'); // nobody listens: skipped
+  await red.refused('role', 'rules', { forget: Buffer.from('score') });
+  same([red.game.signs, red.game.cues, red.game.heard], [[], [], []], 'a server without rules shows nothing');
   await red.refused('walk_invalid', 'stand', { place: away });
   await red.walk(hz / 4, {});
   near(apart(red.feet, before), 0, 1e-6, 'who lies stays in place');

@@ -3,6 +3,7 @@
 import { setTimeout as sleep } from 'node:timers/promises';
 
 import { Connection } from './connection.js';
+import { Game } from './game.js';
 import { unpackStoreMasses } from './packed.js';
 import { World, bigOf } from './world.js';
 
@@ -19,6 +20,7 @@ export class Player {
   own = null; // OwnPerson, as it was told last
   stores = null; // the last message, parsed: [{kind, number, masses}]
   regions = []; // as they came last
+  game = new Game(); // what the server's rules show and tell
   status = null;
   refusedInputs = new Map(); // the name of the refusal, by number
   #input = 0;
@@ -60,6 +62,11 @@ export class Player {
 
   send(kind, content) {
     this.connection.send(kind, content);
+  }
+
+  /** A message to the server's rules; a server without rules skips it. */
+  tell(channel, data) {
+    this.send('channel', { channel: Buffer.from(channel), data: Buffer.from(data) });
   }
 
   leave() {
@@ -171,7 +178,7 @@ export class Player {
       chunk: () => this.world.chunk(message),
       piece: () => this.world.piece(message),
       prop: () => this.world.prop(message),
-      reset: () => this.world.reset(),
+      reset: () => ((this.game.signs = []), this.world.reset()),
       reply: () => this.#answered(message),
       admin_list: () => this.#answered(message),
       answer: () => this.#answered({ ...message, request: message.query }),
@@ -180,7 +187,7 @@ export class Player {
       regions: () => (this.regions = message.regions),
       person_places: () => this.#personPlaces(message),
     };
-    handlers[kind]?.();
+    if (!this.game.receive(kind, message)) handlers[kind]?.();
     if (this.world.mismatched) this.#fail(`a check of tick ${this.world.mismatched.tick} failed`);
     for (const waiter of this.#waiting) {
       const value = waiter.holds();
