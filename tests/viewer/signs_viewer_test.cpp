@@ -20,7 +20,7 @@ namespace {
 class ViewerSigns : public testing::Test {
  protected:
   void SetUp() override {
-    const auto context = EglContext::create(false);
+    auto context = EglContext::create(false);
     ASSERT_TRUE(context) << context.error().message;
     pin_libraries();
     context_ = std::move(*context);
@@ -58,8 +58,10 @@ class ViewerSigns : public testing::Test {
     endpoint.port = server_->port();
     auto view = View::create(*method_named("mesh"), 12.0F);
     EXPECT_TRUE(view) << view.error().message;
+    VisitChoice choice;
+    choice.view_radius_m = 12.0F;
     auto made = std::make_unique<Visit>(std::make_unique<ServerConnector>(endpoint), SessionChoice{12.0F},
-                                        VisitChoice{.view_radius_m = 12.0F}, std::move(*view));
+                                        choice, std::move(*view));
     made->listen(true);
     static_cast<void>(made->drain_heard());
     const double until_s = steady_now_s() + 60.0;
@@ -93,8 +95,9 @@ TEST_F(ViewerSigns, screenshots_have_signs_where_a_game_shows_some_and_else_noth
       [](Visit& v) { return v.session.mirror() != nullptr && v.session.mirror()->signs().size() == 2; });
   EXPECT_EQ(visited->signs(1.0F, steady_now_s()).size(), 2U);
   const Image both = picture("both.png");
-  if (const char* const kept = std::getenv("SCREE_PICTURES"))
+  if (const char* const kept = std::getenv("SCREE_PICTURES")) {
     EXPECT_TRUE(write_png(std::string(kept) + "/viewer_signs.png", both));
+  }
   EXPECT_GT(differing_pixels(none, both, 12), 800U);
   act(RemoveSign{{}, "a"});
   act(RemoveSign{{}, "b"});
