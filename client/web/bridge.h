@@ -225,11 +225,13 @@ const char* scree_state();
 /// Other persons within the picture, every frame if wanted: [{"session", "name", "colour": "#rrggbb", "x",
 /// "y" (parts of the width and height, from the upper left), "metres"}].
 const char* scree_names();
-/// What a game's signs show, every frame if wanted: a line of text each, of ten fields with tabs between
-/// them: 0 (a line), 1 (a bar) or 2 (a marker); "#rrggbb"; a bar's share, 0 to 1; of a marker x and y as in
-/// scree_names(), its opacity, and where it lies from the middle, to the right and down, 0 and 0 within the
-/// picture; its name; its words. Lines and bars come first, in order; markers the farthest first. "":
-/// nothing.
+/// What a game's signs show, every frame if wanted: a line of text each, of ten fields with tabs between them.
+/// "": nothing. Lines and bars come first, in order; then markers, the farthest first. The fields are:
+///
+/// - 0 (a line), 1 (a bar) or 2 (a marker); "#rrggbb"; a bar's share, 0 to 1
+/// - x and y of a marker, as in scree_names(); its opacity
+/// - right and down: the way from the picture's middle to a marker that lies beside the picture, else 0 and 0
+/// - the name, and the words
 const char* scree_signs();
 /// A replay's events, counted in columns of equal time: {"first" (column 0 begins after this tick),
 /// "ticks_per_column", "read_to" (up to this tick the recording has been looked through), "marks": [{"kind",

@@ -6,7 +6,7 @@
 
 namespace scree {
 
-/// Of a cube of the cue's size and material that strikes with its energy.
+/// As if a cube of the cue's size and material struck with its energy.
 PieceEvent event_of(const Cue& cue, const Palette& palette);
 
 }  // namespace scree

@@ -167,7 +167,7 @@ void ViewerSession::apply(const Client::Applied& applied, double now_s, SessionS
   append(step.changes, applied.changes);
 }
 
-/// Of the frame that is shown; more than one screen can use are left out.
+/// For the frame that is shown; more than a frame can use are left out.
 void ViewerSession::note(const CuesMessage& cues, SessionStep& step) {
   for (const Cue& cue : cues.cues)
     if (step.cues.size() < limits::piece_events_per_step_max) step.cues.push_back(cue);
