@@ -19,7 +19,8 @@ export function unpackSign({ name, to, kind, text, share, place, colour, until, 
 
 /** Kinds of a later version make nothing. */
 export const unpackCues = ({ cues }) =>
-  cues.filter(({ kind }) => kind < CUE_KINDS.length).map((cue) => ({ ...cue, kind: CUE_KINDS[cue.kind], place: placeOf(cue.place) }));
+  cues.filter(({ kind }) => kind < CUE_KINDS.length)
+    .map(({ kind, place, size_m, energy_j, material }) => ({ kind: CUE_KINDS[kind], place: placeOf(place), size_m, energy_j, material }));
 
 export const unpackMessage = ({ channel, data }) => ({ channel: textOf(channel), data: Buffer.from(data) });
 
