@@ -30,6 +30,11 @@ std::vector<Bench> benches_to_k() {
        run_draw_bench,
        {},
        true},
+      {"edges",
+       "what sharp edges and settled stones cost: remeshing, rays, a flight by each quality, beside the same "
+       "without",
+       run_edges_bench,
+       {"remesh", "rays", "flight"}},
       {"fanout", "a storm seen by 100 to 3,000 viewers on this machine's cores: the age of their frames",
        run_fanout_bench},
       {"bodies", "crates, capsules and hulls beside broken rock: ticks, the same hashes, bits on the wire",

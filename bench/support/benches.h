@@ -13,6 +13,7 @@ BenchReport run_colliders_bench(const BenchOptions& options);
 BenchReport run_crowd_bench(const BenchOptions& options);
 BenchReport run_cutters_bench(const BenchOptions& options);
 BenchReport run_draw_bench(const BenchOptions& options);
+BenchReport run_edges_bench(const BenchOptions& options);
 BenchReport run_fanout_bench(const BenchOptions& options);
 BenchReport run_bodies_bench(const BenchOptions& options);
 BenchReport run_fights_bench(const BenchOptions& options);

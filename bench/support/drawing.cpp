@@ -82,6 +82,14 @@ Result<Image> Drawing::picture(int width, int height) {
   return stage_.renderer->draw_image(*method_, camera, width, height);
 }
 
+void Drawing::show(ScenePieces pieces) {
+  MirrorChanges changes;
+  for (const auto& [id, piece] : pieces_) changes.pieces_removed.push_back(id);
+  for (const auto& [id, piece] : pieces) changes.pieces_added.push_back(id);
+  pieces_ = std::move(pieces);
+  method_->changed(changes);
+}
+
 Result<std::unique_ptr<Stage>> stage_of(BenchReport& report, float view_radius_m) {
   Result<std::unique_ptr<Stage>> stage = Stage::create(view_radius_m);
   std::string driver = stage ? (*stage)->renderer->description() : "none: " + stage.error().message;

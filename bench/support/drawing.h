@@ -33,6 +33,8 @@ class Drawing {
   /// Time of a frame until the GPU has finished, milliseconds; the median of `frames`.
   Result<double> frame_ms(int width, int height, int frames);
   Result<Image> picture(int width, int height);
+  /// These pieces from now on, where they lie.
+  void show(ScenePieces pieces);
 
   Field& field() { return field_; }
   DrawMethod& method() { return *method_; }

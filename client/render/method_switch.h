@@ -36,6 +36,8 @@ class MethodSwitch {
 
   /// The pieces and stones of the last follow().
   const ScenePieces& pieces() const { return stones_.shown(); }
+  /// How many of them are stones.
+  size_t stones() const { return stones_.count(); }
 
   /// Null before the first world.
   DrawMethod* shown() { return shown_.method.get(); }

@@ -48,8 +48,10 @@ vec3 brick_gradient(uint entry, vec3 local) {
               brick_value(entry, local + h.yyx) - brick_value(entry, local - h.yyx));
 }
 
+#ifdef EDGES
+
 // What the planes at the corners of a cell say (shared/surface/face_plane.h): the largest and the smallest distance
-// from them, and their normals. No edge: all known ones are of one face.
+// from them, and their normals. No edge: there all are of one face, or say nothing together.
 struct CellFaces {
   bool edge;
   float most;
@@ -59,18 +61,28 @@ struct CellFaces {
   vec4 blended;  // mean normal by how near the corners are, w: the share of those that know a plane
 };
 
-const float face_edge_cosine = 0.94;
+// The normal's squared length tells whether a corner knows a plane, and whether the cell above it is an edge
+// (client/render/levels/plane_brick.h).
+const float edge_scale = 127.0 / 95.0;
+bool is_known(float square) { return square > 0.3; }
+bool is_edge(float square) { return square > 0.03 && square < 0.8; }
+
+ivec3 planes_slot(uint planes, vec3 local) {
+  ivec3 slot = ivec3(int(planes & 255u), int((planes >> 8u) & 255u), int((planes >> 16u) & 255u)) * corner_pitch;
+  return slot + clamp(ivec3(floor(local)), ivec3(0), ivec3(7)).zyx;
+}
 
 CellFaces faces_at(uint planes, vec3 local) {
-  ivec3 slot = ivec3(int(planes & 255u), int((planes >> 8u) & 255u), int((planes >> 16u) & 255u)) * corner_pitch;
-  ivec3 cell = clamp(ivec3(floor(local)), ivec3(0), ivec3(7));
-  vec3 f = local - vec3(cell);
+  ivec3 slot = planes_slot(planes, local);
+  vec3 f = local - clamp(floor(local), vec3(0.0), vec3(7.0));
   CellFaces faces = CellFaces(false, -100.0, 100.0, vec3(0.0), vec3(0.0), vec4(0.0));
-  vec3 first = vec3(0.0);
   for (int i = 0; i < 8; ++i) {
     ivec3 corner = ivec3(i >> 2, (i >> 1) & 1, i & 1);
-    vec4 plane = texelFetch(u_planes, slot + (cell + corner).zyx, 0);
-    if (dot(plane.xyz, plane.xyz) < 0.5) continue;
+    vec4 plane = texelFetch(u_planes, slot + corner.zyx, 0);
+    float square = dot(plane.xyz, plane.xyz);
+    if (i == 0) faces.edge = is_edge(square);
+    if (!is_known(square)) continue;
+    plane.xyz *= is_edge(square) ? edge_scale : 1.0;
     float away = plane.w * band + dot(plane.xyz, f - vec3(corner));
     if (away > faces.most) {
       faces.most = away;
@@ -80,33 +92,44 @@ CellFaces faces_at(uint planes, vec3 local) {
       faces.least = away;
       faces.least_normal = plane.xyz;
     }
-    if (first == vec3(0.0)) first = plane.xyz;
-    faces.edge = faces.edge || dot(first, plane.xyz) < face_edge_cosine;
     vec3 near = mix(1.0 - f, f, vec3(corner));
     faces.blended += vec4(plane.xyz, 1.0) * (near.x * near.y * near.z);
   }
   return faces;
 }
 
-// Where faces meet, the trilinear value is rounded: planes go on up to the edge, the largest where rock is convex, the
-// smallest where it is hollow.
-float sharpened(CellFaces faces, float smooth_value) {
-  if (!faces.edge) return smooth_value;
-  return smooth_value + min(0.0, faces.most - smooth_value) + max(0.0, faces.least - smooth_value);
-}
-
 // Farther from the surface than this no edge lies, but that of a wedge below 45 degrees.
 const float sharp_reach = 1.3;
 
+// Whether planes may say another distance there than the trilinear one.
+bool nears_edge(uvec4 entry, float smooth_value) { return entry.w != 0u && smooth_value < sharp_reach; }
+
+// Where faces meet, the trilinear value is rounded: planes go on up to the edge, the largest where rock is convex, the
+// smallest where it is hollow.
 float sharp_value(uvec4 entry, vec3 local, float smooth_value) {
-  if (entry.w == 0u || abs(smooth_value) > sharp_reach) return smooth_value;
-  return sharpened(faces_at(entry.w, local), smooth_value);
+  ivec3 slot = planes_slot(entry.w, local);
+  vec3 f = local - clamp(floor(local), vec3(0.0), vec3(7.0));
+  float most = -100.0, least = 100.0;
+  bool edge = false;
+  for (int i = 0; i < 8; ++i) {
+    ivec3 corner = ivec3(i >> 2, (i >> 1) & 1, i & 1);
+    vec4 plane = texelFetch(u_planes, slot + corner.zyx, 0);
+    float square = dot(plane.xyz, plane.xyz);
+    if (i == 0) edge = is_edge(square);
+    float away = plane.w * band + (is_edge(square) ? edge_scale : 1.0) * dot(plane.xyz, f - vec3(corner));
+    most = max(most, is_known(square) ? away : -100.0);
+    least = min(least, is_known(square) ? away : 100.0);
+  }
+  return edge ? clamp(smooth_value, least, most) : smooth_value;
 }
+
+#endif
 
 // The surface's own normal in a stored brick, not that of the rounded field beside an edge.
 vec3 brick_normal(uvec4 entry, vec3 local, vec3 otherwise) {
   vec3 slope = brick_gradient(entry.x, local);
   vec3 normal = dot(slope, slope) > 0.0 ? normalize(slope) : otherwise;
+#ifdef EDGES
   if (entry.w == 0u) return normal;
   CellFaces faces = faces_at(entry.w, local);
   float smooth_value = brick_value(entry.x, local);
@@ -114,7 +137,9 @@ vec3 brick_normal(uvec4 entry, vec3 local, vec3 otherwise) {
     if (faces.most < smooth_value + 0.06) return normalize(faces.most_normal);
     return faces.least > smooth_value - 0.06 ? normalize(faces.least_normal) : normal;
   }
-  return normalize(mix(normal, faces.blended.xyz / max(faces.blended.w, 0.01), faces.blended.w));
+  normal = normalize(mix(normal, faces.blended.xyz / max(faces.blended.w, 0.01), faces.blended.w));
+#endif
+  return normal;
 }
 
 // The field as generated, code / 127: what an entry says of it, `same` where nothing was edited.
@@ -189,7 +214,7 @@ struct Look {
   vec3 local;      // in its brick, voxels
   vec3 lo;         // of the empty box around, from the point, voxels
   vec3 hi;
-  float distance;  // of a stored brick: to the surface, voxels
+  float distance;  // of a stored brick: to the surface, voxels, its edges rounded
 };
 
 Look look(vec3 from_eye, int level) {
@@ -202,7 +227,7 @@ Look look(vec3 from_eye, int level) {
   found.distance = band;
   float bricks = 0.0;
   if (found.kind == kind_stored) {
-    found.distance = sharp_value(found.entry, found.local, brick_value(found.entry.x, found.local));
+    found.distance = brick_value(found.entry.x, found.local);
   } else {
     bricks = float(found.kind) - 1.0;
   }

@@ -13,38 +13,66 @@ vec3 inverse_of(vec3 direction) {
   return 1.0 / mix(direction, vec3(1e-7), lessThan(abs(direction), vec3(1e-7)));
 }
 
+// Whether planes of faces may say another distance there than the trilinear one.
+bool nears_edge(Look there) {
+#ifdef EDGES
+  return there.kind == kind_stored && nears_edge(there.entry, there.distance);
+#else
+  return false;
+#endif
+}
+
 // From `from` (metres from the eye) along a unit direction, until the surface is within half a footprint of a
-// pixel, which grows by `pixel` metres a metre.
+// pixel, which grows by `pixel` metres a metre. Planes are asked in a loop of their own, for a processor that draws carries
+// out both sides of a branch.
 Hit march(vec3 from, vec3 direction, float along, float pixel) {
   Hit hit;
   hit.found = false;
   hit.level = 0;
   vec3 inverse_direction = inverse_of(direction);
-  for (int i = 0; i < 256; ++i) {
-    vec3 p = from + direction * along;
-    hit.level = level_of(p, hit.level);
-    if (hit.level >= u_levels) break;
-    hit.there = look(p, hit.level);
-    uint kind = hit.there.kind;
-    if (kind == kind_unloaded) {
-      ++hit.level;
-      continue;
-    }
-    float per_m = u_voxels_per_m[hit.level];
-    if (kind == kind_solid) {
-      hit.found = true;
-      break;
-    }
-    if (kind == kind_stored) {
-      float close = max(0.02, 0.25 * pixel * along * per_m);
-      if (hit.there.distance < close) {
-        hit.found = true;
-        break;
+  int steps = 0;
+  bool goes_on = true;
+  while (goes_on) {
+    bool edge = false;
+    for (; steps < 256; ++steps) {
+      vec3 p = from + direction * along;
+      hit.level = level_of(p, hit.level);
+      if (hit.level >= u_levels) break;
+      hit.there = look(p, hit.level);
+      uint kind = hit.there.kind;
+      if (kind == kind_unloaded) {
+        ++hit.level;
+        continue;
       }
-      along += max(hit.there.distance * lipschitz, close) / per_m;
-    } else {
-      along += way_out(hit.there, inverse_direction) / per_m;
+      float per_m = u_voxels_per_m[hit.level];
+      if (kind == kind_stored) {
+        edge = nears_edge(hit.there);
+        float close = max(0.02, 0.25 * pixel * along * per_m);
+        hit.found = !edge && hit.there.distance < close;
+        if (edge || hit.found) break;
+        along += max(hit.there.distance * lipschitz, close) / per_m;
+      } else {
+        hit.found = kind == kind_solid;
+        if (hit.found) break;
+        along += way_out(hit.there, inverse_direction) / per_m;
+      }
     }
+    goes_on = edge;
+#ifdef EDGES
+    for (; edge && steps < 256; ++steps) {
+      float per_m = u_voxels_per_m[hit.level];
+      float close = max(0.02, 0.25 * pixel * along * per_m);
+      float distance = sharp_value(hit.there.entry, hit.there.local, hit.there.distance);
+      hit.found = distance < close;
+      if (hit.found) break;
+      along += max(distance * lipschitz, close) / per_m;
+      vec3 p = from + direction * along;
+      if (level_of(p, hit.level) != hit.level) break;
+      hit.there = look(p, hit.level);
+      edge = nears_edge(hit.there);
+    }
+    goes_on = goes_on && !hit.found && steps < 256;
+#endif
   }
   hit.along = along;
   return hit;
@@ -60,6 +88,7 @@ float free_way(vec3 direction, float slope) {
     if (level >= u_levels) return -1.0;
     Look found = look(p, level);
     if (found.kind == kind_unloaded || found.kind == kind_solid) break;
+    if (nears_edge(found)) break;
     float room = found.distance * lipschitz;
     if (found.kind != kind_stored) {
       vec3 nearest = min(-found.lo, found.hi);

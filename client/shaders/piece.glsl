@@ -41,6 +41,22 @@ struct PieceHit {
   vec3 in_brick;
 };
 
+// Looks at the piece; returns the trilinear distance, voxels, in empty bricks as far as the brick is.
+float look_at_piece(vec3 local, vec3 inverse_direction, inout PieceHit hit) {
+  hit.local = clamp(local, vec3(0.0), v_size);
+  vec3 at = min(floor(hit.local / brick), vec3(v_bricks.yzw - 1));
+  hit.entry = piece_entry_at(ivec3(at));
+  hit.in_brick = hit.local - at * brick;
+  uint kind = hit.entry.x >> 24u;
+  if (kind == kind_stored) return brick_value(hit.entry.x, hit.in_brick);
+  if (kind == kind_solid) {
+    hit.entry = uvec4(0u);
+    return -band;
+  }
+  vec3 far = max(-hit.in_brick * inverse_direction, (brick - hit.in_brick) * inverse_direction);
+  return (min(far.x, min(far.y, far.z)) + 0.004) / 0.9;
+}
+
 // From where the ray enters the box to its far side, where the fragment lies.
 PieceHit march_piece() {
   vec3 direction = u_viewpoint.w > 0.5 ? normalize(v_world - u_viewpoint.xyz) : -u_viewpoint.xyz;
@@ -51,27 +67,31 @@ PieceHit march_piece() {
   if (u_viewpoint.w > 0.5) along = max(along, -length(v_world - u_viewpoint.xyz) * u_voxels_per_m[0]);
   PieceHit hit;
   hit.found = false;
-  for (int i = 0; i < 96 && along < 0.0; ++i) {
-    hit.local = clamp(v_local + ahead * along, vec3(0.0), v_size);
-    vec3 at = min(floor(hit.local / brick), vec3(v_bricks.yzw - 1));
-    hit.entry = piece_entry_at(ivec3(at));
-    hit.in_brick = hit.local - at * brick;
-    uint kind = hit.entry.x >> 24u;
-    if (kind == kind_stored) {
-      float distance = sharp_value(hit.entry, hit.in_brick, brick_value(hit.entry.x, hit.in_brick));
-      if (distance < 0.02) {
-        hit.found = true;
-        break;
-      }
+  int steps = 0;
+  bool goes_on = along < 0.0;
+  // Planes are asked in a loop of their own (march.glsl).
+  while (goes_on) {
+    bool edge = false;
+    for (; steps < 96 && along < 0.0; ++steps) {
+      float distance = look_at_piece(v_local + ahead * along, inverse_direction, hit);
+#ifdef EDGES
+      edge = nears_edge(hit.entry, distance);
+#endif
+      hit.found = !edge && distance < 0.02;
+      if (edge || hit.found) break;
       along += max(distance * 0.9, 0.02);
-    } else if (kind == kind_solid) {
-      hit.entry = uvec4(0u);
-      hit.found = true;
-      break;
-    } else {
-      vec3 far = max(-hit.in_brick * inverse_direction, (brick - hit.in_brick) * inverse_direction);
-      along += min(far.x, min(far.y, far.z)) + 0.004;
     }
+#ifdef EDGES
+    for (; edge && steps < 96 && along < 0.0; ++steps) {
+      float distance = sharp_value(hit.entry, hit.in_brick, brick_value(hit.entry.x, hit.in_brick));
+      hit.found = distance < 0.02;
+      if (hit.found) break;
+      along += max(distance * 0.9, 0.02);
+      distance = look_at_piece(v_local + ahead * along, inverse_direction, hit);
+      edge = nears_edge(hit.entry, distance);
+    }
+#endif
+    goes_on = !hit.found && steps < 96 && along < 0.0;
   }
   hit.world = v_world + direction * (along / u_voxels_per_m[0]);
   return hit;

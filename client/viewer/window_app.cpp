@@ -270,7 +270,8 @@ Result<void> WindowApp::draw_hud(const FrameParts& parts, double now_s) {
     if (facts.lost && hud_.lost(facts)) viewing_.session.try_now();
     hud_.messages(facts, messages(now_s));
   }
-  if (window_.has_menu()) choose(hud_.menu(window_.menu()));
+  if (MenuKeys* menu = window_.menu())
+    choose(hud_.menu(*menu, words_before_the_end(!facts.carried.empty(), !viewing_.options.token.empty())));
   screen_.end();
   viewing_.show_particles(particles_);
   viewing_.show_details(details_);
@@ -300,7 +301,7 @@ Result<void> WindowApp::frame() {
   if (!window_.minimised()) {
     View& view = *viewing_.view;
     view.renderer().draw(view.methods().shown(), viewing_.shaken_camera(now_s), 0, window_.width(),
-                         window_.height(), viewing_.lines(tool_, overlay_, eye().person(), now_s));
+                         window_.height(), viewing_.lines(tool_, overlay_, eye().person(), now_s, !hidden_));
     parts.draw_ms = static_cast<float>(stopwatch.lap_ms());
     TRY(draw_hud(parts, now_s));
   }

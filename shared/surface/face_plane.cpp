@@ -17,7 +17,7 @@ constexpr int supporters_least = 10;
 /// Codes that a point may lie off the plane: a little more than two roundings.
 constexpr int16_t off_most = 1;
 /// A distance grows by a voxel in a voxel; steeper or flatter slopes mix faces.
-constexpr float steepness_error = 0.12F;
+constexpr float flattest = 0.88F * codes_per_voxel, steepest = 1.12F * codes_per_voxel;
 /// Rises of points that say no distance: no plane agrees with them.
 constexpr int16_t no_distance = 1 << 12;
 
@@ -38,7 +38,7 @@ constexpr PlaceTable make_place_table() {
 constexpr PlaceTable place_table = make_place_table();
 
 bool says_no_distance(Code code) {
-  return code == code_air || code == code_solid;
+  return (static_cast<int>(code == code_air) | static_cast<int>(code == code_solid)) != 0;
 }
 
 /// The codes' slope along an axis of that stride, from the side on which they bend less.
@@ -69,25 +69,29 @@ FacePlane face_plane_at(const Window& window, VoxelCoord point) {
   CHECK_DEBUG(window.box.covers(VoxelBox{point, point + VoxelCoord{1, 1, 1}}.grown(face_plane_reach)));
   const VoxelCoord size = window.box.size();
   const std::ptrdiff_t step_y = size.z, step_x = step_y * size.y;
-  const Code* const at = &window.codes[window.index(point.x, point.y, point.z)];
+  return face_plane_at(&window.codes[window.index(point.x, point.y, point.z)], step_x, step_y);
+}
+
+FacePlane face_plane_at(const Code* at, std::ptrdiff_t step_x, std::ptrdiff_t step_y) {
   FacePlane plane;
   plane.code = *at;
   if (says_no_distance(*at)) return plane;
   const int x = slope_at(at, step_x), y = slope_at(at, step_y), z = slope_at(at, 1);
-  const float length = std::sqrt(static_cast<float>(x * x + y * y + z * z));
-  if (std::abs(length - codes_per_voxel) > steepness_error * codes_per_voxel) return plane;
+  const auto squared = static_cast<float>(x * x + y * y + z * z);
+  if (squared < flattest * flattest || squared > steepest * steepest) return plane;
   std::array<int16_t, points> rises;
   for (std::ptrdiff_t row = 0; row < 9; ++row) {
     const Code* from = at + (row / 3 - 1) * step_x + (row % 3 - 1) * step_y - 1;
     for (std::ptrdiff_t i = 0; i < 3; ++i)
+      // Without a branch: all of them would be mispredicted.
       rises[static_cast<size_t>(row * 3 + i)] =
-          says_no_distance(from[i]) ? no_distance : static_cast<int16_t>(from[i] - *at);
+          static_cast<int16_t>(from[i] - *at + no_distance * static_cast<int>(says_no_distance(from[i])));
   }
   for (size_t i = 27; i < points; ++i) rises[i] = no_distance;
   const int supporters =
       supporters_of(rises, static_cast<int16_t>(x), static_cast<int16_t>(y), static_cast<int16_t>(z));
   if (supporters < supporters_least) return plane;
-  const float scale = 127.0F / length;
+  const float scale = 127.0F / std::sqrt(squared);
   const auto whole = [scale](int v) {
     const float scaled = static_cast<float>(v) * scale;
     return static_cast<int8_t>(scaled + (scaled < 0.0F ? -0.5F : 0.5F));

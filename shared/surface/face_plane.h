@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
 
@@ -29,7 +30,7 @@ struct FacePlane {
   std::array<int8_t, 3> normal{};  ///< out of the rock; unit length is 127; all 0: no flat face is near
   Code code = code_air;            ///< of the distance at the point
 
-  bool is_known() const { return normal != std::array<int8_t, 3>{}; }
+  bool is_known() const { return (normal[0] | normal[1] | normal[2]) != 0; }
   glm::vec3 direction() const { return glm::vec3(normal[0], normal[1], normal[2]) * (1.0F / 127.0F); }
   bool operator==(const FacePlane&) const = default;
 };
@@ -39,5 +40,7 @@ static_assert(sizeof(FacePlane) == 4);
 /// are as steep as a distance is, and 10 of the 26 points around lie on it. The window must hold the point
 /// grown by face_plane_reach.
 FacePlane face_plane_at(const Window& window, VoxelCoord point);
+/// The same of a point within codes that lie so far apart along x and y, and side by side along z.
+FacePlane face_plane_at(const Code* point, std::ptrdiff_t step_x, std::ptrdiff_t step_y);
 
 }  // namespace scree

@@ -92,6 +92,42 @@ TEST(Creases, vertices_on_an_edge_are_marked_and_those_beside_it_have_their_face
   EXPECT_LT(off, faces / 50);
 }
 
+/// A beam two voxels high in front of a pane of one voxel, as what people build lies between voxels.
+Window beam_and_pane() {
+  Window window({{-16, -16, -16}, {16, 16, 16}});
+  for (int x = -16; x < 16; ++x)
+    for (int y = -16; y < 16; ++y)
+      for (int z = -16; z < 16; ++z) {
+        const glm::vec3 p(x, y, z);
+        const float beam = box_distance(p + glm::vec3(0.0F, 0.5F, 0.5F), {20.0F, 1.0F, 1.0F});
+        const float pane = box_distance(p + glm::vec3(0.0F, 0.0F, 1.0F), {20.0F, 20.0F, 0.5F});
+        window.at(x, y, z) = encode(std::min(beam, pane));
+      }
+  return window;
+}
+
+TEST(Creases, faces_of_two_voxels_and_steps_of_one_are_flat_and_sharp) {
+  const Window window = beam_and_pane();
+  SurfaceMesh mesh = surface_nets(window, window.box.grown(-surface_nets_apron));
+  sharpen_creases(window, mesh);
+  size_t on_beam = 0;
+  for (const SurfaceVertex& vertex : mesh.vertices) {
+    const glm::vec3 p = position_in(mesh, vertex);
+    if (p.z < -0.6F || std::abs(p.y + 0.5F) > 1.3F) continue;
+    ++on_beam;
+    const bool in_front = std::abs(p.z - 0.5F) < 0.02F;
+    const bool beside = std::abs(std::abs(p.y + 0.5F) - 1.0F) < 0.02F;
+    EXPECT_TRUE(in_front || beside) << p.x << " " << p.y << " " << p.z;
+    const glm::vec3 n = glm::vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) / 127.0F;
+    if (beside) {
+      EXPECT_LT(glm::length(n), 0.6F) << "an edge";
+    } else {
+      EXPECT_GT(n.z, 0.98F) << "in the middle of the beam's front";
+    }
+  }
+  EXPECT_GT(on_beam, 60U);
+}
+
 TEST(Creases, round_rock_stays_as_it_is) {
   const EdgedShape ball{"ball", [](glm::vec3 p) { return glm::length(p) - 9.3F; }, {}};
   const Window window = codes_of(ball, shape_place(2));

@@ -45,12 +45,12 @@ size_t bricks_for(int side, size_t levels) {
 
 }  // namespace
 
-BrickWorld::BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m)
+BrickWorld::BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m, FaceEdges edges)
     : atlas_(bricks_for(side_for(view_radius_m, brick_m(source)), 4)),
       side_(side_for(view_radius_m, brick_m(source))) {
   const float half_m = brick_m(source) * static_cast<float>(side_) * 0.5F;
   const size_t levels = levels_for(half_m, view_radius_m * limits::horizon_per_view_radius);
-  for (size_t i = 0; i < levels; ++i) levels_.emplace_back(pool, source, static_cast<int>(i), side_);
+  for (size_t i = 0; i < levels; ++i) levels_.emplace_back(pool, source, static_cast<int>(i), side_, edges);
   glBindTexture(GL_TEXTURE_3D, entries_.name());
   const std::vector<ClipEntry> unloaded(static_cast<size_t>(side_ * side_) * static_cast<size_t>(side_ / 2) *
                                         levels);

@@ -18,7 +18,7 @@ class BrickWorld {
   static constexpr int planes_unit = 8;
 
   /// `pool` must outlive it.
-  BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m);
+  BrickWorld(WorkPool& pool, const TerrainSource& source, float view_radius_m, FaceEdges edges);
 
   /// Uploads these edited bricks, and a bounded number of bricks that are not loaded yet.
   void update(const Field& field, const std::vector<BrickCoord>& changed, glm::vec3 eye_m);

@@ -60,8 +60,8 @@ struct ClipLevel::Inbox {
   std::vector<Generated> generated;
 };
 
-ClipLevel::ClipLevel(WorkPool& pool, const TerrainSource& source, int level, int side)
-    : pool_(pool), bricks_(source, level), window_(side), inbox_(std::make_shared<Inbox>()) {}
+ClipLevel::ClipLevel(WorkPool& pool, const TerrainSource& source, int level, int side, FaceEdges edges)
+    : pool_(pool), bricks_(source, level, edges), window_(side), inbox_(std::make_shared<Inbox>()) {}
 
 ClipLevel::~ClipLevel() = default;
 

@@ -29,7 +29,7 @@ uint32_t store_planes(const PlaneBrick* planes, const ClipEntry& old, CornerAtla
 class ClipLevel {
  public:
   /// `side`: bricks along the window. `pool` must outlive it.
-  ClipLevel(WorkPool& pool, const TerrainSource& source, int level, int side);
+  ClipLevel(WorkPool& pool, const TerrainSource& source, int level, int side, FaceEdges edges);
   ~ClipLevel();
 
   /// Bricks that fall out give their slots back.

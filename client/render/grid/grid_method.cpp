@@ -117,7 +117,7 @@ GridMethod::GridMethod(WorkPool& pool, float view_radius_m, GridPrograms&& progr
 }
 
 void GridMethod::update(const Scene& scene, const Camera& camera) {
-  if (!world_) world_.emplace(pool_, scene.field.source(), view_radius_m_);
+  if (!world_) world_.emplace(pool_, scene.field.source(), view_radius_m_, FaceEdges::rounded);
   world_->update(scene.field, bricks_, camera.eye_m);
   bricks_.clear();
   // At once, like the terrain: a piece is never seen beside the rock that it was or has become.

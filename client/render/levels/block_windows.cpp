@@ -19,6 +19,9 @@ constexpr int turned_begins = 44;
 /// Where to look at what is above a surface, voxels from it (surface_vertices.cpp).
 constexpr float probe_voxels = 2.75F;
 
+/// Voxels beyond a block's own that its vertices lie on.
+constexpr int looks_reach = 2;
+
 /// The cell around a point, or else the nearest that the window holds. Inlined: it is asked for each vertex.
 SCREE_INLINE VoxelCoord cell_at(const VoxelBox& box, glm::vec3 p) {
   const auto along = [](float v, int lo, int hi) { return std::clamp(floor_to_int(v), lo, hi - 2); };
@@ -186,6 +189,7 @@ std::optional<BlockWindows> gather_windows(const Field& field, const VoxelBox& o
       if (windows.before) copy_brick(coord, generated, *windows.before);
     });
   });
+  if (windows.before) spread_heaps(windows.now, *windows.before, owned.grown(looks_reach), windows.looks);
   return windows;
 }
 

@@ -3,14 +3,12 @@
 
 #include <optional>
 
+#include "client/render/levels/face_edges.h"
 #include "client/render/levels/look_window.h"
 #include "shared/field/field.h"
 #include "shared/surface/surface_nets.h"
 
 namespace scree {
-
-/// Whether edges of faces are drawn sharp (creases.h). Coarse samples of edits know no faces.
-enum class FaceEdges { rounded, sharp };
 
 struct BlockWindows {
   VoxelBox owned;

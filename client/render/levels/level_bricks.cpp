@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <glm/geometric.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "client/render/levels/air_distances.h"
 #include "client/render/levels/block_windows.h"
-#include "shared/base/vector_clones.h"
 
 namespace scree {
 namespace {
@@ -129,112 +127,8 @@ BrickLooks looks_of(const LookWindow& looks, const Window& now, VoxelCoord first
   return made;
 }
 
-namespace {
-
-/// Planes reach no farther from the surface than this: rays that end in a cell read its corners.
-constexpr int plane_code_max = 85;
-/// A neighbour's plane that is off by less than this, from roundings, says a point's own distance.
-constexpr float same_distance_voxels = 0.06F;
-/// Codes of a flat face bend by less than this along an axis.
-constexpr int bend_most = 5;
-
-/// Whether codes near the surface bend anywhere: a quick test that spares smooth bricks the rest.
-SCREE_VECTOR_CLONES bool is_bent(const Code* codes, std::ptrdiff_t count, std::ptrdiff_t step_x,
-                                 std::ptrdiff_t step_y) {
-  int16_t found = 0;
-  for (std::ptrdiff_t i = step_x; i < count - step_x; ++i) {
-    const auto twice = static_cast<int16_t>(2 * codes[i]);
-    const auto x = static_cast<int16_t>(codes[i - step_x] + codes[i + step_x] - twice);
-    const auto y = static_cast<int16_t>(codes[i - step_y] + codes[i + step_y] - twice);
-    const auto z = static_cast<int16_t>(codes[i - 1] + codes[i + 1] - twice);
-    const auto bends = [](int16_t bend) {
-      return static_cast<int16_t>(static_cast<int16_t>(bend > bend_most) |
-                                  static_cast<int16_t>(bend < -bend_most));
-    };
-    const auto near = static_cast<int16_t>(static_cast<int16_t>(codes[i] < plane_code_max) &
-                                           static_cast<int16_t>(codes[i] > -plane_code_max));
-    found = static_cast<int16_t>(found | static_cast<int16_t>((bends(x) | bends(y) | bends(z)) & near));
-  }
-  return found != 0;
-}
-
-/// Whether the corners of a cell know planes of two faces, as the shaders ask (client/shaders/bricks.glsl).
-bool has_edge(const PlaneBrick& planes) {
-  constexpr std::ptrdiff_t side = corner_brick_side;
-  for (std::ptrdiff_t x = 0; x + 1 < side; ++x)
-    for (std::ptrdiff_t y = 0; y + 1 < side; ++y)
-      for (std::ptrdiff_t z = 0; z + 1 < side; ++z) {
-        const FacePlane* at = &planes[static_cast<size_t>((x * side + y) * side + z)];
-        const FacePlane* first = nullptr;
-        for (const std::ptrdiff_t corner : {std::ptrdiff_t{0}, std::ptrdiff_t{1}, side, side + 1, side * side,
-                                            side * side + 1, side * side + side, side * side + side + 1}) {
-          if (!at[corner].is_known()) continue;
-          if (first == nullptr) first = &at[corner];
-          if (glm::dot(first->direction(), at[corner].direction()) < face_edge_cosine) return true;
-        }
-      }
-  return false;
-}
-
-}  // namespace
-
-namespace {
-
-/// Samples −1 … 9: those of a brick and one more around.
-constexpr int wide_side = corner_brick_side + 2;
-using WidePlanes = std::array<FacePlane, wide_side * wide_side * wide_side>;
-
-size_t wide_index(VoxelCoord v) {
-  return static_cast<size_t>(((v.x + 1) * wide_side + v.y + 1) * wide_side + v.z + 1);
-}
-
-/// The plane at a point, or else a neighbour's that says the same distance there: beside an edge of thin rock
-/// too few points lie on a face.
-FacePlane plane_beside(const WidePlanes& planes, VoxelCoord v) {
-  const FacePlane& own = planes[wide_index(v)];
-  if (own.is_known() || std::abs(own.code) > plane_code_max) return own;
-  for (const VoxelCoord off :
-       {VoxelCoord{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}) {
-    const FacePlane& other = planes[wide_index(v + off)];
-    if (!other.is_known()) continue;
-    const glm::vec3 n = other.direction();
-    const float said =
-        decode(other.code) -
-        (n.x * static_cast<float>(off.x) + n.y * static_cast<float>(off.y) + n.z * static_cast<float>(off.z));
-    if (std::abs(said - decode(own.code)) < same_distance_voxels) return {other.normal, own.code};
-  }
-  return own;
-}
-
-}  // namespace
-
-std::unique_ptr<PlaneBrick> planes_of(const Window& window, VoxelCoord first) {
-  constexpr int side = corner_brick_side;
-  const VoxelBox samples{first, first + VoxelCoord{side, side, side}};
-  const Window near = part_of(window, samples.grown(plane_brick_reach));
-  const VoxelCoord size = near.box.size();
-  const std::ptrdiff_t step_y = size.z, step_x = step_y * size.y;
-  if (!is_bent(near.codes.data(), static_cast<std::ptrdiff_t>(near.codes.size()), step_x, step_y))
-    return nullptr;
-  WidePlanes wide;
-  size_t i = 0;
-  for (int x = -1; x <= side; ++x)
-    for (int y = -1; y <= side; ++y)
-      for (int z = -1; z <= side; ++z, ++i) {
-        const VoxelCoord point = first + VoxelCoord{x, y, z};
-        wide[i].code = near.at(point.x, point.y, point.z);
-        if (std::abs(wide[i].code) <= plane_code_max) wide[i] = face_plane_at(near, point);
-      }
-  auto planes = std::make_unique<PlaneBrick>();
-  i = 0;
-  for (int x = 0; x < side; ++x)
-    for (int y = 0; y < side; ++y)
-      for (int z = 0; z < side; ++z, ++i) (*planes)[i] = plane_beside(wide, {x, y, z});
-  return has_edge(*planes) ? std::move(planes) : nullptr;
-}
-
-LevelBricks::LevelBricks(const TerrainSource& source, int level)
-    : level_(level), source_(spaced(source, level)) {
+LevelBricks::LevelBricks(const TerrainSource& source, int level, FaceEdges edges)
+    : level_(level), edges_(edges), source_(spaced(source, level)) {
   if (level > 0) coarse_ = std::make_unique<MapField>(source_);
 }
 
@@ -279,6 +173,18 @@ Window LevelBricks::edited_window(const Field& field, BrickCoord brick) const {
   return part_of(around, samples);
 }
 
+/// `around`: more than the brick's samples, on the finest level.
+LookWindow LevelBricks::looks_around(const Field& field, BrickCoord brick, const Window& around,
+                                     bool edited) const {
+  const Field& ground = generator(field);
+  if (level_ > 0 || !edited) return gather_looks(field, ground, level_, samples_of(brick));
+  const VoxelBox box = samples_of(brick).grown(1);
+  LookWindow looks = gather_looks(field, ground, level_, box);
+  if (!looks.is_ground())
+    spread_heaps(part_of(around, box), gather_generated(ground, box), samples_of(brick), looks);
+  return looks;
+}
+
 LevelBrick LevelBricks::read(const Field& field, BrickCoord brick) {
   const bool edited = edited_around(field, brick);
   if (!edited) {
@@ -299,8 +205,8 @@ LevelBrick LevelBricks::read(const Field& field, BrickCoord brick) {
   read.kind = kind_of(read.field);
   const Field& ground = generator(field);
   if (read.kind == LevelBrick::Kind::stored && (edited || stores_materials(ground, window.box)))
-    read.looks = looks_of(gather_looks(field, ground, level_, window.box), window, first_voxel(brick));
-  if (read.kind == LevelBrick::Kind::stored && level_ == 0)
+    read.looks = looks_of(looks_around(field, brick, around, edited), window, first_voxel(brick));
+  if (read.kind == LevelBrick::Kind::stored && level_ == 0 && edges_ == FaceEdges::sharp)
     read.planes = planes_of(around, first_voxel(brick));
   if (!before || before->codes == window.codes) return read;
   read.before = as_brick(*before);

@@ -11,15 +11,15 @@
 #include <memory>
 
 #include "client/render/levels/atlas_brick.h"
+#include "client/render/levels/face_edges.h"
 #include "client/render/levels/look_window.h"
+#include "client/render/levels/plane_brick.h"
 #include "shared/field/field.h"
-#include "shared/surface/face_plane.h"
 
 namespace scree {
 
 /// The looks of samples 0 … 8 of a brick along each axis, for rays that end in it: half a voxel beneath a
 /// surface in the brick, the nearest voxel is one of them. Air has the looks of rock beside it.
-inline constexpr int corner_brick_side = brick_size + 1;
 using LookBrick = std::array<Look, corner_brick_side * corner_brick_side * corner_brick_side>;
 
 struct BrickLooks {
@@ -27,18 +27,8 @@ struct BrickLooks {
   std::unique_ptr<LookBrick> each;  ///< null: all alike
 };
 
-/// The looks of the brick that begins at `first`; what is beyond the windows is air. They have the same box.
+/// The looks of the brick that begins at `first`; what is beyond `now` is air. `looks` holds its box.
 BrickLooks looks_of(const LookWindow& looks, const Window& now, VoxelCoord first);
-
-/// The planes of flat faces at the same samples. Points far from the surface have none.
-using PlaneBrick = std::array<FacePlane, corner_brick_side * corner_brick_side * corner_brick_side>;
-
-/// Voxels beyond these samples that their planes depend on: those of neighbours, too.
-inline constexpr int plane_brick_reach = face_plane_reach + 1;
-
-/// The planes of the brick that begins at `first`, if faces meet in it. The window must hold its samples 0 …
-/// 8 grown by plane_brick_reach.
-std::unique_ptr<PlaneBrick> planes_of(const Window& window, VoxelCoord first);
 
 struct LevelBrick {
   enum class Kind { empty, solid, stored } kind = Kind::empty;
@@ -65,7 +55,8 @@ void copy_edits(const Field& field, int level, Window& window, Code far_air);
 
 class LevelBricks {
  public:
-  LevelBricks(const TerrainSource& source, int level);
+  /// Rounded edges need no planes.
+  LevelBricks(const TerrainSource& source, int level, FaceEdges edges = FaceEdges::sharp);
 
   int level() const { return level_; }
   const TerrainSource& source() const { return source_; }  ///< with this level's spacing
@@ -89,8 +80,10 @@ class LevelBricks {
   const Brick* uniform_around(const Field& field, BrickCoord brick) const;
   bool edited_around(const Field& field, BrickCoord brick) const;
   Window edited_window(const Field& field, BrickCoord brick) const;
+  LookWindow looks_around(const Field& field, BrickCoord brick, const Window& around, bool edited) const;
 
   int level_;
+  FaceEdges edges_;
   TerrainSource source_;
   std::unique_ptr<MapField> coarse_;  ///< generates; none on level 0
 };

@@ -4,7 +4,9 @@
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <utility>
 
+#include "shared/base/vector_clones.h"
 #include "shared/field/voxel_vector.h"
 
 namespace scree {
@@ -20,24 +22,17 @@ class Looks {
   void set(VoxelCoord voxel, Look look) {
     if (looks_.each.empty() && look == Look{}) return;
     if (looks_.each.empty()) looks_.each.resize(Window::count(looks_.box));
-    looks_.each[index(voxel)] = look;
+    looks_.each[looks_.index(voxel)] = look;
   }
   /// What a cut lays bare where the voxel says nothing.
   void set_bare(VoxelCoord voxel, uint8_t bare) {
     if (bare == 0) return;
-    if (!looks_.each.empty() && looks_.each[index(voxel)].shown != 0) return;
+    if (!looks_.each.empty() && looks_.each[looks_.index(voxel)].shown != 0) return;
     set(voxel, {0, bare});
   }
   LookWindow&& take() { return std::move(looks_); }
 
  private:
-  size_t index(VoxelCoord v) const {
-    const VoxelCoord size = looks_.box.size(), off = v - looks_.box.lo;
-    return (static_cast<size_t>(off.x) * static_cast<size_t>(size.y) + static_cast<size_t>(off.y)) *
-               static_cast<size_t>(size.z) +
-           static_cast<size_t>(off.z);
-  }
-
   VoxelMaterial bulk_;
   LookWindow looks_;
 };
@@ -80,6 +75,17 @@ void add_stored(const Field& ground, const VoxelBox& box, Looks& looks) {
   });
 }
 
+/// Voxels that all say the same, on ground that does.
+void add_uniform(VoxelMaterial voxel, VoxelMaterial own, const VoxelBox& part, Looks& looks) {
+  const uint8_t look = looks.look_of(voxel == ground_own ? own : voxel);
+  for_each_voxel(part, [&](VoxelCoord v) {
+    if (voxel == ground_own)
+      looks.set_bare(v, look);
+    else
+      looks.set(v, {look, look});
+  });
+}
+
 /// The samples of an edited brick, `home`, that lie in `part`, a box of the level's.
 void add_edited(const Field& field, const Field& ground, int level, BrickCoord home, const VoxelBox& part,
                 Looks& looks) {
@@ -87,6 +93,8 @@ void add_edited(const Field& field, const Field& ground, int level, BrickCoord h
   const BrickMaterials own = ground.ground_materials(brick_of(part.lo));
   const bool bulk_alone = own.is_uniform() && looks.look_of(own.uniform()) == 0;
   if (materials.is_ground() && bulk_alone) return;
+  if (materials.is_uniform() && own.is_uniform())
+    return add_uniform(materials.uniform(), own.uniform(), part, looks);
   for_each_voxel(part, [&](VoxelCoord v) {
     const VoxelCoord in{v.x << level, v.y << level, v.z << level};
     const VoxelMaterial voxel = materials.at(index_in_brick(in));
@@ -114,31 +122,105 @@ void add_edits(const Field& field, const Field& ground, int level, const VoxelBo
   });
 }
 
-/// Unit length: the way out of the rock at f, 0..1, in a cell.
-glm::vec3 up_in(const Window& now, VoxelCoord cell, glm::vec3 f) {
-  glm::vec3 slope(0.0F);
-  for (int i = 0; i < 8; ++i) {
-    const VoxelCoord bit{i >> 2, (i >> 1) & 1, i & 1};
-    const VoxelCoord at = cell + bit;
-    const auto code = static_cast<float>(now.at(at.x, at.y, at.z));
-    const glm::vec3 part(bit.x != 0 ? f.x : 1.0F - f.x, bit.y != 0 ? f.y : 1.0F - f.y,
-                         bit.z != 0 ? f.z : 1.0F - f.z);
-    const glm::vec3 sign = 2.0F * as_vector(bit) - 1.0F;
-    slope += code * sign * glm::vec3(part.y * part.z, part.x * part.z, part.x * part.y);
+/// Decides between voxels that are equally near.
+constexpr float half_way = 0.05F;
+
+/// The surface has risen by an eighth of a voxel over a voxel that is this near to it.
+constexpr int risen_codes = 5;
+constexpr Code buried_code = -64;
+
+/// The 26 places around a voxel: across its faces first, then its edges, then its corners.
+constexpr std::array<VoxelCoord, 26> make_around_by_distance() {
+  std::array<VoxelCoord, 26> places{};
+  size_t count = 0;
+  for (int apart = 1; apart <= 3; ++apart)
+    for (int i = 0; i < 27; ++i) {
+      const VoxelCoord off{i / 9 - 1, i / 3 % 3 - 1, i % 3 - 1};
+      if (off.x * off.x + off.y * off.y + off.z * off.z == apart) places[count++] = off;
+    }
+  return places;
+}
+constexpr std::array<VoxelCoord, 26> around_by_distance = make_around_by_distance();
+
+/// Whether the surface, near a voxel of rock, has risen there.
+SCREE_INLINE bool is_risen(Code here, Code then) {
+  return static_cast<bool>(static_cast<int>(here < 0) & static_cast<int>(here >= buried_code) &
+                           static_cast<int>(then - here >= risen_codes));
+}
+
+/// Whether it has over one of these.
+SCREE_VECTOR_CLONES bool has_risen(const Code* here, const Code* then, size_t count) {
+  int found = 0;
+  for (size_t i = 0; i < count; ++i) found |= static_cast<int>(is_risen(here[i], then[i]));
+  return found != 0;
+}
+
+/// Steps in a window to the 26 places around a voxel, the nearest first.
+std::array<std::ptrdiff_t, 26> steps_around(const Window& window) {
+  const VoxelCoord size = window.box.size();
+  std::array<std::ptrdiff_t, 26> steps{};
+  for (size_t i = 0; i < steps.size(); ++i) {
+    const VoxelCoord off = around_by_distance[i];
+    steps[i] = (std::ptrdiff_t{off.x} * size.y + off.y) * size.z + off.z;
   }
+  return steps;
+}
+
+/// The codes of a cell's corners.
+using CellCodes = std::array<Code, 8>;
+
+CellCodes codes_of_cell(const Window& now, VoxelCoord cell) {
+  const VoxelCoord size = now.box.size();
+  const std::ptrdiff_t step_y = size.z, step_x = step_y * size.y;
+  const Code* const at = &now.codes[now.index(cell.x, cell.y, cell.z)];
+  return {at[0],      at[1],          at[step_y],          at[step_y + 1],
+          at[step_x], at[step_x + 1], at[step_x + step_y], at[step_x + step_y + 1]};
+}
+
+/// Unit length: the way out of the rock at f, 0..1, in a cell.
+glm::vec3 up_in(const CellCodes& codes, glm::vec3 f) {
+  const auto mix = [](float a, float b, float t) { return a + (b - a) * t; };
+  const auto code = [&](size_t i) { return static_cast<float>(codes[i]); };
+  // Along z on four edges, then along y, then along x.
+  const float z0 = mix(code(0), code(1), f.z), z1 = mix(code(2), code(3), f.z);
+  const float z2 = mix(code(4), code(5), f.z), z3 = mix(code(6), code(7), f.z);
+  const float rise0 = mix(code(1) - code(0), code(3) - code(2), f.y);
+  const float rise1 = mix(code(5) - code(4), code(7) - code(6), f.y);
+  const glm::vec3 slope(mix(z2, z3, f.y) - mix(z0, z1, f.y), mix(z1 - z0, z3 - z2, f.x),
+                        mix(rise0, rise1, f.x));
   const float length = glm::length(slope);
   return length > 0.0F ? slope / length : glm::vec3(0.0F, 1.0F, 0.0F);
 }
 
+/// The solid corner nearest to a point, in the cell.
+size_t nearest_solid(const CellCodes& codes, glm::vec3 point) {
+  const size_t round = (point.x > 0.5F ? 4U : 0U) | (point.y > 0.5F ? 2U : 0U) | (point.z > 0.5F ? 1U : 0U);
+  if (codes[round] < 0) return round;
+  size_t nearest = 0;
+  float least = 1e9F;
+  for (size_t i = 0; i < codes.size(); ++i) {
+    if (codes[i] >= 0) continue;
+    const glm::vec3 off = glm::vec3((i >> 2) & 1, (i >> 1) & 1, i & 1) - point;
+    const float far = glm::dot(off, off);
+    if (far >= least) continue;
+    least = far;
+    nearest = i;
+  }
+  return nearest;
+}
+
 }  // namespace
 
-Look LookWindow::at(VoxelCoord voxel) const {
-  if (each.empty()) return {};
+size_t LookWindow::index(VoxelCoord voxel) const {
   CHECK_DEBUG(box.holds(voxel));
   const VoxelCoord size = box.size(), off = voxel - box.lo;
-  return each[(static_cast<size_t>(off.x) * static_cast<size_t>(size.y) + static_cast<size_t>(off.y)) *
-                  static_cast<size_t>(size.z) +
-              static_cast<size_t>(off.z)];
+  return (static_cast<size_t>(off.x) * static_cast<size_t>(size.y) + static_cast<size_t>(off.y)) *
+             static_cast<size_t>(size.z) +
+         static_cast<size_t>(off.z);
+}
+
+Look LookWindow::at(VoxelCoord voxel) const {
+  return each.empty() ? Look{} : each[index(voxel)];
 }
 
 VoxelCoord beneath(const Window& now, glm::vec3 p) {
@@ -146,19 +228,41 @@ VoxelCoord beneath(const Window& now, glm::vec3 p) {
   const VoxelBox& box = now.box;
   const VoxelCoord cell{along(p.x, box.lo.x, box.hi.x), along(p.y, box.lo.y, box.hi.y),
                         along(p.z, box.lo.z, box.hi.z)};
-  const glm::vec3 in_rock = p - 0.5F * up_in(now, cell, p - as_vector(cell));
-  VoxelCoord nearest = cell;
-  float least = 1e9F;
-  for (int i = 0; i < 8; ++i) {
-    const VoxelCoord corner = cell + VoxelCoord{i >> 2, (i >> 1) & 1, i & 1};
-    const glm::vec3 off = as_vector(corner) - in_rock;
-    // Solid ones before all others.
-    const float far = glm::dot(off, off) + (now.at(corner.x, corner.y, corner.z) < 0 ? 0.0F : 100.0F);
-    if (far >= least) continue;
-    least = far;
-    nearest = corner;
-  }
-  return nearest;
+  const CellCodes codes = codes_of_cell(now, cell);
+  const glm::vec3 in_cell = p - as_vector(cell);
+  // On a flat face places lie half-way between voxels: all take the lower one.
+  const size_t nearest = nearest_solid(codes, in_cell - 0.5F * up_in(codes, in_cell) - half_way);
+  return cell + VoxelCoord{static_cast<int>(nearest >> 2), static_cast<int>((nearest >> 1) & 1),
+                           static_cast<int>(nearest & 1)};
+}
+
+void spread_heaps(const Window& now, const Window& before, const VoxelBox& asked, LookWindow& looks) {
+  if (looks.is_ground()) return;
+  CHECK(looks.box.covers(asked.grown(1)));
+  CHECK(now.box == looks.box && before.box == looks.box);
+  const std::array<std::ptrdiff_t, 26> around = steps_around(now);
+  const auto along = static_cast<size_t>(asked.hi.z - asked.lo.z);
+  std::vector<std::pair<size_t, uint8_t>> spread;
+  const auto is_heap = [&](size_t at) {
+    return looks.each[at].shown != 0 && now.codes[at] < 0 && before.codes[at] >= 0;
+  };
+  // The nearest one's looks.
+  const auto heap_beside = [&](size_t at) {
+    for (const std::ptrdiff_t step : around) {
+      const size_t other = at + static_cast<size_t>(step);
+      if (is_heap(other)) return looks.each[other].shown;
+    }
+    return uint8_t{0};
+  };
+  for (int x = asked.lo.x; x < asked.hi.x; ++x)
+    for (int y = asked.lo.y; y < asked.hi.y; ++y) {
+      const size_t row = now.index(x, y, asked.lo.z);
+      if (!has_risen(&now.codes[row], &before.codes[row], along)) continue;
+      for (size_t at = row; at < row + along; ++at)
+        if (is_risen(now.codes[at], before.codes[at]) && !is_heap(at))
+          if (const uint8_t look = heap_beside(at)) spread.emplace_back(at, look);
+    }
+  for (const auto& [at, look] : spread) looks.each[at].shown = look;
 }
 
 LookWindow gather_looks(const Field& field, const Field& ground, int level, const VoxelBox& box) {

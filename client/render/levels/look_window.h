@@ -31,6 +31,7 @@ struct LookWindow {
 
   bool is_ground() const { return each.empty(); }
   Look at(VoxelCoord voxel) const;
+  size_t index(VoxelCoord voxel) const;  ///< in `each`
 };
 
 /// The solid voxel of the cell around a place that is the nearest to a point half a voxel beneath it, against
@@ -39,6 +40,12 @@ VoxelCoord beneath(const Window& now, glm::vec3 p);
 
 /// The looks of a box of samples of that level, which `ground` generates: on level 0 the field itself.
 LookWindow gather_looks(const Field& field, const Field& ground, int level, const VoxelBox& box);
+
+/// A thin layer that came to lie on the ground, such as the foot of a heap, fills no voxel in places, so none
+/// has its material there. The ground beneath takes the looks of the layer beside it where the surface has
+/// risen, in the voxels that are asked for: one voxel less than the box on each side, or fewer. The windows,
+/// now and as generated, have the box of the looks.
+void spread_heaps(const Window& now, const Window& before, const VoxelBox& asked, LookWindow& looks);
 
 /// A piece's looks, over its volume's box. `field` knows what the ground was where the piece is from.
 LookWindow looks_of(const Field& field, const Volume& piece);

@@ -50,9 +50,9 @@ struct BlockGroupHash {
 
 class MeshMethod final : public DrawMethod {
  public:
-  MeshMethod(WorkPool& pool, float view_radius_m, Polygoniser polygoniser,
+  MeshMethod(WorkPool& pool, float view_radius_m, Polygoniser polygoniser, FaceEdges edges,
              SurfaceVariants<SurfaceProgram>&& surface, SurfaceProgram&& shadow)
-      : scheduler_(pool, view_radius_m, polygoniser),
+      : scheduler_(pool, view_radius_m, polygoniser, edges),
         surface_(std::move(surface)),
         shadow_(std::move(shadow)) {}
 
@@ -194,13 +194,13 @@ DrawStats MeshMethod::stats() const {
   return stats;
 }
 
-Result<std::unique_ptr<DrawMethod>> make_method(WorkPool& pool, float view_radius_m,
-                                                Polygoniser polygoniser) {
+Result<std::unique_ptr<DrawMethod>> make_method(WorkPool& pool, float view_radius_m, Polygoniser polygoniser,
+                                                FaceEdges edges = FaceEdges::sharp) {
   auto surface = SurfaceVariants<SurfaceProgram>::make(link_surface);
   if (!surface) return fail(surface.error().message);
   Result<SurfaceProgram> shadow = link_surface_shadow();
   if (!shadow) return fail(shadow.error().message);
-  return std::make_unique<MeshMethod>(pool, view_radius_m, polygoniser, std::move(*surface),
+  return std::make_unique<MeshMethod>(pool, view_radius_m, polygoniser, edges, std::move(*surface),
                                       std::move(*shadow));
 }
 
@@ -208,6 +208,10 @@ Result<std::unique_ptr<DrawMethod>> make_method(WorkPool& pool, float view_radiu
 
 Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m) {
   return make_method(pool, view_radius_m, Polygoniser::nets);
+}
+
+Result<std::unique_ptr<DrawMethod>> make_rounded_mesh_method(WorkPool& pool, float view_radius_m) {
+  return make_method(pool, view_radius_m, Polygoniser::nets, FaceEdges::rounded);
 }
 
 Result<std::unique_ptr<DrawMethod>> make_dual_method(WorkPool& pool, float view_radius_m) {

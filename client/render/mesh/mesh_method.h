@@ -11,6 +11,8 @@ namespace scree {
 
 /// `pool` must outlive the method. Needs the GL context current. Fails when a shader does.
 Result<std::unique_ptr<DrawMethod>> make_mesh_method(WorkPool& pool, float view_radius_m);
+/// The same with rounded edges: a bench measures against it what edges cost.
+Result<std::unique_ptr<DrawMethod>> make_rounded_mesh_method(WorkPool& pool, float view_radius_m);
 /// The same by dual contouring: sharp edges of the terrain stay sharp.
 Result<std::unique_ptr<DrawMethod>> make_dual_method(WorkPool& pool, float view_radius_m);
 /// The same by marching cubes; its pieces are surface nets, as everywhere.

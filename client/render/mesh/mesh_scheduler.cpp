@@ -45,10 +45,11 @@ struct MeshScheduler::Batch {
   bool waits_for_terrain() const { return !begun && !terrain_needed.empty(); }
 };
 
-MeshScheduler::MeshScheduler(WorkPool& pool, float view_radius_m, Polygoniser polygoniser)
+MeshScheduler::MeshScheduler(WorkPool& pool, float view_radius_m, Polygoniser polygoniser, FaceEdges edges)
     : pool_(pool),
       view_radius_m_(view_radius_m),
       polygoniser_(polygoniser),
+      edges_(edges),
       inbox_(std::make_shared<Inbox>()) {}
 
 MeshScheduler::~MeshScheduler() = default;
@@ -205,7 +206,8 @@ void MeshScheduler::generate_needed() {
 void MeshScheduler::begin_meshes(const Field& field) {
   batch_->begun = true;
   for (const SurfaceNode& node : batch_->nodes) {
-    std::optional<NodeJob> job = gather_node(*levels_, field, node, forest_->neighbours(node), polygoniser_);
+    std::optional<NodeJob> job =
+        gather_node(*levels_, field, node, forest_->neighbours(node), polygoniser_, edges_);
     if (!job) {
       batch_->update.nodes.push_back({node, node.level, {}});
       continue;

@@ -35,7 +35,8 @@ struct MeshUpdate {
 
 class MeshScheduler {
  public:
-  MeshScheduler(WorkPool& pool, float view_radius_m, Polygoniser polygoniser);
+  MeshScheduler(WorkPool& pool, float view_radius_m, Polygoniser polygoniser,
+                FaceEdges edges = FaceEdges::sharp);
   ~MeshScheduler();
 
   void changed(const MirrorChanges& changes);
@@ -74,6 +75,7 @@ class MeshScheduler {
   WorkPool& pool_;
   float view_radius_m_;
   Polygoniser polygoniser_;
+  FaceEdges edges_;
   std::shared_ptr<Inbox> inbox_;
   std::optional<SurfaceLevels> levels_;
   std::optional<SurfaceForest> forest_;

@@ -225,8 +225,8 @@ void set_looks(const LeafMesh& leaves, const BlockWindows& own, const BlockWindo
   part_looks(mesh, coarse);
 }
 
-FaceEdges edges_at(int level) {
-  return level == 0 ? FaceEdges::sharp : FaceEdges::rounded;
+FaceEdges edges_at(const NodeJob& job, int level) {
+  return level == 0 ? job.edges : FaceEdges::rounded;
 }
 
 /// Placed and shaded by a window in the grid's units.
@@ -306,7 +306,7 @@ SurfaceMesh mesh_border(const NodeJob& job, const CellMask& plain) {
   const LeafMesh leaves = border_polygons(job, plain, coarse.now, finer.now);
   // Marching cubes has no vertices inside cells.
   const FaceEdges edges =
-      job.polygoniser == Polygoniser::cubes ? FaceEdges::rounded : edges_at(job.node.level - 1);
+      job.polygoniser == Polygoniser::cubes ? FaceEdges::rounded : edges_at(job, job.node.level - 1);
   // Below all that mesh_inside makes of the node, too.
   const VoxelCoord origin = scaled(own, own_side).grown(known_around).lo;
   return leaves.indices.empty() ? SurfaceMesh{} : shaded(leaves, origin, coarse, finer, edges);
@@ -317,7 +317,7 @@ SurfaceMesh mesh_inside(const NodeJob& job, const CellMask* plain) {
   if (!job.own) return {};
   if (job.polygoniser == Polygoniser::cubes) return job.own->mesh_by_cubes(plain);
   const SheetPlace place = place_by(job.polygoniser, job.own->now);
-  return job.own->mesh(edges_at(job.node.level), plain,
+  return job.own->mesh(edges_at(job, job.node.level), plain,
                        job.polygoniser == Polygoniser::nets ? nullptr : &place);
 }
 
@@ -329,8 +329,8 @@ VoxelBox samples_of(const SurfaceNode& node) {
 }
 
 std::optional<NodeJob> gather_node(SurfaceLevels& levels, const Field& field, const SurfaceNode& node,
-                                   const Neighbours& around, Polygoniser polygoniser) {
-  NodeJob job{node, around, polygoniser, {}, {}, false, false};
+                                   const Neighbours& around, Polygoniser polygoniser, FaceEdges edges) {
+  NodeJob job{node, around, polygoniser, edges, {}, {}, false, false};
   const VoxelBox box = samples_of(node);
   const auto is_rock = [&](int level, VoxelCoord p) { return levels.is_rock(field, level, p); };
   job.own = levels.gather(field, node.level, box);

@@ -21,9 +21,10 @@ struct NodeJob {
   SurfaceNode node;
   Neighbours around{};
   Polygoniser polygoniser = Polygoniser::nets;
-  std::optional<BlockWindows> own;    ///< at the node's level; nothing: all air or all rock
-  std::optional<BlockWindows> finer;  ///< one level below, where a finer node touches it
-  bool own_is_rock = false;           ///< when there is no window
+  FaceEdges edges = FaceEdges::sharp;  ///< of the finest level
+  std::optional<BlockWindows> own;     ///< at the node's level; nothing: all air or all rock
+  std::optional<BlockWindows> finer;   ///< one level below, where a finer node touches it
+  bool own_is_rock = false;            ///< when there is no window
   bool finer_is_rock = false;
 };
 
@@ -38,7 +39,8 @@ VoxelBox samples_of(const SurfaceNode& node);
 
 /// Copies the needed codes out of the field. Nothing if the node has no surface.
 std::optional<NodeJob> gather_node(SurfaceLevels& levels, const Field& field, const SurfaceNode& node,
-                                   const Neighbours& around, Polygoniser polygoniser);
+                                   const Neighbours& around, Polygoniser polygoniser,
+                                   FaceEdges edges = FaceEdges::sharp);
 
 NodeMesh mesh_node(const NodeJob& job);
 

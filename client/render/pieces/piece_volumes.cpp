@@ -58,7 +58,7 @@ std::array<float, 3> as_floats(VoxelCoord v) {
 
 }  // namespace
 
-PieceVolumes::PieceVolumes() {
+PieceVolumes::PieceVolumes(FaceEdges edges) : edges_(edges) {
   entries_.resize(entries_at_first);
   glBindTexture(GL_TEXTURE_2D, entries_texture_.name());
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
@@ -142,6 +142,7 @@ PieceVolumes::Stored PieceVolumes::store(const Field& field, const ScenePiece& p
         const AtlasBrick generated = brick_from(before, at);
         entry->before = store_before(before_kind_of(generated), generated, atlas);
         entry->looks = store_looks(looks_of(looks, window, at), {}, atlas.looks());
+        if (edges_ == FaceEdges::rounded) continue;
         entry->planes = store_planes(planes_of(padded, at).get(), {}, atlas.planes());
       }
   upload_entries(stored.first, stored.count);

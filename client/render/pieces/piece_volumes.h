@@ -20,7 +20,7 @@ class PieceVolumes {
   /// Entries in a row of the texture, as client/shaders/piece.glsl has it.
   static constexpr int entries_row = 256;
 
-  PieceVolumes();
+  explicit PieceVolumes(FaceEdges edges);
 
   /// Shows exactly these pieces, where they are now. New ones are uploaded: the cost grows with their number.
   void update(const Field& field, const ScenePieces& pieces, BrickAtlas& atlas);
@@ -55,6 +55,7 @@ class PieceVolumes {
   void upload_entries(uint32_t first, uint32_t count);
   void upload_instances(const ScenePieces& pieces);
 
+  FaceEdges edges_;
   gl::Texture entries_texture_;
   gl::Buffer instance_buffer_;
   gl::VertexArray array_;

@@ -36,44 +36,49 @@ struct RaymarchPrograms {
 
 /// Links a program of shaders/ files.
 Result<gl::Program> link(std::string_view name, std::initializer_list<std::string_view> vertex,
-                         std::initializer_list<std::string_view> fragment, std::string_view define = {}) {
+                         std::initializer_list<std::string_view> fragment, FaceEdges edges,
+                         std::string_view define = {}) {
   const auto sources = [](std::initializer_list<std::string_view> files) {
     std::vector<std::string_view> texts;
     for (const std::string_view file : files) texts.push_back(shader_source(file));
     return texts;
   };
   std::vector<std::string_view> fragments = sources(fragment);
-  fragments.insert(fragments.begin(), define);
+  fragments.insert(fragments.begin(), {define, edges == FaceEdges::sharp ? "#define EDGES 1\n" : ""});
   return gl::Program::link(name, sources(vertex), fragments);
 }
 
+template <FaceEdges edges>
 Result<gl::Program> link_march(Surfaces surfaces) {
   return link("raymarch", {"raymarch.vert"},
               {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl", "haze.glsl",
                "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"},
-              define_of(surfaces));
+              edges, define_of(surfaces));
 }
 
+template <FaceEdges edges>
 Result<gl::Program> link_piece(Surfaces surfaces) {
   return link(
       "piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
       {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl",
        "haze.glsl", "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"},
-      define_of(surfaces));
+      edges, define_of(surfaces));
 }
 
+template <FaceEdges edges>
 Result<RaymarchPrograms> link_raymarch_programs() {
   Result<gl::Program> cone =
-      link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"});
+      link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"}, edges);
   if (!cone) return fail(cone.error().message);
-  auto march = SurfaceVariants<gl::Program>::make(link_march);
+  auto march = SurfaceVariants<gl::Program>::make(link_march<edges>);
   if (!march) return fail(march.error().message);
-  auto piece = SurfaceVariants<gl::Program>::make(link_piece);
+  auto piece = SurfaceVariants<gl::Program>::make(link_piece<edges>);
   if (!piece) return fail(piece.error().message);
-  Result<gl::Program> shadow = link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
-                                    {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"});
+  Result<gl::Program> shadow =
+      link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
+           {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"}, FaceEdges::rounded);
   if (!shadow) return fail(shadow.error().message);
-  Result<gl::Program> composite = link("composite", {"screen.vert"}, {"composite.frag"});
+  Result<gl::Program> composite = link("composite", {"screen.vert"}, {"composite.frag"}, edges);
   if (!composite) return fail(composite.error().message);
   return RaymarchPrograms{std::move(*cone), std::move(*march), std::move(*piece), std::move(*shadow),
                           std::move(*composite)};
@@ -91,8 +96,12 @@ float pixel_at_one_metre(const glm::mat4& inverse, int height) {
 
 class RaymarchMethod final : public DrawMethod {
  public:
-  RaymarchMethod(WorkPool& pool, float view_radius_m, RaymarchPrograms&& programs)
-      : pool_(pool), view_radius_m_(view_radius_m), programs_(std::move(programs)) {}
+  RaymarchMethod(WorkPool& pool, float view_radius_m, FaceEdges edges, RaymarchPrograms&& programs)
+      : pool_(pool),
+        view_radius_m_(view_radius_m),
+        edges_(edges),
+        programs_(std::move(programs)),
+        pieces_(edges) {}
 
   void changed(const MirrorChanges& changes) override {
     bricks_.insert(bricks_.end(), changes.bricks.begin(), changes.bricks.end());
@@ -112,6 +121,7 @@ class RaymarchMethod final : public DrawMethod {
 
   WorkPool& pool_;
   float view_radius_m_;
+  FaceEdges edges_;
   RaymarchPrograms programs_;
   MarchTargets targets_;
   gl::VertexArray nothing_;  ///< core profiles draw with an array bound only
@@ -121,7 +131,7 @@ class RaymarchMethod final : public DrawMethod {
 };
 
 void RaymarchMethod::update(const Scene& scene, const Camera& camera) {
-  if (!world_) world_.emplace(pool_, scene.field.source(), view_radius_m_);
+  if (!world_) world_.emplace(pool_, scene.field.source(), view_radius_m_, edges_);
   world_->update(scene.field, bricks_, camera.eye_m);
   bricks_.clear();
   pieces_.update(scene.field, scene.pieces, world_->atlas());
@@ -240,12 +250,21 @@ DrawStats RaymarchMethod::stats() const {
   return stats;
 }
 
+template <FaceEdges edges>
+Result<std::unique_ptr<DrawMethod>> make_method(WorkPool& pool, float view_radius_m) {
+  Result<RaymarchPrograms> programs = link_raymarch_programs<edges>();
+  if (!programs) return fail(programs.error().message);
+  return std::make_unique<RaymarchMethod>(pool, view_radius_m, edges, std::move(*programs));
+}
+
 }  // namespace
 
 Result<std::unique_ptr<DrawMethod>> make_raymarch_method(WorkPool& pool, float view_radius_m) {
-  Result<RaymarchPrograms> programs = link_raymarch_programs();
-  if (!programs) return fail(programs.error().message);
-  return std::make_unique<RaymarchMethod>(pool, view_radius_m, std::move(*programs));
+  return make_method<FaceEdges::sharp>(pool, view_radius_m);
+}
+
+Result<std::unique_ptr<DrawMethod>> make_rounded_raymarch_method(WorkPool& pool, float view_radius_m) {
+  return make_method<FaceEdges::rounded>(pool, view_radius_m);
 }
 
 }  // namespace scree

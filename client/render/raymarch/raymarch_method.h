@@ -13,5 +13,7 @@ namespace scree {
 
 /// `pool` must outlive the method. Needs the GL context current. Fails when a shader does.
 Result<std::unique_ptr<DrawMethod>> make_raymarch_method(WorkPool& pool, float view_radius_m);
+/// The same with rounded edges: a bench measures against it what edges cost.
+Result<std::unique_ptr<DrawMethod>> make_rounded_raymarch_method(WorkPool& pool, float view_radius_m);
 
 }  // namespace scree

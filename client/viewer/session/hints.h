@@ -29,4 +29,11 @@ class Hints {
   std::optional<double> shown_since_s_;
 };
 
+/// What becomes of what one carries when the session ends, for who is about to end it; empty: nothing that
+/// needs words. A token's store waits for its next session (docs/digging.md).
+constexpr std::string_view words_before_the_end(bool carries, bool has_token) {
+  if (!carries || has_token) return {};
+  return "What you carry goes to the world's store when you end. With an access token it would wait for you.";
+}
+
 }  // namespace scree

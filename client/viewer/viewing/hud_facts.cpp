@@ -78,6 +78,7 @@ HudFacts FactFinder::find(Visit& visit, double now_s) {
     facts.mismatches = mirror->mismatches();
   }
   MethodSwitch& methods = visit.view->methods();
+  facts.stones = methods.stones();
   if (DrawMethod* method = methods.shown()) {
     facts.method = methods.shown_name();
     facts.draw = method->stats();

@@ -42,6 +42,7 @@ struct HudFacts {
   bool is_replay = false;
   float voxel_size_m = 1.0F;
   size_t pieces_near = 0;              ///< that the server shows to this viewer
+  size_t stones = 0;                   ///< drawn where pieces merged
   size_t props_near = 0;               ///< likewise
   size_t kept_near = 0;                ///< pieces of these that never become terrain
   std::vector<CarriedRow> carried;     ///< by the own store, in the palette's order

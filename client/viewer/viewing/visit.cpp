@@ -144,10 +144,10 @@ void Visit::shake(bool on) {
 }
 
 LineList Visit::lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
-                      double now_s) {
+                      double now_s, bool with_tool) {
   LineList lines;
   preview_.step(tool, session, camera, now_s);
-  preview_.add_to(lines, tool, session.palette());
+  if (with_tool) preview_.add_to(lines, tool, session.palette());
   const Figures& figures = session.figures(now_s);
   figures.add_to(lines);
   view->renderer().set_limbs(figures.limbs(camera.eye_m, looked_through, false));

@@ -49,10 +49,11 @@ class Visit {
   const std::vector<PieceEvent>& events() const { return events_; }
   void listen(bool on) { listens_ = on; }
 
-  /// Lines over the world: the shape of the tool's next strike, where others aim, the overlay. The renderer
-  /// gets the bodies of the other persons, but of the one through whose eye one looks, and the wind's time.
+  /// Lines over the world: the shape of the tool's next strike, if asked for, where others aim, the overlay.
+  /// The renderer gets the bodies of the other persons, but of the one through whose eye one looks, and the
+  /// wind's time.
   LineList lines(const Tool& tool, const OverlayChoice& overlay, std::optional<uint64_t> looked_through,
-                 double now_s);
+                 double now_s, bool with_tool = true);
   /// What a click does, as of the last lines().
   const std::optional<ToolAim>& aim() const { return preview_.aim(); }
   /// Adds the chosen overlay's lines, and switches the server's PhysicsMessages accordingly.

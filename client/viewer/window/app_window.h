@@ -55,7 +55,8 @@ class AppWindow {
   /// The menu that is open, by Escape with a free mouse, has all keys until Escape, or close_menu(): the
   /// arrow keys go through its buttons, Enter or Space chooses one.
   bool has_menu() const { return menu_.has_value(); }
-  MenuKeys menu() const { return menu_.value_or(MenuKeys{}); }
+  /// Null: none is open.
+  MenuKeys* menu() { return menu_ ? &*menu_ : nullptr; }
   void close_menu() { menu_.reset(); }
   /// After this frame, should_close().
   void end();

@@ -107,7 +107,7 @@ bool Hud::lost(const HudFacts& facts) {
   return now;
 }
 
-MenuChoice Hud::menu(const MenuKeys& keys) {
+MenuChoice Hud::menu(MenuKeys& keys, std::string_view note) {
   constexpr std::array<const char*, MenuKeys::buttons> words{"back to the world (Esc)", "all keys", "end"};
   const glm::vec2 middle = screen_size() * 0.5F;
   ImGui::SetNextWindowPos(ImVec2(middle.x, middle.y), ImGuiCond_Always, ImVec2(0.5F, 0.5F));
@@ -118,12 +118,21 @@ MenuChoice Hud::menu(const MenuKeys& keys) {
   const ImVec2 size(menu_width_in_text * ImGui::GetFontSize(), 1.8F * ImGui::GetFontSize());
   MenuChoice choice = keys.chosen ? static_cast<MenuChoice>(keys.at) : MenuChoice::none;
   for (int i = 0; i < MenuKeys::buttons; ++i) {
-    ImGui::PushStyleColor(ImGuiCol_Button,
-                          ImGui::GetStyleColorVec4(i == keys.at ? ImGuiCol_ButtonActive : ImGuiCol_Button));
+    // Only the button that Enter would choose is lit; the mouse takes it along.
+    const ImVec4 colour = ImGui::GetStyleColorVec4(i == keys.at ? ImGuiCol_ButtonActive : ImGuiCol_Button);
+    ImGui::PushStyleColor(ImGuiCol_Button, colour);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, colour);
     if (ImGui::Button(words[static_cast<size_t>(i)], size)) choice = static_cast<MenuChoice>(i);
-    ImGui::PopStyleColor();
+    ImGui::PopStyleColor(2);
+    const ImVec2 moved = ImGui::GetIO().MouseDelta;
+    if (ImGui::IsItemHovered() && (moved.x != 0.0F || moved.y != 0.0F)) keys.at = i;
   }
   ImGui::TextDisabled("arrow keys and Enter choose");
+  if (!note.empty()) {
+    ImGui::PushTextWrapPos(ImGui::GetStyle().WindowPadding.x + size.x);
+    ImGui::TextUnformatted(note.data(), note.data() + note.size());
+    ImGui::PopTextWrapPos();
+  }
   ImGui::End();
   return choice;
 }

@@ -79,7 +79,8 @@ class Hud {
   /// In the middle: the cross, and what became of the last strike.
   void crosshair(const HudFacts& facts);
   /// In the middle, over everything else, for mouse and keyboard.
-  MenuChoice menu(const MenuKeys& keys);
+  /// `note`: below the buttons; may be empty.
+  MenuChoice menu(MenuKeys& keys, std::string_view note);
 
   const HudPanels& panels() const { return panels_; }
   /// Height of the next frame's text, pixels, at the person's scale, or less where panels need it.

@@ -137,8 +137,9 @@ void show_all(const HudFacts& facts) {
               facts.edited_bricks);
   show_memory(facts.memory);
   ImGui::Separator();
-  ImGui::Text("%s: %zu draws, %zu k triangles, %zu of %zu pieces", facts.method.c_str(), facts.draw.draws,
-              facts.draw.triangles / 1000, facts.draw.pieces, facts.pieces_near);
+  // Pieces that merged go on being drawn, as stones.
+  ImGui::Text("%s: %zu draws, %zu k triangles, %zu pieces and %zu stones", facts.method.c_str(),
+              facts.draw.draws, facts.draw.triangles / 1000, facts.pieces_near, facts.stones);
   ImGui::Text("%zu blocks or bricks kept, %zu waiting", facts.draw.resident, facts.draw.waiting);
 }
 
