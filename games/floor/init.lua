@@ -15,17 +15,18 @@ local function save() store.set("number", game.number) end
 local function tile_at(x, z) return vec((x - (across + 1) / 2) * size, -0.375, (z - (across + 1) / 2) * size) end
 
 local function build()
-  local middle = vec(0, -deep / 2, 0)
+  local middle = vec(0, 0.5 - deep / 2, 0)
   for quarter = 0, 3 do
     local off = vec((quarter % 2 - 0.5) * half, 0, (quarter // 2 - 0.5) * half)
-    world.dig{ shape = "box", at = middle + off + vec(0, 0.5, 0), half = vec(half / 2 + 0.5, deep / 2 + 0.5, half / 2 + 0.5) }
+    world.dig{ shape = "box", at = middle + off, half = vec(half / 2 + 0.5, deep / 2, half / 2 + 0.5) }
   end
   tiles = {}
   for x = 1, across do
     for z = 1, across do
       local at = tile_at(x, z)
       world.fill{ shape = "box", at = at, half = vec(1.375, 0.375, 1.375), material = "concrete" }
-      world.fill{ shape = "box", at = vec(at.x, -deep / 2, at.z), half = vec(0.5, deep / 2, 0.5), material = "concrete" }
+      local pillar = vec(at.x, -deep / 2, at.z)
+      world.fill{ shape = "box", at = pillar, half = vec(0.5, deep / 2, 0.5), material = "concrete" }
       tiles[#tiles + 1] = at
     end
   end
@@ -82,7 +83,8 @@ local function take_tile()
   show.cue("rattle", at, { size = 2 })
   after(warning_s, function()
     if game.phase ~= "play" then return end
-    world.carve{ shape = "box", at = at, half = vec(1.45, 0.6, 1.45), pieces = 9, speed = 1 }
+    -- With the top of its pillar, on which one could stand.
+    world.carve{ shape = "box", at = at - vec(0, 0.7, 0), half = vec(1.45, 1.2, 1.45), pieces = 9, speed = 1 }
     show.cue("crack", at, { size = 2, energy = 1e5 })
   end)
   game.wait = math.max(0.4, game.wait * 0.93)

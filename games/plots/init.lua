@@ -27,7 +27,8 @@ local function set_region(plot, key)
   local teams = { key }
   for _, friend in ipairs(plot.friends) do teams[#teams + 1] = team_of(friend) end
   local middle = middle_of(plot)
-  regions.set{ name = key, at = middle + vec(0, (high - deep) / 2, 0), half = vec(size / 2, (high + deep) / 2, size / 2),
+  local half = vec(size / 2, (high + deep) / 2, size / 2)
+  regions.set{ name = key, at = middle + vec(0, (high - deep) / 2, 0), half = half,
     forbid = { "edits", "dents" }, editors = "persons", teams = teams }
   show.marker(key, plot.owner .. "'s plot", middle + vec(0, 6, 0))
 end

@@ -15,9 +15,9 @@ struct WordedField {
   std::string what;  ///< may be empty
 };
 
-/// Of "at: vec, mask?: mask, reply?: fun(reply: reply)". What stands in brackets is not taken apart.
+/// Those of "at: vec, mask?: mask, reply?: fun(reply: reply)". What stands in brackets is not taken apart.
 std::vector<WordedField> arguments_of(std::string_view text);
-/// Of lines "at: vec -- its centre".
+/// Those of lines "at: vec -- its centre".
 std::vector<WordedField> fields_of_type(std::string_view text);
 /// The parts of "table<string, number>, number".
 std::vector<std::string> types_of(std::string_view text);

@@ -26,7 +26,7 @@ int number_at(std::string_view text) {
   return number;
 }
 
-/// Of "file:line:column: words", or of "file:line: words".
+/// The fault of "file:line:column: words", or of "file:line: words".
 FolderFault fault_of_line(std::string_view text) {
   FolderFault fault;
   const size_t file = text.find(':');

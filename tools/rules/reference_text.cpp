@@ -2,6 +2,7 @@
 
 #include <span>
 #include <sstream>
+#include <utility>
 
 #include "server/rules/api.h"
 #include "tools/rules/api_words.h"
@@ -20,18 +21,23 @@ size_t characters_in(std::string_view text) {
   return count;
 }
 
-/// In lines that fit the page.
-std::string wrapped(const std::string& text) {
+/// In lines that fit the page; those after the first begin with `indent`.
+std::string wrapped(const std::string& text, const std::string& indent = "") {
   std::istringstream words(text);
   std::string all, line;
   for (std::string word; words >> word;) {
     if (!line.empty() && characters_in(line) + 1 + characters_in(word) > line_characters_max) {
       all += line + "\n";
-      line.clear();
+      line = indent + word;
+    } else {
+      line += (line.empty() ? "" : " ") + word;
     }
-    line += (line.empty() ? "" : " ") + word;
   }
   return all + line + "\n";
+}
+
+std::string item(const std::string& text) {
+  return wrapped("- " + text, "  ");
 }
 
 std::string example_block(std::string_view example) {
@@ -70,16 +76,39 @@ std::string type_section(const ApiType& type) {
   if (fields.empty()) return text;
   text += "\n";
   for (const WordedField& field : fields)
-    text += "- `" + name_of(field) + ": " + field.type + "`" +
-            (field.what.empty() ? "" : " – " + field.what) + "\n";
+    text +=
+        item("`" + name_of(field) + ": " + field.type + "`" + (field.what.empty() ? "" : " – " + field.what));
   return text;
+}
+
+/// As the page's heading of that name is linked to.
+std::string link_to(const std::string& name) {
+  std::string anchor;
+  for (const char c : name)
+    if (c != '.' && c != ':') anchor += c;
+  return "[" + name + "](#" + anchor + ")";
+}
+
+/// All events and functions, by table.
+std::string index_of_names() {
+  std::string events, text, names;
+  for (const ApiEvent& event : api_events())
+    events += (events.empty() ? "" : ", ") + link_to("on." + std::string(event.name));
+  std::string_view table;
+  for (const ApiFunction& row : all_api()) {
+    if (row.table == "on") continue;
+    if (row.table != table && !names.empty()) text += item(std::exchange(names, {}));
+    table = row.table;
+    names += (names.empty() ? "" : ", ") + link_to(name_in_scripts(row));
+  }
+  return item(events) + text + item(names);
 }
 
 std::string test_rows(std::span<const TestFunction> rows, const std::string& before) {
   std::string text;
   for (const TestFunction& row : rows)
-    text += "- `" + signature(before + std::string(row.name), row.arguments, row.returns) + "` – " +
-            std::string(row.what) + "\n";
+    text += item("`" + signature(before + std::string(row.name), row.arguments, row.returns) + "` – " +
+                 std::string(row.what));
   return text;
 }
 
@@ -96,7 +125,7 @@ std::string reference_text() {
           "may be left out, or be nil. Lengths are metres, masses kg, times seconds of the world. Examples "
           "run "
           "within `on.start` of a flat world.") +
-      "\n## Events\n";
+      "\n" + index_of_names() + "\n## Events\n";
   for (const ApiEvent& event : api_events()) text += event_section(event);
   text += "\n## Functions\n";
   for (const ApiFunction& row : all_api())

@@ -95,12 +95,22 @@ Result<void> tick(TestCall& call) {
   return {};
 }
 
+/// What is read as a script's own request is about the world's store; a person's is about his own.
+void use_own_store(Request& request, const ScriptValue& fields) {
+  const auto said = fields.field("store");
+  if (!said || !said->is_nil()) return;
+  if (auto* const dig = std::get_if<DigRequest>(&request)) dig->store = {};
+  if (auto* const place = std::get_if<PlaceRequest>(&request)) place->store = {};
+}
+
 /// Asks, and waits for the reply.
 Result<void> ask(TestCall& call, std::string_view kind, const ScriptValue& fields) {
   TestWorld* const world = TRY(call.world());
   const uint64_t session = call.argument(1, "person").is_nil() ? 0 : TRY(call.person(1));
   RulesMoment moment = world->moment();
-  const uint32_t number = world->ask(session, TRY(read_request(kind, fields, moment)));
+  Request request = TRY(read_request(kind, fields, moment));
+  if (session != 0) use_own_store(request, fields);
+  const uint32_t number = world->ask(session, std::move(request));
   for (int i = 0; i < reply_ticks_max; ++i) {
     world->step();
     if (const auto reply = world->take_reply(session, number)) {
@@ -248,7 +258,7 @@ std::vector<std::string_view> writable_kinds(std::index_sequence<Index...>) {
   return kinds;
 }
 
-/// Of test_request_kinds(), which CHECKs it.
+/// The number of test_request_kinds(), which CHECKs it.
 constexpr size_t kinds_written = 20;
 
 }  // namespace

@@ -7,13 +7,12 @@ local function begin(t)
   return anna, t:kept("order")
 end
 
--- Digs so much of the ordered material, and places it in the depot.
+-- Digs so much of the ordered material, and more, and places it in the depot.
 local function deliver(t, person, order, volume)
   local dug = 0
   for i = 0, 20 do
-    if dug >= volume then break end
-    local reply = t:dig(person, { at = deposits[order.material] + vec(i % 3, -(i // 9), i // 3 % 3), radius = 1.2,
-      store = "own" })
+    if dug >= volume + 6 then break end
+    local reply = t:dig(person, { at = deposits[order.material] + vec(i % 3, -(i // 9), i // 3 % 3), radius = 1.2 })
     expect(reply.done, reply.refusal)
     dug = dug + reply.volume
     t:seconds(0.2)
@@ -22,8 +21,7 @@ local function deliver(t, person, order, volume)
   for i = 0, 15 do
     if placed >= volume then break end
     local at = vec(i % 3 * 2 - 2, 1.3 + i // 9 * 2, i // 3 % 3 * 2 - 2)
-    local reply = t:place(person, { shape = "box", at = at, half = vec(0.9, 0.9, 0.9), material = order.material,
-      store = "own" })
+    local reply = t:place(person, { shape = "box", at = at, half = vec(0.9, 0.9, 0.9), material = order.material })
     expect(reply.done, reply.refusal)
     placed = placed + reply.volume
   end

@@ -1,6 +1,7 @@
 // What every script begins with: handlers, timers, the log.
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 #include "server/rules/api.h"
 #include "server/rules/limits.h"
@@ -44,7 +45,11 @@ Result<void> cancel(RulesCall& call) {
 
 Result<void> log_line(RulesCall& call) {
   const ScriptValue text = call.argument(1, "text");
-  call.mod.say(std::string(TRY(text.text())));
+  if (text.is_number())
+    call.mod.say(text.is_integer() ? std::to_string(TRY(text.integer()))
+                                   : fmt::format("{:.14g}", TRY(text.number())));
+  else
+    call.mod.say(std::string(TRY(text.text())));
   return {};
 }
 
@@ -79,7 +84,7 @@ constexpr ApiFunction base_rows[] = {
      "local beat = every(1, function() log(\"a second\") end)", every, true},
     {"", "cancel", "timer: integer", "boolean", "Takes a timer away. False: there is none of that number.",
      "local t = after(1, function() end)\nassert(cancel(t) and not cancel(t))", cancel, true},
-    {"", "log", "text: string", "",
+    {"", "log", "text: string|number", "",
      "Writes a line to the server's log, as `print` does. Ten a second are written; the others are counted.",
      "log(\"the world stands at tick \" .. world.tick())", log_line, true},
 };
