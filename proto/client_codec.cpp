@@ -12,6 +12,7 @@
 #include "proto/prop_codec.h"
 #include "proto/query_codec.h"
 #include "proto/region_codec.h"
+#include "proto/rules_codec.h"
 #include "proto/store_codec.h"
 #include "proto/talk_codec.h"
 #include "proto/wire_values.h"
@@ -75,7 +76,7 @@ struct Writing {
   void operator()(const QueryMessage& from) const { write(*to.mutable_query(), from); }
   void operator()(const SetRegionMessage& from) const { write(*to.mutable_set_region(), from); }
   void operator()(const RemoveRegionMessage& from) const { write(*to.mutable_remove_region(), from); }
-  void operator()(const RulesMessage& from) const { write(*to.mutable_rules(), from); }
+  void operator()(const RulesMessage& from) const { to.set_rules(pack_rules(from)); }
   void operator()(const ChannelMessage& from) const { write(*to.mutable_channel(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
@@ -188,7 +189,7 @@ Result<ClientMessage> read_about_bodies(const wire::ClientMessage& from, FieldCh
     case wire::ClientMessage::kTransfer:
       return checked(read(from.transfer(), check));
     case wire::ClientMessage::kRules:
-      return checked(read(from.rules(), check));
+      return checked(unpack_rules(from.rules(), check));
     case wire::ClientMessage::kChannel:
       return checked(read(from.channel(), check));
     default:

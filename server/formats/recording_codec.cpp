@@ -5,7 +5,7 @@
 #include <recording.pb.h>
 
 #include "proto/codec.h"
-#include "proto/game_codec.h"
+#include "proto/rules_codec.h"
 #include "proto/limits.h"
 #include "proto/operation_codec.h"
 #include "proto/store_codec.h"

@@ -1,0 +1,17 @@
+// A page has no rules: what server and files need of them (proto/rules_codec.h) is left out of its program.
+#include "proto/rules_codec.h"
+#include "shared/base/check.h"
+
+namespace scree {
+
+std::string pack_rules(const RulesMessage&) {
+  CHECK(false, "only a server's own rules make such a request");
+  return {};
+}
+
+RulesMessage unpack_rules(const std::string&, FieldChecker& check) {
+  check.refuse("a page has no rules");
+  return {};
+}
+
+}  // namespace scree
