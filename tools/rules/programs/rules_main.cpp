@@ -34,7 +34,7 @@ int refuse(const Error& error) {
 int make(const Options& options) {
   if (const auto made = make_rules_folder(options.name); !made) return refuse(made.error());
   std::printf("%s is there: init.lua is its rules, tests/first.lua their tests.\n", options.name.c_str());
-  std::printf("  scree rules test %s\n  scree server --rules %s --rules-watch\n", options.name.c_str(),
+  std::printf("  ./scree rules test %s\n  ./scree server --rules %s --rules-watch\n", options.name.c_str(),
               options.name.c_str());
   return 0;
 }
