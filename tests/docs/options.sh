@@ -29,6 +29,8 @@ print_help() {
   elif [[ $consumed == 1 && $# -ge 2 ]]; then
     "$bin/$program" "${@:2}" --help 2>/dev/null || true # no subcommand, but an argument
   else
+    # The address and the token are options of scree-admin itself.
+    [[ ${subcommand[0]:-} != rules ]] || "$bin/$program" --help
     "$bin/$program" "${subcommand[@]}" --help
   fi
 }

@@ -74,7 +74,7 @@ program_of() {
   case "$1 ${2:-}" in
     'replay control') program=scree-admin consumed=2 subcommand=(replay) ;;
     'replay render') program=scree-render consumed=2 ;;
-    'rules list' | 'rules reload' | 'rules console') program=scree-admin subcommand=(rules) ;;
+    'rules list' | 'rules reload' | 'rules console') program=scree-admin consumed=2 subcommand=(rules "$2") ;;
     'bench studies') program=scree-studies consumed=2 ;;
     'bench paper' | 'bench matrix' | 'bench peers' | 'bench scale') program=scree-studies ;;
   esac

@@ -1,5 +1,7 @@
 // Every example of the reference runs as it says: within on.start() of a flat world, with a person.
+#include <fstream>
 #include <gtest/gtest.h>
+#include <sstream>
 
 #include "server/rules/api.h"
 #include "tests/support/test_folder.h"
@@ -68,6 +70,30 @@ TEST_F(RulesExamples, of_every_function_runs) {
 TEST_F(RulesExamples, of_every_event_runs) {
   for (const ApiEvent& event : api_events())
     EXPECT_EQ(run(std::string(event.example), ticks_for_events), "") << event.example;
+}
+
+/// The blocks of Lua in a page.
+std::vector<std::string> lua_blocks(const std::string& page) {
+  static constexpr std::string_view begin = "```lua\n", end = "\n```\n";
+  std::vector<std::string> blocks;
+  for (size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    blocks.push_back(page.substr(at, page.find(end, at) - at));
+  }
+  return blocks;
+}
+
+TEST_F(RulesExamples, of_the_guide_run) {
+  std::ifstream file(SCREE_SOURCE_DIR "/docs/rules.md");
+  std::ostringstream page;
+  page << file.rdbuf();
+  int run_blocks = 0;
+  for (const std::string& block : lua_blocks(page.str())) {
+    if (block.starts_with("test(")) continue;  // the tests of the pages' commands run those
+    EXPECT_EQ(run(block + "\n", ticks_for_replies), "") << block;
+    ++run_blocks;
+  }
+  EXPECT_GE(run_blocks, 3);
 }
 
 TEST_F(RulesExamples, that_fails_would_be_found) {
