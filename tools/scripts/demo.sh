@@ -16,8 +16,8 @@ area_m=10 stage_m=(9 4) world=(--terrain canyon --spawn 30,9,19,63,-7)
 # rock may be thin.
 blast_pieces=100
 
-# A game has a bot for each line of options, after the first one (games/NAME).
-bots=()
+# In a game (games/NAME): what the first bot does besides, and the options of each further one.
+first_bot=() bots=()
 
 out="$root/out/demo" scene='' game='' carves=20 seed=7 rate=3 offscreen=auto size=1280x720
 server_pid='' past_pid='' viewer_pid='' bot_pid='' more_bots=()
@@ -114,19 +114,19 @@ set_game() {
   world=(--terrain flat --game "$game") blast_pieces=20
   case $game in
     demolition)
-      world+=(--spawn 0,22,34,0,-25) stage_m=(24 0) area_m=3
+      world+=(--spawn 0,22,34,0,-25) stage_m=(24 0) area_m=3 first_bot=(--radius 1.4)
       bots=("--centre -24 0 --area 3 --carves $carves --rate $rate --radius 1.4 --seed $((seed + 1))")
       ;;
     floor)
-      world+=(--persons walk --spawn 0,9,15,0,-35) carves=0 blast_pieces=5
+      world+=(--persons walk --spawn 0,9,15,0,-35) carves=0 blast_pieces=5 first_bot=(--walk 30)
       bots=("--carves 0 --walk 30 --seed $((seed + 1))" "--carves 0 --walk 30 --seed $((seed + 2))")
       ;;
     quarry)
-      world+=(--spawn 0,16,34,0,-25) carves=0 blast_pieces=0
-      bots=("--carves 0 --digs 12 --centre -18 -10 --area 4 --rate 2" "--carves 0 --digs 12 --centre 18 -10 --area 4 --rate 2")
+      world+=(--spawn 0,16,34,0,-25) carves=0 blast_pieces=0 stage_m=(0 22) area_m=4 first_bot=(--digs 12)
+      bots=("--carves 0 --digs 12 --centre -18 -10 --area 4 --rate $rate" "--carves 0 --digs 12 --centre 18 -10 --area 4 --rate $rate")
       ;;
     plots)
-      world+=(--spawn 0,16,28,0,-25) stage_m=(0 0) area_m=5
+      world+=(--spawn 0,16,28,0,-25) stage_m=(0 0) area_m=5 first_bot=(--message plots claim)
       bots=("--message plots claim --centre -16 -16 --area 5 --carves $carves --rate $rate --seed $((seed + 1))")
       ;;
     *) die "there is no game '$game': choose demolition, floor, plots or quarry" ;;
@@ -156,11 +156,12 @@ start_past() {
 # start_bot SECONDS: carves, stays until all has settled, then compares its hash with the server's.
 start_bot() {
   "$bin/scree-bot" --host 127.0.0.1 --port "$port" --centre "${stage_m[@]}" --area "$area_m" \
-    --carves "$carves" --seed "$seed" --rate "$rate" --linger --check-hash --timeout "$1" \
+    --carves "$carves" --seed "$seed" --rate "$rate" --linger --check-hash --timeout "$1" "${first_bot[@]}" \
     --report "$out/bot.json" >"$out/bot.log" 2>&1 &
   bot_pid=$!
   local options
   for options in "${bots[@]}"; do
+    sleep 1 # the first one comes first, to the plot in the middle
     # shellcheck disable=SC2086  # options are words
     "$bin/scree-bot" --host 127.0.0.1 --port "$port" $options --timeout "$1" >>"$out/bots.log" 2>&1 &
     more_bots+=($!)
@@ -245,7 +246,7 @@ main() {
   parse "$@"
   mkdir -p "$out"
   out=$(cd "$out" && pwd)
-  rm -f "$out"/scene.{world,world-wal,world-shm,json} "$out"/session.scree{,-wal,-shm} "$out"/{server,bot,past}.{json,out,log} "$out"/{viewer,browser}.log "$out"/{before,blast,settled,browser}.png
+  rm -f "$out"/scene.{world,world-wal,world-shm,json} "$out"/session.scree{,-wal,-shm} "$out"/{server,bot,past}.{json,out,log} "$out"/{viewer,browser,bots}.log "$out"/{before,blast,settled,browser}.png
   trap cleanup EXIT
   [[ -z $scene ]] || make_scene
   [[ -z $game ]] || set_game
