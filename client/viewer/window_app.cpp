@@ -157,7 +157,10 @@ Result<void> WindowApp::act(const AppInput& input, double now_s) {
     if (action == Action::mute) mute_or_play(now_s);
     act_on_session(action, now_s);
     TRY(act_on_files(action, now_s));
-    if (action == Action::next_method) TRY(choose(next_available(methods.chosen())));
+    if (action != Action::next_method) continue;
+    const MethodEntry& next = next_available(methods.chosen());
+    say(std::string(next.name) + ": " + std::string(next.summary), now_s);
+    TRY(choose(next));
   }
   if (input.said) viewing_.session.say(*input.said);
   grow(tool_, input.wheel);

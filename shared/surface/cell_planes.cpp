@@ -28,27 +28,38 @@ constexpr float third_face_sine = 0.35F;
 WindowSteps::WindowSteps(const Window& window) {
   const VoxelCoord size = window.box.size();
   along = {std::ptrdiff_t{size.y} * size.z, size.z, 1};
-  for (int i = 0; i < cell_corners; ++i) {
-    const VoxelCoord at = cell_corner(i);
-    const std::array<int, 3> bits{at.x, at.y, at.z};
-    std::ptrdiff_t& corner = corners[static_cast<size_t>(i)];
-    corner = at.x * along[0] + at.y * along[1] + at.z * along[2];
-    for (size_t axis = 0; axis < 3; ++axis)
-      beyond[static_cast<size_t>(i) * 3 + axis] = corner + (bits[axis] != 0 ? along[axis] : -along[axis]);
+  for (size_t i = 0; i < cell_corners; ++i) {
+    const VoxelCoord at = cell_corner(static_cast<int>(i));
+    const glm::vec3 off = as_vector(at);
+    corners[i] = {at.x * along[0] + at.y * along[1] + at.z * along[2], off};
+    for (size_t axis = 0; axis < 3; ++axis) {
+      const int way = off[static_cast<int>(axis)] > 0.0F ? 1 : -1;
+      glm::vec3 beyond_off = off;
+      beyond_off[static_cast<int>(axis)] += static_cast<float>(way);
+      beyond[i * 3 + axis] = {corners[i].by + way * along[axis], beyond_off};
+    }
   }
 }
 
 uint16_t FaceMap::look(size_t index) {
   const FacePlane plane = face_plane_at(&window_.codes[index], steps_.along[0], steps_.along[1]);
   if (!plane.is_known()) return none;
-  const auto at = static_cast<std::ptrdiff_t>(index);
-  const VoxelCoord off{static_cast<int>(at / steps_.along[0]),
-                       static_cast<int>(at % steps_.along[0] / steps_.along[1]),
-                       static_cast<int>(at % steps_.along[1])};
-  const glm::vec3 normal = plane.direction();
-  faces_.push_back({normal, glm::dot(normal, as_vector(off)) - decode(plane.code)});
+  faces_.push_back({plane.direction(), decode(plane.code)});
   CHECK(faces_.size() < none);
   return static_cast<uint16_t>(faces_.size());
+}
+
+glm::vec3 direction_about(const FaceMap& faces, size_t cell_index) {
+  const WindowSteps& steps = faces.steps();
+  const Code* const codes = &faces.window().codes[cell_index];
+  std::array<int, 3> sum{};
+  for (size_t i = 0; i < steps.beyond.size(); ++i) {
+    const int code = codes[steps.beyond[i].by];
+    sum[i % 3] += steps.beyond[i].by > steps.corners[i / 3].by ? code : -code;
+  }
+  const glm::vec3 slope(sum[0], sum[1], sum[2]);
+  const float squared = glm::dot(slope, slope);
+  return squared > 0.0F ? slope / std::sqrt(squared) : slope;
 }
 
 void CellPlanes::look_beyond(FaceMap& faces, const CellVertex& home) {
@@ -57,10 +68,10 @@ void CellPlanes::look_beyond(FaceMap& faces, const CellVertex& home) {
   const Code* const codes = &faces.window().codes[home.index];
   const glm::vec3 rise = normal_[0] * codes_per_voxel;
   for (size_t i = 0; i < steps.beyond.size(); ++i) {
-    const std::ptrdiff_t corner = steps.corners[i / 3];
-    const float way = steps.beyond[i] > corner ? 1.0F : -1.0F;
+    const std::ptrdiff_t corner = steps.corners[i / 3].by, beyond = steps.beyond[i].by;
+    const float way = beyond > corner ? 1.0F : -1.0F;
     const float said = static_cast<float>(codes[corner]) + way * rise[static_cast<int>(i % 3)];
-    if (std::abs(said - static_cast<float>(codes[steps.beyond[i]])) > same_face_codes)
+    if (std::abs(said - static_cast<float>(codes[beyond])) > same_face_codes)
       add(faces, home, steps.beyond[i]);
   }
 }
@@ -68,24 +79,21 @@ void CellPlanes::look_beyond(FaceMap& faces, const CellVertex& home) {
 void CellPlanes::look_across(const FaceMap& faces, const CellVertex& home) {
   const Code* const codes = &faces.window().codes[home.index];
   const auto& corners = faces.steps().corners;
-  const std::array<int, 3> cell{home.cell.x, home.cell.y, home.cell.z};
   count_ = 0;
   for (size_t i = 0; i < corners.size(); ++i)
-    for (size_t axis = 0; axis < 3; ++axis) {
+    for (int axis = 0; axis < 3; ++axis) {
       const size_t bit = size_t{4} >> axis;
       if ((i & bit) != 0) continue;
-      const int low = codes[corners[i]], high = codes[corners[i | bit]];
+      const int low = codes[corners[i].by], high = codes[corners[i | bit].by];
       if ((low < 0) == (high < 0)) continue;
       if (std::abs(high - low) < across_least) {
         count_ = 0;
         return;
       }
-      const auto at = static_cast<int>(axis);
-      const float crossing =
-          static_cast<float>(cell[axis]) + static_cast<float>(low) / static_cast<float>(low - high);
+      const float crossing = static_cast<float>(low) / static_cast<float>(low - high);
       normal_[count_] = glm::vec3(0.0F);
-      normal_[count_][at] = high < 0 ? -1.0F : 1.0F;
-      distance_[count_] = normal_[count_][at] * (home.at[at] - crossing);
+      normal_[count_][axis] = high < 0 ? -1.0F : 1.0F;
+      distance_[count_] = normal_[count_][axis] * (home.at[axis] - crossing);
       ++count_;
     }
 }

@@ -1,5 +1,6 @@
 // The planes of flat faces about a cell, for the vertex that surface nets put there (creases.h). The map is
-// not thread-safe. Units: voxels, places from the window's lowest point.
+// not thread-safe. Units: voxels. Places count from the cell's lowest corner, so that all windows that hold a
+// cell give the same bits.
 #pragma once
 
 #include <array>
@@ -16,18 +17,22 @@
 
 namespace scree {
 
-/// normal · x = offset.
-struct CellFace {
+/// The plane of a point, which lies so far from it: normal · (x − point) + distance = 0.
+struct PointFace {
   glm::vec3 normal{0.0F};
-  float offset = 0.0F;
+  float distance = 0.0F;
 };
 
 /// Along each axis of a window; and from a cell's lowest corner to its corners, and to the points one voxel
 /// beyond these.
 struct WindowSteps {
   std::array<std::ptrdiff_t, 3> along;
-  std::array<std::ptrdiff_t, cell_corners> corners;
-  std::array<std::ptrdiff_t, size_t{3} * cell_corners> beyond;
+  struct Step {
+    std::ptrdiff_t by;
+    glm::vec3 off;  ///< from the cell's lowest corner
+  };
+  std::array<Step, cell_corners> corners;
+  std::array<Step, size_t{3} * cell_corners> beyond;  ///< corner · 3 + axis
 
   explicit WindowSteps(const Window& window);
 };
@@ -39,7 +44,7 @@ class FaceMap {
   explicit FaceMap(const Window& window) : window_(window), steps_(window), slots_(window.codes.size()) {}
 
   /// Null where no flat face is near. Valid until the next call.
-  const CellFace* at(size_t index) {
+  const PointFace* at(size_t index) {
     uint16_t& slot = slots_[index];
     if (slot == 0) slot = look(index);
     return slot == none ? nullptr : &faces_[slot - 1U];
@@ -55,16 +60,19 @@ class FaceMap {
   const Window& window_;
   WindowSteps steps_;
   std::vector<uint16_t> slots_;  ///< index in faces_ + 1; 0: not computed yet
-  std::vector<CellFace> faces_;
+  std::vector<PointFace> faces_;
 };
 
 /// A cell's vertex before it moves.
 struct CellVertex {
   VoxelCoord cell;
   size_t index;   ///< of the cell's lowest corner in the window
-  glm::vec3 at;   ///< the vertex
-  glm::vec3 out;  ///< the field's direction there
+  glm::vec3 at;   ///< the vertex, from that corner
+  glm::vec3 out;  ///< the field's direction about the cell (direction_about)
 };
+
+/// The field's direction over a cell and the points beyond it, unit; nothing where it has none.
+glm::vec3 direction_about(const FaceMap& faces, size_t cell_index);
 
 /// Known planes about a cell that are near its vertex.
 class CellPlanes {
@@ -72,7 +80,7 @@ class CellPlanes {
   size_t count() const { return count_; }
   /// Adds those of its corners.
   void look_at_corners(FaceMap& faces, const CellVertex& home) {
-    for (const std::ptrdiff_t step : faces.steps().corners) add(faces, home, step);
+    for (const WindowSteps::Step& step : faces.steps().corners) add(faces, home, step);
   }
   /// Also those of the 24 points one voxel beyond the corners: an edge may cut off a part of the cell that
   /// holds none of them. Points whose distance the corners' face says lie on that face. Needs a plane.
@@ -108,10 +116,10 @@ class CellPlanes {
   /// As many as a cell has corners and points beyond them; its edges are fewer.
   static constexpr size_t planes_max = 32;
 
-  void add(FaceMap& faces, const CellVertex& home, std::ptrdiff_t step) {
-    const CellFace* face = faces.at(home.index + static_cast<size_t>(step));
+  void add(FaceMap& faces, const CellVertex& home, const WindowSteps::Step& step) {
+    const PointFace* face = faces.at(home.index + static_cast<size_t>(step.by));
     if (face == nullptr) return;
-    const float away = glm::dot(face->normal, home.at) - face->offset;
+    const float away = face->distance + glm::dot(face->normal, home.at - step.off);
     // Faces that turn away are the other side of a thin wall.
     if (std::abs(away) > same_wall_voxels || glm::dot(face->normal, home.out) < other_side_cosine) return;
     normal_[count_] = face->normal;

@@ -23,9 +23,9 @@ constexpr float on_face_voxels = 0.12F;
 /// A point this near to a cell counts as inside.
 constexpr float beside_voxels = 0.02F;
 
-/// The point of a cell nearest to `from` on the line along an edge; none if the line misses the cell.
-std::optional<glm::vec3> on_line_in(VoxelCoord cell, glm::vec3 from, glm::vec3 along) {
-  const glm::vec3 lo = as_vector(cell) - beside_voxels - from, hi = lo + (1.0F + 2.0F * beside_voxels);
+/// The point of the cell 0 … 1 nearest to `from` on the line along an edge; none if the line misses the cell.
+std::optional<glm::vec3> on_line_in_cell(glm::vec3 from, glm::vec3 along) {
+  const glm::vec3 lo = -beside_voxels - from, hi = lo + (1.0F + 2.0F * beside_voxels);
   float first = -4.0F, last = 4.0F;
   for (int i = 0; i < 3; ++i) {
     if (std::abs(along[i]) < 1e-5F) {
@@ -72,15 +72,12 @@ class Sharpener {
   }
 
   CellVertex home_of(const SurfaceVertex& vertex) const {
-    const Window& window = faces_.window();
-    const VoxelCoord off = mesh_.origin - window.box.lo;
-    const VoxelCoord cell =
-        off + VoxelCoord{vertex.position[0] / steps, vertex.position[1] / steps, vertex.position[2] / steps};
-    const VoxelCoord at = window.box.lo + cell;
-    return {cell, window.index(at.x, at.y, at.z),
-            as_vector(off) + glm::vec3(vertex.position[0], vertex.position[1], vertex.position[2]) /
-                                 surface_steps_per_voxel,
-            glm::vec3(vertex.normal[0], vertex.normal[1], vertex.normal[2]) * (1.0F / 127.0F)};
+    const VoxelCoord cell = mesh_.origin + VoxelCoord{vertex.position[0] / steps, vertex.position[1] / steps,
+                                                      vertex.position[2] / steps};
+    const size_t index = faces_.window().index(cell.x, cell.y, cell.z);
+    const glm::vec3 in_cell(vertex.position[0] % steps, vertex.position[1] % steps,
+                            vertex.position[2] % steps);
+    return {cell, index, in_cell / surface_steps_per_voxel, direction_about(faces_, index)};
   }
 
   /// Whether a vertex of `home` may lie in a cell: its own, or one that has no vertex.
@@ -91,7 +88,7 @@ class Sharpener {
     const Window& window = faces_.window();
     int rock = 0;
     for (int i = 0; i < cell_corners; ++i) {
-      const VoxelCoord p = window.box.lo + cell + cell_corner(i);
+      const VoxelCoord p = cell + cell_corner(i);
       rock += window.at(p.x, p.y, p.z) < 0 ? 1 : 0;
     }
     return rock == 0 || rock == cell_corners;
@@ -128,19 +125,18 @@ class Sharpener {
   bool shift(size_t index, const CellVertex& home, glm::vec3 way, const CellPlanes& planes) {
     glm::vec3 to = home.at + way;
     if (const auto along = planes.along_edge())
-      if (const auto inside = on_line_in(home.cell, to, *along)) to = *inside;
+      if (const auto inside = on_line_in_cell(to, *along)) to = *inside;
     const glm::vec3 in_home =
-        glm::clamp(to, as_vector(home.cell), as_vector(home.cell) + (1.0F - 1.0F / surface_steps_per_voxel));
+        glm::clamp(to, glm::vec3(0.0F), glm::vec3(1.0F - 1.0F / surface_steps_per_voxel));
     if (glm::distance(to, in_home) < 2.0F * beside_voxels) to = in_home;
-    if (!may_hold({floor_to_int(to.x), floor_to_int(to.y), floor_to_int(to.z)}, home.cell)) return false;
+    const VoxelCoord to_cell{floor_to_int(to.x), floor_to_int(to.y), floor_to_int(to.z)};
+    if (!may_hold(home.cell + to_cell, home.cell)) return false;
     SurfaceVertex& vertex = mesh_.vertices[index];
-    const VoxelCoord off = mesh_.origin - faces_.window().box.lo;
-    for (int i = 0; i < 3; ++i) {
-      const auto axis = static_cast<size_t>(i);
-      const std::array<int, 3> origin{off.x, off.y, off.z};
-      const auto at =
-          static_cast<int>((to[i] - static_cast<float>(origin[axis])) * surface_steps_per_voxel + 0.5F);
-      vertex.position[axis] = static_cast<uint16_t>(std::clamp(at, 0, 65535));
+    const VoxelCoord off = home.cell - mesh_.origin;
+    const std::array<int, 3> from{off.x * steps, off.y * steps, off.z * steps};
+    for (size_t i = 0; i < 3; ++i) {
+      const int at = floor_to_int(to[static_cast<int>(i)] * surface_steps_per_voxel + 0.5F);
+      vertex.position[i] = static_cast<uint16_t>(std::clamp(from[i] + at, 0, 65535));
     }
     set_normal(vertex, planes.mean_normal(), crease_normal_length);
     is_crease_[index] = true;

@@ -6,9 +6,9 @@
 
 #include "client/render/levels/surface_looks.h"
 #include "shared/surface/creases.h"
+#include "shared/surface/dual_vertex.h"
 #include "shared/surface/leaf_surface.h"
 #include "shared/surface/marching_cubes.h"
-#include "shared/surface/sharp_vertex.h"
 #include "shared/surface/surface_vertices.h"
 
 namespace scree {
@@ -267,8 +267,8 @@ BlockWindows plain_windows(const VoxelBox& owned, bool is_rock) {
 SheetPlace place_by(Polygoniser polygoniser, const Window& window) {
   if (polygoniser == Polygoniser::nets)
     return [](VoxelCoord, std::span<const LeafCrossing> crossings) { return mean_of(crossings); };
-  return [vertices = std::make_shared<SharpVertices>(window)](VoxelCoord cell,
-                                                              std::span<const LeafCrossing> crossings) {
+  return [vertices = std::make_shared<DualVertices>(window)](VoxelCoord cell,
+                                                             std::span<const LeafCrossing> crossings) {
     return vertices->place(cell, crossings);
   };
 }

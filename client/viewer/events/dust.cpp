@@ -14,6 +14,8 @@ namespace {
 /// Air stops a puff: part of its speed that is lost, a second.
 constexpr float drag_per_s = 2.2F;
 constexpr float dust_rise_m_s = 0.10F;
+/// Metres that the middle of a puff rises while its radius grows by one.
+constexpr float rises_per_swelling = 0.8F;
 /// Beyond it, an event throws no more; what it throws lies as far apart as the piece is wide.
 constexpr float size_max_m = 3.0F, width_max_m = 4.0F;
 constexpr float puff_max_m = 0.9F;
@@ -178,6 +180,8 @@ Particle Dust::aged(const Grain& grain, float age_s) {
     const float way_s = (1.0F - std::exp(-drag_per_s * age_s)) / drag_per_s;
     now.place_m += grain.speed_m_s * way_s + glm::vec3(0.0F, dust_rise_m_s * age_s, 0.0F);
     now.radius_m *= 1.0F + 2.0F * std::sqrt(share);
+    // It swells upwards: the ground beneath would cut it in a line.
+    now.place_m.y += rises_per_swelling * (now.radius_m - grain.first.radius_m);
     left = std::min(1.0F, 12.0F * share) * (1.0F - share) * (1.0F - share);
   }
   now.turn += grain.spin * age_s;
