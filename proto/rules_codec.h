@@ -1,5 +1,5 @@
 // The acts of rules, between our types and Protobuf's. Internal to proto/ and to the formats of files.
-// proto/rules.proto specifies them. A page has none (client/web/no_rules.cpp).
+// proto/rules.proto specifies them. A page has none (no_rules.cpp).
 #pragma once
 
 #include <string>
