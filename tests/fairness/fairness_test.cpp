@@ -257,7 +257,7 @@ Tick cut_after(uint32_t rules) {
       return born;
     };
     spawn(state, applied, where_it_was, delta);
-    queue_refractures(state, applied, request, party, request.seeds, false);
+    queue_refractures(state, applied, request, BlowSide::outside, party, request.seeds, false);
   };
   carve(first_attacker, ball({200.0F, -2.0F, 0.0F}, 8.0F, 1500), 60);
   carve(honest, ball({0.0F, 0.0F, 0.0F}, 2.5F, 64), 8);

@@ -160,6 +160,9 @@ class TrustingClient {
   void apply(const JointsMessage&) {}
   void apply(const KeptPiecesMessage&) {}
   void apply(const RegionsMessage&) {}
+  void apply(const SignsMessage&) {}
+  void apply(const CuesMessage&) {}
+  void apply(const ChannelMessage&) {}
   void apply(const PersonPlacesMessage&) {}
   void apply(const StoresMessage&) {}
   void apply(const AnswerMessage& message) { answers.push_back(message); }

@@ -134,7 +134,8 @@ TEST(Tool, materials_are_known_by_name_and_one_that_the_world_lacks_is_its_first
   for (const MaterialRow& row : palette.rows) {
     change(tool, Action::next_material, palette);
     EXPECT_EQ(tool.material, row.name);
-    EXPECT_EQ(std::get<FillRequest>(request_of(tool, {}, {0.0F, -1.0F, 0.0F}, 1, {palette, MaterialMasses{}}))
+    EXPECT_EQ(std::get<FillRequest>(
+                  request_of(tool, {}, {0.0F, -1.0F, 0.0F}, 1, {palette, MaterialMasses{}, 0.25F}))
                   .material,
               palette.named(row.name));
   }
