@@ -23,7 +23,7 @@ constexpr float interest_m = 64.0F;
 constexpr Tick ticks_per_blow = 30;
 constexpr uint32_t seeds_per_blow = 64;
 
-std::vector<HelloMessage> hellos(const Audience& audience, float ground_m) {
+std::vector<HelloMessage> hellos(const Spectators& audience, float ground_m) {
   Random random(audience.viewers);
   std::vector<HelloMessage> all;
   for (size_t i = 0; i < audience.viewers; ++i) {
@@ -86,7 +86,7 @@ class Mirrors {
 
 }  // namespace
 
-Result<AudienceOutcome> show_storm(const Audience& audience) {
+Result<AudienceOutcome> show_storm(const Spectators& audience) {
   const size_t sessions = audience.viewers + audience.mirrors;
   WorldConfig config;
   config.service.sessions_max = static_cast<uint32_t>(sessions);

@@ -9,7 +9,7 @@
 
 namespace scree {
 
-struct Audience {
+struct Spectators {
   size_t viewers = 100;
   float spread_m = 0.0F;  ///< their eyes lie within this of the origin
   size_t mirrors = 10;    ///< more viewers, who apply everything and check every hash
@@ -32,6 +32,6 @@ struct AudienceOutcome {
 };
 
 /// An error when the server or a viewer cannot begin.
-Result<AudienceOutcome> show_storm(const Audience& audience);
+Result<AudienceOutcome> show_storm(const Spectators& audience);
 
 }  // namespace scree
