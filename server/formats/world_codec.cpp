@@ -71,18 +71,16 @@ void write(kept::Cut& to, const PendingRefracture& from) {
   to.set_party(from.party);
   to.set_blasted(from.blasted);
   if (from.thrown_by == nullptr) return;
-  const Command carve{0, 0, *from.thrown_by, 0};
-  to.set_thrown_by(to_string(encode(std::span(&carve, 1))));
+  to.set_thrown_by(to_string(encode(std::vector{Command{0, 0, *from.thrown_by, 0}})));
 }
 
 PendingRefracture read(const kept::Cut& from, FieldChecker& check) {
-  PendingRefracture pending;
-  pending.piece = from.piece();
-  pending.pieces = from.pieces();
-  pending.pattern = check.kind<SeedPattern>(from.pattern(), "pattern");
-  pending.random_seed = from.random_seed();
-  pending.party = from.party();
-  pending.blasted = from.blasted();
+  PendingRefracture pending{.piece = from.piece(),
+                            .pieces = from.pieces(),
+                            .pattern = check.kind<SeedPattern>(from.pattern(), "pattern"),
+                            .random_seed = from.random_seed(),
+                            .party = from.party(),
+                            .blasted = from.blasted()};
   const auto impact = check.value_or_refuse(unpack_vec3s(from.impact(), "impact of a cut", 1));
   if (impact.size() == 1)
     pending.impact_m = impact.front();

@@ -58,7 +58,7 @@ Blast::Blast(const World::State& state, const CarveRequest& request, BlowSide si
   if (spins_by_place_) open_side_ = open_side(state.field, request.shape);
 }
 
-Flight Blast::flight(glm::vec3 centre_m) const {
+EjectedMotion Blast::flight(glm::vec3 centre_m) const {
   const glm::vec3 middle_m = centre_of(request_.shape);
   const float reach_m = std::max(reach_of(request_.shape), 0.01F);
   if (ejects_) return ejected({middle_m, reach_m, request_.blast_speed_m_s}, open_side_, centre_m);
@@ -70,7 +70,7 @@ Flight Blast::flight(glm::vec3 centre_m) const {
 }
 
 BodyState Blast::thrown(PieceId id, glm::vec3 centre_m) const {
-  const Flight off = flight(centre_m);
+  const EjectedMotion off = flight(centre_m);
   const uint64_t which = spins_by_place_ ? number_of_place(centre_m) : id;
   Random random(request_.random_seed * 0x9E3779B97F4A7C15ULL + which);
   const auto spin = [&] { return (random.unit() - 0.5F) * off.speed_m_s; };

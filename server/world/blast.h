@@ -26,7 +26,7 @@ class Blast {
   BodyState thrown(PieceId id, glm::vec3 centre_m) const;
 
  private:
-  Flight flight(glm::vec3 centre_m) const;
+  EjectedMotion flight(glm::vec3 centre_m) const;
 
   const CarveRequest& request_;
   glm::vec3 open_side_{0.0F, 1.0F, 0.0F};

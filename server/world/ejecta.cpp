@@ -31,7 +31,7 @@ float ejecta_speed_m_s(float radius_m) {
   return speed_by_weight * std::sqrt(gravity_m_s2 * radius_m);
 }
 
-Flight ejected(const Burst& burst, glm::vec3 open_side, glm::vec3 place_m) {
+EjectedMotion ejected(const Burst& burst, glm::vec3 open_side, glm::vec3 place_m) {
   const glm::vec3 off_m = place_m - burst.centre_m;
   const float radii = std::clamp(std::sqrt(glm::dot(off_m, off_m)) / burst.radius_m, nearest_radii, 1.0F);
   const float by_distance = std::sqrt(1.0F - radii / stays_radii) / (radii * power(radii, exponent_beyond_1));

@@ -20,7 +20,7 @@ struct Burst {
   float speed_m_s = 0.0F;
 };
 
-struct Flight {
+struct EjectedMotion {
   glm::vec3 direction{0.0F};
   float speed_m_s = 0.0F;
 };
@@ -30,6 +30,6 @@ float ejecta_speed_m_s(float radius_m);
 
 /// How a piece flies off whose centre was there. `open_side` (at most a unit vector) is where the crater
 /// opens; where it does not, all flies away from the charge.
-Flight ejected(const Burst& burst, glm::vec3 open_side, glm::vec3 place_m);
+EjectedMotion ejected(const Burst& burst, glm::vec3 open_side, glm::vec3 place_m);
 
 }  // namespace scree

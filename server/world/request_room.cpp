@@ -1,11 +1,13 @@
 #include "server/world/request_room.h"
 
+#include <algorithm>
 #include <string>
 
 #include "server/work/limits.h"
 #include "server/work/price.h"
 #include "server/world/explosion.h"
 #include "server/world/limits.h"
+#include "server/world/merge_stage.h"
 
 namespace scree {
 
@@ -79,6 +81,18 @@ bool may_wait(const World::State& state, const WaitingRequest& request, const Pi
   const float wait_s = gets_some ? limits::room_wait_least_s : limits::room_wait_max_s;
   const auto ticks = static_cast<Tick>(wait_s * static_cast<float>(state.config.tick_rate_hz));
   return grant.pieces == 0 && (grant.may_wait || gets_some) && state.tick - request.since < ticks;
+}
+
+float relief_us(const World::State& state) {
+  const float wanted = least_merge_cost_us(state) * static_cast<float>(state.rest.put_off());
+  return std::min(wanted, limits::relief_share * state.work.budget_us());
+}
+
+bool may_begin(const World::State& state, float cost_us) {
+  if (state.work.in_debt()) return false;
+  if (state.work.bodies_load() < limits::load_max || state.work.affords(cost_us)) return true;
+  const auto rest = static_cast<Tick>(limits::request_rest_s * static_cast<float>(state.config.tick_rate_hz));
+  return state.tick - state.requested >= rest;
 }
 
 }  // namespace scree

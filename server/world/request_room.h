@@ -31,4 +31,11 @@ float cost_with(const World::State& state, const WaitingRequest& request, const 
 /// Whether the request waits for room that may come.
 bool may_wait(const World::State& state, const WaitingRequest& request, const PieceGrant& grant);
 
+/// Time in the tick that is kept for pieces at rest that could not merge in the last one.
+float relief_us(const World::State& state);
+
+/// Whether a tick's first request that costs time may be carried out, though it may not fit: at any time with
+/// few bodies, now and then with many.
+bool may_begin(const World::State& state, float cost_us);
+
 }  // namespace scree

@@ -14,7 +14,6 @@
 #include "server/world/game_requests.h"
 #include "server/world/joint_requests.h"
 #include "server/world/limits.h"
-#include "server/world/merge_stage.h"
 #include "server/world/person_requests.h"
 #include "server/world/piece_addition.h"
 #include "server/world/piece_carving.h"
@@ -254,21 +253,6 @@ struct Executing {
   }
   Outcome operator()(const auto& of_bodies) const { return perform(state, of_bodies, party, delta); }
 };
-
-/// Time in the tick that is kept for pieces at rest that could not merge in the last one.
-float relief_us(const World::State& state) {
-  const float wanted = least_merge_cost_us(state) * static_cast<float>(state.rest.put_off());
-  return std::min(wanted, limits::relief_share * state.work.budget_us());
-}
-
-/// Whether a tick's first request that costs time may be carried out, though it may not fit: at any time with
-/// few bodies, now and then with many.
-bool may_begin(const World::State& state, float cost_us) {
-  if (state.work.in_debt()) return false;
-  if (state.work.bodies_load() < limits::load_max || state.work.affords(cost_us)) return true;
-  const auto rest = static_cast<Tick>(limits::request_rest_s * static_cast<float>(state.config.tick_rate_hz));
-  return state.tick - state.requested >= rest;
-}
 
 void answer(World::State& state, const Command& command, const Outcome& outcome, TickDelta& delta) {
   Reply reply{command.session, command.request, {}, 0};
