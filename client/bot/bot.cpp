@@ -55,6 +55,7 @@ Result<void> Bot::join() {
 
 tl::expected<void, ConnectionEnd> Bot::connect() {
   HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
+  hello.name = config_.name;
   hello.at_spawn = config_.at_spawn && !stands_;
   TRY(join_and_wait(client_, hello));
   report_.welcome = *client_.welcome();

@@ -26,6 +26,7 @@
 namespace scree {
 
 struct BotConfig : ServerEndpoint {
+  std::string name{};             ///< that of its person; empty: it has none
   uint32_t carves = 20;           ///< 0: the bot ends after the handshake and one frame
   uint32_t digs = 0;              ///< after the carves
   uint32_t places = 0;            ///< after the digs, out of what the bot carries

@@ -32,6 +32,7 @@ struct Words {
 };
 
 void add_interest(CLI::App& app, BotConfig& bot) {
+  app.add_option("--name", bot.name, "name of the bot's person, as others see it")->envname("SCREE_NAME");
   bounded(app.add_option("--interest", bot.interest_radius_m,
                          "radius of the terrain that the bot follows, metres"),
           {0.0, limits::interest_radius_max_m})
@@ -78,8 +79,9 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
       ->envname("SCREE_RATE")
       ->capture_default_str();
   // A radius over the server's limit is allowed, to show the server's refusal; so are too many seeds.
-  bounded(app.add_option("--radius", bot.carver.radius_m,
-                         "radius of a carve or a dig, metres; servers allow 8 at most, and 5.4 in voxels of 0.1 m"),
+  bounded(app.add_option(
+              "--radius", bot.carver.radius_m,
+              "radius of a carve or a dig, metres; servers allow 8 at most, and 5.4 in voxels of 0.1 m"),
           {0.0, 1e6})
       ->envname("SCREE_RADIUS")
       ->capture_default_str();

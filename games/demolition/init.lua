@@ -97,12 +97,24 @@ local function smaller_team()
   return members.red <= members.blue and "red" or "blue"
 end
 
+local function put_into(team, person)
+  store.set("team of " .. person:name(), team)
+  person:set_team(team)
+  return "you are " .. team .. ": bring down the other team's towers"
+end
+
 on.join(function(e)
-  local key = "team of " .. e.person:name()
-  local team = store.get(key) or smaller_team()
-  store.set(key, team)
-  e.person:set_team(team)
-  e.person:say("you are " .. team .. ": bring down the other team's towers")
+  local team = store.get("team of " .. e.person:name()) or smaller_team()
+  e.person:say(put_into(team, e.person))
+end)
+
+-- /red and /blue change sides; a program sends the channel "team".
+on.say(function(e)
+  local team = e.text:match("^/(%a+)$")
+  if side[team] then return put_into(team, e.by) end
+end)
+on.message(function(e)
+  if e.channel == "team" and side[e.bytes] then e.by:say(put_into(e.bytes, e.by)) end
 end)
 
 on.request(function(r)

@@ -7,7 +7,7 @@ local half = across * size / 2
 local lookout = vec(0, 0.5, half + 5) -- where those stand who are out
 
 local tiles = {}   -- those that are left: { at, key }
-local playing = {} -- by name: true while the person is in
+local playing = {} -- by person: true while in
 local game = { number = 0, phase = "pause", next = 3 }
 
 local function save() store.set("number", game.number) end
@@ -32,11 +32,12 @@ local function build()
   end
 end
 
-local function names_playing()
-  local names = {}
-  for name in pairs(playing) do names[#names + 1] = name end
-  table.sort(names)
-  return names
+local function still_in()
+  local all = {}
+  for _, person in ipairs(persons.all()) do
+    if playing[person] then all[#all + 1] = person end
+  end
+  return all
 end
 
 local function show_state()
@@ -45,7 +46,7 @@ local function show_state()
     show.remove("2 left")
   else
     show.line("1 round", "round " .. game.number)
-    show.bar("2 left", #tiles .. " tiles, " .. #names_playing() .. " persons", #tiles / (across * across))
+    show.bar("2 left", #tiles .. " tiles, " .. #still_in() .. " persons", #tiles / (across * across))
   end
 end
 
@@ -70,7 +71,7 @@ local function begin_round()
   for i, person in ipairs(all) do
     local tile = tiles[(i * 7) % #tiles + 1]
     person:stand(vec(tile.x, 0.3, tile.z))
-    playing[person:name()] = true
+    playing[person] = true
   end
   save()
   say("round " .. game.number .. ": stay on the floor")
@@ -93,15 +94,15 @@ local function take_tile()
 end
 
 local function out(person, why)
-  playing[person:name()] = nil
+  playing[person] = nil
   say(person:name() .. " " .. why)
   show_state()
 end
 
 local function end_if_decided()
-  local left = names_playing()
+  local left = still_in()
   if #left > 1 or (#left == 1 and game.began == 1) then return end
-  pause(left[1] and left[1] .. " is the last on the floor, and wins" or "nobody is left")
+  pause(left[1] and left[1]:name() .. " is the last on the floor, and wins" or "nobody is left")
 end
 
 every(0.1, function()
@@ -112,7 +113,7 @@ every(0.1, function()
   for _, person in ipairs(persons.all()) do
     local at = person:place()
     local off = at and math.max(math.abs(at.x), math.abs(at.z)) > half + 1
-    if playing[person:name()] and at and (at.y < -1.5 or off) then
+    if playing[person] and at and (at.y < -1.5 or off) then
       person:stand(lookout)
       out(person, off and "left the floor" or "fell")
     end
@@ -125,7 +126,7 @@ on.join(function(e)
   e.person:stand(lookout)
   e.person:say(game.phase == "pause" and "the round begins soon" or "wait for the next round")
 end)
-on.leave(function(e) if playing[e.person:name()] then out(e.person, "left") end end)
+on.leave(function(e) if playing[e.person] then out(e.person, "left") end end)
 on.request(function(r) if r.kind ~= "stand" or r.away then return "here one only walks" end end)
 
 on.start(function(e)

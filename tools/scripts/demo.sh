@@ -114,20 +114,20 @@ set_game() {
   world=(--terrain flat --game "$game") blast_pieces=20
   case $game in
     demolition)
-      world+=(--spawn 0,22,34,0,-25) stage_m=(24 0) area_m=3 first_bot=(--radius 1.4)
-      bots=("--centre -24 0 --area 3 --carves $carves --rate $rate --radius 1.4 --seed $((seed + 1))")
+      world+=(--spawn 0,22,34,0,-25) stage_m=(24 0) area_m=3 first_bot=(--radius 1.4 --name anna --message team red)
+      bots=("--name ben --message team blue --centre -24 0 --area 3 --carves $carves --rate $rate --radius 1.4 --seed $((seed + 1))")
       ;;
     floor)
-      world+=(--persons walk --spawn 0,9,15,0,-35) carves=0 blast_pieces=5 first_bot=(--walk 30)
-      bots=("--carves 0 --walk 30 --seed $((seed + 1))" "--carves 0 --walk 30 --seed $((seed + 2))")
+      world+=(--persons walk --spawn 0,9,15,0,-35) carves=0 blast_pieces=5 first_bot=(--walk 30 --name anna)
+      bots=("--name ben --carves 0 --walk 30 --seed $((seed + 1))" "--name carl --carves 0 --walk 30 --seed $((seed + 2))")
       ;;
     quarry)
-      world+=(--spawn 0,16,34,0,-25) carves=0 blast_pieces=0 stage_m=(0 22) area_m=4 first_bot=(--digs 12)
-      bots=("--carves 0 --digs 12 --centre -18 -10 --area 4 --rate $rate" "--carves 0 --digs 12 --centre 18 -10 --area 4 --rate $rate")
+      world+=(--spawn 0,16,34,0,-25) carves=0 blast_pieces=0 stage_m=(0 22) area_m=4 first_bot=(--digs 12 --name anna)
+      bots=("--name ben --carves 0 --digs 12 --centre -18 -10 --area 4 --rate $rate" "--name carl --carves 0 --digs 12 --centre 18 -10 --area 4 --rate $rate")
       ;;
     plots)
-      world+=(--spawn 0,16,28,0,-25) stage_m=(0 0) area_m=5 first_bot=(--message plots claim)
-      bots=("--message plots claim --centre -16 -16 --area 5 --carves $carves --rate $rate --seed $((seed + 1))")
+      world+=(--spawn 0,16,28,0,-25) stage_m=(0 0) area_m=5 first_bot=(--name anna --message plots claim)
+      bots=("--name ben --message plots claim --centre -16 -16 --area 5 --carves $carves --rate $rate --seed $((seed + 1))")
       ;;
     *) die "there is no game '$game': choose demolition, floor, plots or quarry" ;;
   esac
