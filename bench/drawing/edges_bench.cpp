@@ -29,7 +29,7 @@ namespace {
 constexpr double remesh_most = 1.3;
 constexpr double rays_most = 1.15;
 constexpr double flight_most = 1.10;
-/// Of software on this machine, at the lowest quality.
+/// Measured by software on this machine, at the lowest quality.
 constexpr double frames_a_second_least = 10.0;
 
 constexpr int view_width = 1280;

@@ -90,8 +90,9 @@ void Bot::place(Clock::time_point now) {
   const MaterialMass share = places_->next();
   const RubbleRows& rubble = *mirror.terrain().rubble;
   const int fill = rubble.fill[row_number(rubble.rubble[row_number(share.material)])];
-  const float radius_m = std::clamp(ball_radius_m(share.mass, fill, mirror.terrain().voxel_size_m),
-                                    limits::bot_place_min_m, greatest_edit_reach_m(mirror.terrain().voxel_size_m));
+  const float radius_m =
+      std::clamp(ball_radius_m(share.mass, fill, mirror.terrain().voxel_size_m), limits::bot_place_min_m,
+                 greatest_edit_reach_m(mirror.terrain().voxel_size_m));
   const Carver::Target target = aim_apart(radius_m + limits::bot_place_apart_m);
   const Shape ball = sphere(target.point_m + glm::vec3(0.0F, radius_m, 0.0F), radius_m);
   const uint32_t number = number_of(Kind::place);

@@ -1,8 +1,7 @@
-#include "client/mirror/mirror.h"
-
 #include <fmt/format.h>
 
 #include "client/mirror/limits.h"
+#include "client/mirror/mirror.h"
 
 namespace scree {
 

@@ -225,7 +225,8 @@ const char* scree_state();
 /// Other persons within the picture, every frame if wanted: [{"session", "name", "colour": "#rrggbb", "x",
 /// "y" (parts of the width and height, from the upper left), "metres"}].
 const char* scree_names();
-/// What a game's signs show, every frame if wanted: a line of text each, of ten fields with tabs between them.
+/// What a game's signs show, every frame if wanted: a line of text each, of ten fields with tabs between
+/// them.
 /// "": nothing. Lines and bars come first, in order; then markers, the farthest first. The fields are:
 ///
 /// - 0 (a line), 1 (a bar) or 2 (a marker); "#rrggbb"; a bar's share, 0 to 1

@@ -5,9 +5,9 @@
 #include <recording.pb.h>
 
 #include "proto/codec.h"
-#include "proto/rules_codec.h"
 #include "proto/limits.h"
 #include "proto/operation_codec.h"
+#include "proto/rules_codec.h"
 #include "proto/store_codec.h"
 #include "proto/transforms.h"
 #include "proto/wire_values.h"

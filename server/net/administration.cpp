@@ -141,8 +141,9 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
                    if (!control_rules_) return reply(fail("this server runs no rules (--rules)"));
                    if (rules.control != RulesControl::list)
                      spdlog::info("{} {}", author_of(session),
-                                  rules.control == RulesControl::reload ? "reads the rules again"
-                                                                        : "runs a line of rules: " + rules.line);
+                                  rules.control == RulesControl::reload
+                                      ? "reads the rules again"
+                                      : "runs a line of rules: " + rules.line);
                    control_rules_(session.id(), message.request, rules);
                  },
                  [&](const ControlReplayRequest& control) {

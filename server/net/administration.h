@@ -23,8 +23,8 @@ class Administration {
   using Control = std::function<Result<void>(const ControlReplayRequest&)>;
   using ControlRules = std::function<void(uint64_t session, uint32_t request, const ControlRulesRequest&)>;
 
-  /// All arguments but `control` and `control_rules`, which are as of NetConfig, must outlive this object. `counts`: requests are
-  /// counted there.
+  /// All arguments but `control` and `control_rules`, which are as of NetConfig, must outlive this object.
+  /// `counts`: requests are counted there.
   Administration(SessionTable& sessions, Requests& requests, Authorizer& authorizer, Tickets& tickets,
                  NetStats& counts, Control control, ControlRules control_rules, const Publisher& publisher)
       : sessions_(sessions),

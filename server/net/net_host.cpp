@@ -228,8 +228,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
                             "palettes, images and models", "contents_wanted_max");
           },
           [&](const ChannelMessage& channel) -> Done {
-            if (config_.heard) config_.heard(session.id(), channel);
-            return {};
+            return config_.heard ? config_.heard(session.id(), channel), Done() : Done();
           },
           [&](const QueryMessage& query) -> Done {
             pass_query(query, session, sessions_, publisher_, figures_.counts());
@@ -357,37 +356,6 @@ void NetHost::check_time() {
     return;
   }
   tick_timer();
-}
-
-void NetHost::set_access(std::shared_ptr<const Access> access) {
-  CHECK(network_thread_.is_the_same());
-  authorizer_.set_access(std::move(access));
-  administration_.read_bans_again();
-  log_access(authorizer_.access());
-  end_lapsed_grants(sessions_, authorizer_.access());
-}
-
-void NetHost::send(uint64_t session, const ServerMessage& message) {
-  if (const SessionEntry* const entry = sessions_.find(session)) entry->session->send(message);
-}
-
-void NetHost::set_role(uint64_t session, Role role) {
-  SessionEntry* const entry = sessions_.find(session);
-  if (entry == nullptr) return;
-  entry->grant.role = role;
-  talk_.set_role(session, role);
-}
-
-void NetHost::kick(uint64_t session, const std::string& reason) {
-  const SessionEntry* const entry = sessions_.find(session);
-  if (entry == nullptr) return;
-  const auto kicked = entry->session;  // which leaves the table
-  kicked->refuse({Refusal::kicked, reason});
-}
-
-void NetHost::set_files(std::shared_ptr<const WebFiles> files) {
-  CHECK(network_thread_.is_the_same());
-  web_.set_files(std::move(files));
 }
 
 /// Settings hold for who is connected, too. A session that has joined stays, however few may now.

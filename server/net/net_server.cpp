@@ -98,9 +98,8 @@ Result<void> NetServer::reload() {
 }
 
 void NetServer::send(uint64_t session, ServerMessage message) {
-  asio::post(impl_->host.context(), [host = &impl_->host, session, message = std::move(message)] {
-    host->send(session, message);
-  });
+  asio::post(impl_->host.context(),
+             [host = &impl_->host, session, message = std::move(message)] { host->send(session, message); });
 }
 
 void NetServer::set_role(uint64_t session, Role role) {
@@ -108,9 +107,8 @@ void NetServer::set_role(uint64_t session, Role role) {
 }
 
 void NetServer::kick(uint64_t session, std::string reason) {
-  asio::post(impl_->host.context(), [host = &impl_->host, session, reason = std::move(reason)] {
-    host->kick(session, reason);
-  });
+  asio::post(impl_->host.context(),
+             [host = &impl_->host, session, reason = std::move(reason)] { host->kick(session, reason); });
 }
 
 void NetServer::flush() {

@@ -141,8 +141,8 @@ class NetServer {
   /// old ones stay in force then.
   Result<void> reload();
 
-  /// Sends a message to a session, changes its role until it ends, or ends it with a reason; nothing, where it
-  /// is not there. From any thread.
+  /// Sends a message to a session, changes its role until it ends, or ends it with a reason; nothing, where
+  /// it is not there. From any thread.
   void send(uint64_t session, ServerMessage message);
   void set_role(uint64_t session, Role role);
   void kick(uint64_t session, std::string reason);

@@ -1,5 +1,5 @@
-// One folder of rules: its script, its handlers, timers and replies that it waits for. Of the thread that
-// simulates, but for load(), which any one thread may call before.
+// One folder of rules: its script, its handlers, timers and replies that it waits for. The thread
+// that simulates has it, but for load(), which any one thread may call before.
 #pragma once
 
 #include <array>

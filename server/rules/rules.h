@@ -57,7 +57,7 @@ class Rules {
   void hear(uint64_t session, const ChannelData& data);
   void control(uint64_t session, uint32_t request, const ControlRulesRequest& wish);
 
-  /// Whether a mod has a handler of the event. Of the simulation's thread.
+  /// Whether a mod has a handler of the event. For the simulation's thread.
   bool is_wanted(std::string_view event) const;
   /// Calls that failed since the rules were loaded. Likewise.
   uint64_t faults() const;

@@ -1,6 +1,6 @@
 // What the functions of scripts reach while a handler runs: the world between two ticks, the commands of the
-// next one, the persons who are there, and what the rules want of the network side. Of the thread that
-// simulates.
+// next one, the persons who are there, and what the rules want of the network side. The thread that
+// simulates has it.
 #pragma once
 
 #include <cstdint>

@@ -86,7 +86,7 @@ class World {
   bool has_joint(JointId id) const;
   /// What the host's rules keep with the world, show, and made of persons.
   const GameValue& game() const;
-  /// Of the body as it is now; nothing: there is none of that id.
+  /// The body as it is now; nothing: there is none of that id.
   std::optional<BodyFacts> body(PieceId id) const;
   /// The bodies whose bounds meet the box, by id: pieces, props and persons' bodies.
   std::vector<PieceId> bodies_near(glm::vec3 lo_m, glm::vec3 hi_m) const;

@@ -13,8 +13,8 @@ namespace limits {
 /// Mass in any place of a ledger, to either side of 0, as a file or a message may name it. A world stays
 /// below: its box has fewer than 2^46 voxels (81,920² · 10,240: world_half_width_m, voxel_size_min_m), which
 /// weigh less than 2^54. The sums over time, such as of what was poured, grow by less than 2^34 a second
-/// (edit_voxel_cost_us): 2^55 is three weeks of nothing but edits on a whole core. The sum of a row, and that of a member over 255 rows,
-/// stay below 2^63. Above: refused.
+/// (edit_voxel_cost_us): 2^55 is three weeks of nothing but edits on a whole core. The sum of a row, and that
+/// of a member over 255 rows, stay below 2^63. Above: refused.
 inline constexpr MassUnits ledger_mass_max = MassUnits{1} << 55U;
 }  // namespace limits
 

@@ -55,7 +55,8 @@ WorldMoment moment_with(const std::vector<PartyBricks>& bricks) {
   moment.config.rules = 1;
   moment.loosened_bricks = moment.strained = moment.slopes = bricks;
   moment.islands = {{{{1, 2, 3}}, 2, 8}};
-  moment.refractures = {{.piece = 4, .pieces = 9, .impact_m = {1.0F, 2.0F, 3.0F}, .party = 6, .blasted = true}};
+  moment.refractures = {
+      {.piece = 4, .pieces = 9, .impact_m = {1.0F, 2.0F, 3.0F}, .party = 6, .blasted = true}};
   return moment;
 }
 

@@ -162,7 +162,8 @@ void mark(FacePlane& lowest) {
     lowest.normal = {edge_no_normal_length, 0, 0};
     return;
   }
-  for (int8_t& n : lowest.normal) n = static_cast<int8_t>((n * edge_normal_length + (n < 0 ? -63 : 63)) / 127);
+  for (int8_t& n : lowest.normal)
+    n = static_cast<int8_t>((n * edge_normal_length + (n < 0 ? -63 : 63)) / 127);
 }
 
 /// Marks the cells that are edges; returns whether there are any.

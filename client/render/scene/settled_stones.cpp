@@ -22,7 +22,8 @@ constexpr Code deep_code = -10;
 constexpr float settled_share = 0.6F;
 /// Rock has gone from a point that is so far in the air: codes.
 constexpr float gone_code = 12.0F;
-/// And from a stone when it has gone from this share of its points: of small stones, one of five points may go.
+/// And from a stone when it has gone from this share of its points: of small stones, one of five points may
+/// go.
 constexpr float gone_share = 0.25F;
 
 /// Trilinear, in codes.

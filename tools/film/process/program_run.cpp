@@ -41,7 +41,7 @@ int spawn_in(const std::string& folder, int output, pid_t& process, std::vector<
 }  // namespace
 
 Result<ProgramEnd> run_to_end(const std::vector<std::string>& command, std::string_view purpose,
-                               const std::string& folder) {
+                              const std::string& folder) {
   CHECK(!command.empty());
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0)

@@ -17,6 +17,6 @@ struct ProgramEnd {
 /// `command`: the program, which is looked for in PATH, and its arguments. `purpose` says what it is for and
 /// what to do without it: the error's end where the program is not there. `folder`: where it runs.
 Result<ProgramEnd> run_to_end(const std::vector<std::string>& command, std::string_view purpose,
-                               const std::string& folder);
+                              const std::string& folder);
 
 }  // namespace scree
