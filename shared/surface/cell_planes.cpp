@@ -9,8 +9,8 @@
 namespace scree {
 namespace {
 
-/// Codes that a distance grows by in a voxel straight away from a face, less a rounding.
-constexpr int across_least = 41;
+/// Codes of half a voxel, and a rounding more or less: people build with faces half-way between voxels.
+constexpr int half_least = 20, half_most = 22;
 /// A face says a point's code up to roundings of this.
 constexpr float same_face_codes = 2.0F;
 /// Cosine of an angle within the errors of the field's direction: 8 degrees.
@@ -22,6 +22,10 @@ constexpr float meeting_voxels = 0.2F;
 constexpr float hold = 0.002F;
 /// Sine of the angle to an edge at which a third face cuts it off.
 constexpr float third_face_sine = 0.35F;
+
+bool is_half_a_voxel(int code) {
+  return std::abs(code) >= half_least && std::abs(code) <= half_most;
+}
 
 }  // namespace
 
@@ -86,7 +90,7 @@ void CellPlanes::look_across(const FaceMap& faces, const CellVertex& home) {
       if ((i & bit) != 0) continue;
       const int low = codes[corners[i].by], high = codes[corners[i | bit].by];
       if ((low < 0) == (high < 0)) continue;
-      if (std::abs(high - low) < across_least) {
+      if (!is_half_a_voxel(low) || !is_half_a_voxel(high)) {
         count_ = 0;
         return;
       }

@@ -85,9 +85,8 @@ class CellPlanes {
   /// Also those of the 24 points one voxel beyond the corners: an edge may cut off a part of the cell that
   /// holds none of them. Points whose distance the corners' face says lie on that face. Needs a plane.
   void look_beyond(FaceMap& faces, const CellVertex& home);
-  /// Those of faces straight across all of the cell's crossed edges instead, along which the distance grows
-  /// by a voxel: what people build has faces along the axes, with steps of a voxel whose planes no point
-  /// knows.
+  /// Those of faces straight across all of the cell's crossed edges instead, half-way between their ends: so
+  /// people build, with steps of a voxel whose planes no point knows. None if a crossing lies elsewhere.
   void look_across(const FaceMap& faces, const CellVertex& home);
   /// Leaves the first ones.
   void keep_first(size_t count) { count_ = count; }

@@ -194,6 +194,27 @@ TEST(BrickLooksTest, untouched_ground_has_none_and_edited_bricks_have_those_of_t
             said(brick));
 }
 
+/// A layer 3 codes higher than the ground, with one voxel of gravel in it.
+TEST(HeapsTest, a_thin_layer_has_the_looks_of_the_heap_beside_it_where_the_surface_has_risen) {
+  const VoxelBox box{{0, 0, 0}, {8, 8, 8}};
+  Window now(box), before(box);
+  LookWindow looks{box, std::vector<Look>(Window::count(box))};
+  for (int x = 0; x < 8; ++x)
+    for (int y = 0; y < 8; ++y)
+      for (int z = 0; z < 8; ++z) {
+        before.at(x, y, z) = encode(static_cast<float>(y) - 3.4F);
+        now.at(x, y, z) = encode(static_cast<float>(y) - (x < 5 ? 3.9F : 3.4F));
+      }
+  constexpr uint8_t gravel = 9;
+  now.at(3, 4, 3) = encode(-0.2F);
+  looks.each[looks.index({3, 4, 3})] = {gravel, gravel};
+  spread_heaps(now, before, box.grown(-1), looks);
+  EXPECT_EQ(looks.at({2, 3, 3}).shown, gravel) << "beneath it the surface has risen by half a voxel";
+  EXPECT_EQ(looks.at({4, 3, 4}).shown, gravel);
+  EXPECT_EQ(looks.at({5, 3, 3}).shown, 0) << "the ground here is as it was";
+  EXPECT_EQ(looks.at({1, 3, 3}).shown, 0) << "two voxels away";
+}
+
 TEST(PackedWorn, keeps_what_has_gone_and_what_has_come_within_a_step) {
   for (int worn = -127; worn <= 127; ++worn) {
     const int kept = std::clamp(worn, -worn_all, worn_all);
