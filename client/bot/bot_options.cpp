@@ -156,6 +156,7 @@ void add_ending(CLI::App& app, BotOptions& options) {
 
 /// Derives the rest of the configuration from the words.
 Result<void> complete(BotOptions& options, const Words& words) {
+  if (words.messages.size() % 2 != 0) return fail("--message takes a channel and a text");
   for (size_t i = 0; i + 1 < words.messages.size(); i += 2) {
     const std::string& text = words.messages[i + 1];
     ChannelData data{words.messages[i], {text.begin(), text.end()}};

@@ -238,11 +238,6 @@ void parse_web(Raw& raw) {
   if (!files) throw CLI::ValidationError("--web", files.error().message);
 }
 
-void parse_end(Raw& raw) {
-  if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
-  if (raw.end) raw.options.live.replay.at_end = AtEnd::end;
-}
-
 void parse_models(Raw& raw) {
   if (raw.models.empty()) return;
   auto folder = read_model_folder(raw.models);
@@ -386,7 +381,8 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
     raw.doors.complete(raw.options.live.net);
     raw.options.token_made = raw.doors.token_made();
     raw.options.live.durability = *kind_named<Durability>(raw.durability);
-    parse_end(raw);
+    if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
+    if (raw.end) raw.options.live.replay.at_end = AtEnd::end;
     parse_web(raw);
     parse_world(raw);
     parse_models(raw);

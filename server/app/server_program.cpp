@@ -68,7 +68,9 @@ bool write_report(const LiveServer& server, const std::string& path) {
 Result<void> load_rules(RulesOptions options, LiveConfig& live, std::unique_ptr<Rules>& rules) {
   if (options.folders.empty()) return {};
   options.tick_rate_hz = live.world.tick_rate_hz;
-  options.log = [](const std::string& line) { spdlog::info("{}", line); };
+  options.log = [](const std::string& line, bool is_fault) {
+    spdlog::log(is_fault ? spdlog::level::warn : spdlog::level::info, "{}", line);
+  };
   live.world.work_percent = std::max(
       limits::work_percent_min, live.world.work_percent - std::min(live.world.work_percent, options.percent));
   rules = TRY(Rules::load(std::move(options)));

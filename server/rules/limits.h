@@ -19,7 +19,11 @@ inline constexpr uint32_t rules_percent_usual = 10;
 inline constexpr uint32_t rules_percent_max = 50;
 /// Processor time that a unit of a script's work stands for (ScriptBudget::work): its price.
 inline constexpr double script_work_ns = 10.0;
-/// What a line of the console may use, seconds: so much later the tick may be.
+/// Processor time that a call may take, as a multiple of what its work stands for: what generates ground
+/// takes longer than it counts.
+inline constexpr double backstop_usual = 3.0;
+/// What on.start may use, once, and a line of the console, seconds of work: so much later a tick may be.
+inline constexpr double start_work_s = 0.02;
 inline constexpr double console_cpu_max_s = 0.004;
 
 /// A handler that failed so often in a row rests, seconds at first, and twice as long each time that it fails

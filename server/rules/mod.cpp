@@ -77,7 +77,7 @@ bool Mod::call_once(const ScriptFunction& function, const std::string& what, Rul
   moment_ = &moment;
   const auto ended = script_->call(function, arguments, budget, results);
   moment_ = nullptr;
-  if (!ended) say(words_of(what, ended.error()));
+  if (!ended) complain(words_of(what, ended.error()));
   return ended.has_value();
 }
 
@@ -108,8 +108,8 @@ void Mod::note_call(HandlerState& handler, bool done, const RulesMoment& moment)
   if (++handler.faults < limits::handler_faults_max) return;
   const Tick rest = rest_ticks(handler.faults, options_.tick_rate_hz);
   handler.rests_until = moment.world->tick() + rest;
-  say("on." + handler.event + " failed " + std::to_string(handler.faults) + " times in a row: it rests for " +
-      std::to_string(rest / options_.tick_rate_hz) + " s");
+  complain("on." + handler.event + " failed " + std::to_string(handler.faults) +
+           " times in a row: it rests for " + std::to_string(rest / options_.tick_rate_hz) + " s");
 }
 
 void Mod::tell(std::string_view event, RulesMoment& moment, ScriptBudget& budget, const Write& event_table,
@@ -165,8 +165,10 @@ void Mod::run_timers(RulesMoment& moment, ScriptBudget& budget) {
     if (after == timers_.end()) continue;
     after->faults = done ? 0 : after->faults + 1;
     if (after->faults < limits::handler_faults_max) continue;
-    say("a timer failed " + std::to_string(after->faults) + " times in a row: it is taken away");
-    timers_.erase(after);
+    const Tick rest = rest_ticks(after->faults, options_.tick_rate_hz);
+    after->due = now + rest;
+    complain("a timer failed " + std::to_string(after->faults) + " times in a row: it rests for " +
+             std::to_string(rest / options_.tick_rate_hz) + " s");
   }
 }
 
@@ -177,6 +179,11 @@ void Mod::reply(const Reply& reply, RulesMoment& moment, ScriptBudget& budget) {
   awaited_.erase(at);
   const auto write = [&](ScriptWriter& to) { write_reply(to, reply, moment); };
   if (!call_once(function, "a reply", moment, budget, write, nullptr)) ++timer_faults_;
+}
+
+void Mod::note_reply(const Reply& reply) {
+  if (unheard_.erase(reply.request) > 0 && !reply.refusal.empty())
+    complain("what it asked for was refused (" + refusal_name(reply) + "): " + reply.refusal);
 }
 
 bool Mod::awaits(uint32_t request) const {
@@ -196,7 +203,10 @@ Result<uint32_t> Mod::ask(RulesMoment& moment, Request request, uint64_t party, 
     return fail("rules ask for " + std::to_string(limits::rules_commands_max) + " things a tick at most");
   const uint32_t number = (*moment.next_request)++;
   moment.commands->add(std::move(request), number, "rules " + options_.name, party);
-  if (reply && awaited_.size() < limits::awaited_replies_max) awaited_.push_back({number, std::move(reply)});
+  if (reply && awaited_.size() < limits::awaited_replies_max)
+    awaited_.push_back({number, std::move(reply)});
+  else if (unheard_.size() < limits::awaited_replies_max)
+    unheard_.insert(number);
   return number;
 }
 
@@ -218,6 +228,14 @@ std::optional<std::optional<std::string>> Mod::written(const std::string& key) c
 }
 
 void Mod::say(const std::string& line) {
+  tell_log(line, false);
+}
+
+void Mod::complain(const std::string& line) {
+  tell_log(line, true);
+}
+
+void Mod::tell_log(const std::string& line, bool is_fault) {
   if (!lines_.try_spend(now_s_)) {
     ++lines_left_out_;
     return;
@@ -225,7 +243,7 @@ void Mod::say(const std::string& line) {
   const std::string more =
       lines_left_out_ == 0 ? ""
                            : " (" + std::to_string(std::exchange(lines_left_out_, 0)) + " lines left out)";
-  options_.told("[" + options_.name + "] " + line + more);
+  options_.told("[" + options_.name + "] " + line + more, is_fault);
 }
 
 void Mod::begin_tick(uint64_t random_seed, double now_s) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,7 +30,7 @@ struct ModOptions {
   std::string name;                         ///< of the mod: the folder's; names it in messages and commands
   size_t memory_bytes = size_t{16} << 20U;  ///< of its script
   uint32_t tick_rate_hz = 60;
-  std::function<void(const std::string&)>
+  std::function<void(const std::string& line, bool is_fault)>
       told;  ///< gets what it prints, and its faults: a line each, or more
 };
 
@@ -61,6 +62,8 @@ class Mod {
   /// Calls that failed, in all.
   uint64_t faults() const;
   bool awaits(uint32_t request) const;
+  /// Logs the refusal of a request whose reply no function waits for.
+  void note_reply(const Reply& reply);
 
   /// What it kept in the tick before is the world's now; random numbers begin anew.
   void begin_tick(uint64_t random_seed, double now_s);
@@ -97,6 +100,8 @@ class Mod {
   const std::map<std::string, std::optional<std::string>>& all_written() const { return written_; }
   /// A line of the log; too many are counted.
   void say(const std::string& line);
+  /// The same of what is wrong.
+  void complain(const std::string& line);
 
  private:
   struct Timer {
@@ -108,6 +113,7 @@ class Mod {
   };
 
   explicit Mod(ModOptions options);
+  void tell_log(const std::string& line, bool is_fault);
   Result<void> bind_and_load();
   bool rests(HandlerState& handler, const RulesMoment& moment) const;
   void note_call(HandlerState& handler, bool done, const RulesMoment& moment);
@@ -123,6 +129,7 @@ class Mod {
   std::vector<Timer> timers_;  ///< by number
   uint64_t next_timer_ = 1;
   std::vector<AwaitedReply> awaited_;
+  std::set<uint32_t> unheard_;  ///< requests whose reply no function waits for
   std::map<std::string, std::optional<std::string>> written_;
   uint64_t timer_faults_ = 0;
   RateLimit lines_{limits::mod_lines_per_second, limits::mod_lines_burst};

@@ -23,9 +23,11 @@ bool is_spent(const ScriptBudget& budget) {
   return budget.work <= 0 || budget.cpu_s <= 0.0;
 }
 
-ScriptBudget budget_of(double cpu_s) {
+/// Work is what is shared out. Processor time is a backstop, for what reads new ground costs more than it
+/// counts; `backstop`: so many times the work's own.
+ScriptBudget budget_of(double work_s, double backstop) {
   constexpr double ns_per_s = 1e9;
-  return {static_cast<int64_t>(cpu_s * ns_per_s / limits::script_work_ns), cpu_s};
+  return {static_cast<int64_t>(work_s * ns_per_s / limits::script_work_ns), work_s * backstop};
 }
 
 }  // namespace
@@ -89,9 +91,10 @@ void Rules::before(const World& world, TickCommands& commands) {
   moment.persons = &persons_;
   moment.acts = &acts;
   moment.next_request = &next_request_;
-  ScriptBudget budget = budget_of(0.01 * options_.percent / options_.tick_rate_hz);
+  ScriptBudget budget = budget_of(0.01 * options_.percent / options_.tick_rate_hz, options_.backstop);
+  ScriptBudget start = budget_of(limits::start_work_s, options_.backstop);
   if (std::exchange(is_new_, false))
-    tell_all("start", moment, budget, [&](ScriptWriter& to) {
+    tell_all("start", moment, start, [&](ScriptWriter& to) {
       to.name("reloaded");
       to.boolean(was_reloaded_);
       to.name("restarted");
@@ -104,8 +107,10 @@ void Rules::before(const World& world, TickCommands& commands) {
   queue_heard(inbox);
   tell_happenings(moment, budget);
   for (const Reply& reply : std::exchange(replies_, {}))
-    for (const auto& mod : mods_)
+    for (const auto& mod : mods_) {
+      mod->note_reply(reply);
       if (mod->awaits(reply.request)) mod->reply(reply, moment, budget);
+    }
   for (const auto& mod : mods_) mod->run_timers(moment, budget);
   const auto write_tick = [&](ScriptWriter& to) {
     to.name("tick");
@@ -215,7 +220,7 @@ void Rules::queue_heard(const Inbox& inbox) {
 
 void Rules::tell_happenings(RulesMoment& moment, ScriptBudget& budget) {
   if (const uint64_t lost = std::exchange(left_out_, 0); lost > 0)
-    told(fmt::format("rules had no time for {} happenings, and will not tell them", lost));
+    told(fmt::format("rules had no time for {} happenings, and will not tell them", lost), true);
   while (!waiting_.empty() && !is_spent(budget)) {
     const Happening happening = std::move(waiting_.front());
     waiting_.pop_front();
@@ -237,7 +242,7 @@ std::string Rules::run_line(const std::string& mod, const std::string& line, Rul
                       ? mods_.begin()
                       : std::ranges::find_if(mods_, [&](const auto& one) { return one->name() == mod; });
   if (at == mods_.end()) return "error: there are no rules of the name " + mod;
-  ScriptBudget budget = budget_of(limits::console_cpu_max_s);
+  ScriptBudget budget = budget_of(limits::console_cpu_max_s, options_.backstop);
   return (*at)->run(line, moment, budget);
 }
 

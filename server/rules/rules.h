@@ -27,9 +27,12 @@ struct RulesOptions {
   std::vector<std::string> folders;                ///< in the order in which they hear of things; not empty
   uint32_t memory_mb = 16;                         ///< of each script
   uint32_t percent = limits::rules_percent_usual;  ///< of a tick's length, for all of them
-  bool watch = false;                              ///< files that change are read again
+  /// Processor time that a call may take, as a multiple of what its work stands for.
+  double backstop = limits::backstop_usual;
+  bool watch = false;  ///< files that change are read again
   uint32_t tick_rate_hz = 60;
-  std::function<void(const std::string&)> log;  ///< gets each line, on any thread; may be empty
+  /// Gets each line, and whether something is wrong; on any thread. May be empty.
+  std::function<void(const std::string& line, bool is_fault)> log;
 };
 
 class Rules {
@@ -83,7 +86,7 @@ class Rules {
 
   explicit Rules(RulesOptions options);
   Result<Mods> load_mods();
-  void told(const std::string& line);
+  void told(const std::string& line, bool is_fault);
   void run_jobs();
   void reload_for(const Control& control);
   void answer(const Control& control, std::string text);

@@ -55,7 +55,7 @@ Result<Rules::Mods> Rules::load_mods() {
     mod.folder = folder;
     mod.memory_bytes = size_t{options_.memory_mb} * kb_per_mb * kb_per_mb;
     mod.tick_rate_hz = options_.tick_rate_hz;
-    mod.told = [this](const std::string& line) { told(line); };
+    mod.told = [this](const std::string& line, bool is_fault) { told(line, is_fault); };
     auto loaded = TRY(Mod::load(std::move(mod)));
     const auto is_same = [&](const auto& other) { return other->name() == loaded->name(); };
     if (std::ranges::any_of(mods, is_same))
@@ -72,13 +72,13 @@ Result<void> Rules::reload() {
   return {};
 }
 
-void Rules::told(const std::string& line) {
+void Rules::told(const std::string& line, bool is_fault) {
   {
     const std::scoped_lock lock(mutex_);
     lines_.push_back(line);
     if (lines_.size() > limits::lines_kept) lines_.pop_front();
   }
-  if (options_.log) options_.log(line);
+  if (options_.log) options_.log(line, is_fault);
 }
 
 void Rules::run_jobs() {
@@ -94,8 +94,9 @@ void Rules::run_jobs() {
     for (const Control& control : asked) reload_for(control);
     if (changed && asked.empty()) {
       const Result<void> done = reload();
-      told(done ? "rules were read again: a file changed"
-                : "rules stay as they were: " + done.error().message);
+      told(
+          done ? "rules were read again: a file changed" : "rules stay as they were: " + done.error().message,
+          !done);
     }
     lock.lock();
   }
@@ -103,7 +104,7 @@ void Rules::run_jobs() {
 
 void Rules::reload_for(const Control& control) {
   const Result<void> done = reload();
-  told(done ? "rules were read again" : "rules stay as they were: " + done.error().message);
+  told(done ? "rules were read again" : "rules stay as they were: " + done.error().message, !done);
   answer(control,
          done ? "rules were read again\n" : "error: rules stay as they were: " + done.error().message);
 }

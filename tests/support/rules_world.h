@@ -34,7 +34,7 @@ class RulesWorld {
     for (size_t i = 0; i < texts.size(); ++i)
       options.folders.push_back(write_mod(folder, names[i], texts[i]));
     options.percent = limits::rules_percent_max;  // a test's machine may be slow
-    options.log = [this](const std::string& line) {
+    options.log = [this](const std::string& line, bool /*is_fault*/) {
       const std::scoped_lock lock(mutex);
       logged.push_back(line);
     };

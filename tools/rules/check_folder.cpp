@@ -85,7 +85,7 @@ Result<std::vector<FolderFault>> luacheck(const std::string& folder) {
 
 /// What is wrong as the files load, where that is not said yet.
 void add_load_fault(const std::string& folder, std::vector<FolderFault>& faults) {
-  const auto loaded = Mod::load({.folder = folder, .name = {}, .told = [](const std::string&) {}});
+  const auto loaded = Mod::load({.folder = folder, .name = {}, .told = [](const std::string&, bool) {}});
   if (loaded) return;
   std::string words = loaded.error().message.substr(0, loaded.error().message.find('\n'));
   // "rules NAME: init.lua:3: words"

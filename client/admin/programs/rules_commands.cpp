@@ -23,8 +23,12 @@ tl::expected<ControlRulesRequest, Failed> console_of(const ControlRulesRequest& 
   return words;
 }
 
+/// Rules say what went wrong in words, which begin so: then the command fails, and prints them alone.
 Printed control(const AdminServer& server, const ControlRulesRequest& wish, bool as_json) {
-  return print_said(control_rules(server, wish), as_json ? rules_json : rules_lines);
+  const Result<std::string> said = control_rules(server, wish);
+  constexpr std::string_view failed = "error: ";
+  if (said && said->starts_with(failed)) return tl::unexpected(Failed(Error{said->substr(failed.size())}));
+  return print_said(said, as_json ? rules_json : rules_lines);
 }
 
 }  // namespace

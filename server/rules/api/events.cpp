@@ -22,7 +22,8 @@ constexpr ApiEvent event_rows[] = {
     {"request", "kind: string, by: person, …: fields of the request", "string? | table?",
      "A person asks for something, before the world does it. Text that the handler returns refuses it with "
      "these "
-     "words; a table changes the fields that it has; nothing lets it pass. Rules that fail, or have no time, "
+     "words; a table changes the fields that it has; nothing, or true, lets it pass, and false refuses. "
+     "Rules that fail, or have no time, "
      "refuse.",
      "on.request(function(r)\n  if r.kind == \"carve\" and r.radius > 1 then return \"one metre is enough\" "
      "end\nend)"},

@@ -1,4 +1,7 @@
 // What rules keep with the world.
+#include <map>
+#include <string_view>
+
 #include "server/formats/world_value.h"
 #include "server/rules/api.h"
 #include "server/rules/mod.h"
@@ -32,6 +35,25 @@ Result<void> get(RulesCall& call) {
   return {};
 }
 
+/// All that rules keep with a world, of all mods, with what this one wrote in the tick: it has bounds.
+Result<void> check_room(const RulesCall& call, const std::string& key, const std::string& text) {
+  std::map<std::string_view, size_t> sizes;
+  for (const KeptValue& one : *call.moment.world->game().kept) sizes[one.key] = one.value.size();
+  for (const auto& [written, value] : call.mod.all_written())
+    if (value)
+      sizes[written] = value->size();
+    else
+      sizes.erase(written);
+  sizes[key] = text.size();
+  size_t bytes = 0;
+  for (const auto& [name, size] : sizes) bytes += name.size() + size;
+  if (bytes > limits::kept_bytes_max)
+    return fail("all rules together keep " + std::to_string(limits::kept_bytes_max) +
+                " bytes, and this would make " + std::to_string(bytes));
+  if (sizes.size() <= limits::kept_values_max) return {};
+  return fail("all rules together keep " + std::to_string(limits::kept_values_max) + " values at most");
+}
+
 Result<void> set(RulesCall& call) {
   const ScriptValue name = call.argument(1, "key");
   const std::string key = whole_key(call, TRY(name.text()));
@@ -44,6 +66,7 @@ Result<void> set(RulesCall& call) {
     return {};
   }
   std::string text = TRY(to_json_text(value, limits::kept_value_bytes_max));
+  TRY(check_room(call, key, text));
   TRY(call.mod.ask(call.moment, RulesRequest{KeepValue{{key, text}}}, 0));
   call.mod.note_written(key, std::move(text));
   return {};
@@ -71,7 +94,9 @@ constexpr ApiFunction rows[] = {
      "local best = store.get(\"best\", 0)", get},
     {"store", "set", "key: string, value: any", "",
      "Keeps a value with the world: booleans, numbers, texts, and tables of these, 16 KiB each. It is saved "
-     "together with the world, so both are of the same tick after a crash. nil forgets it.",
+     "together with the world, so both are of the same tick after a crash. nil forgets it. All rules "
+     "together keep "
+     "256 KiB and 1,024 values. A vec comes back as a plain table: vec(store.get(\"place\")).",
      "store.set(\"score\", { red = 3, blue = 1.5 })\nassert(store.get(\"score\").red == 3)", set},
     {"store", "keys", "prefix?: string", "string[]", "The keys that begin so, in order.",
      "store.set(\"plot 1\", \"anna\")\nassert(store.keys(\"plot\")[1] == \"plot 1\")", keys},
