@@ -1,4 +1,5 @@
-// What the server and its host change of a NetHost while it runs: who may come in, the page, and what sessions may.
+// What the server and its host change of a NetHost while it runs: who may come in, the page, and what
+// sessions may.
 #include <utility>
 
 #include "server/net/net_host.h"

@@ -115,7 +115,7 @@ async function lies() {
   red.send('cursor', { eye: away, aim: away });
   await red.refused('reach', 'dig', { shape: ball(beside(away, 0, -2, 0), 1) });
   red.tell('shop', 'buy 1'); // nobody listens: skipped
-  await red.refused('role', 'rules', { forget: Buffer.from('score') });
+  await red.refused('role', 'rules', Buffer.from([0x1a, 5, ...Buffer.from('score')]));
   same([red.game.signs, red.game.cues, red.game.heard], [[], [], []], 'a server without rules shows nothing');
   await red.refused('walk_invalid', 'stand', { place: away });
   await red.walk(hz / 4, {});

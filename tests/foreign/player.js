@@ -13,6 +13,9 @@ const WAIT_MS = 30000;
 const INPUTS_UNDER_WAY_MAX = 12; // the server saves rights for as many, and lets 16 wait
 const FIRST_REQUEST = 1 << 30; // a refused input is answered by its number: those of requests are others
 
+/** An act of rules is packed bytes (rules.proto), its number first. */
+const numbered = (request, act) => Buffer.concat([Buffer.from([0x08, (request & 0x7f) | 0x80, request >> 7]), act]);
+
 export class Player {
   world = new World();
   welcome = null;
@@ -92,7 +95,7 @@ export class Player {
     const request = ++this.#request;
     let answer = null;
     this.#answers.set(request, (message) => (answer = message));
-    this.send(kind, { request, ...content });
+    this.send(kind, kind === 'rules' ? numbered(request, content) : { request, ...content });
     return this.until(`the answer to ${kind}`, () => answer);
   }
 
