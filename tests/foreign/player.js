@@ -14,7 +14,13 @@ const INPUTS_UNDER_WAY_MAX = 12; // the server saves rights for as many, and let
 const FIRST_REQUEST = 1 << 30; // a refused input is answered by its number: those of requests are others
 
 /** An act of rules is packed bytes (rules.proto), its number first. */
-const numbered = (request, act) => Buffer.concat([Buffer.from([0x08, (request & 0x7f) | 0x80, request >> 7]), act]);
+const numbered = (request, act) => {
+  const number = [];
+  for (let left = request; ; left >>>= 7) {
+    number.push(left > 0x7f ? (left & 0x7f) | 0x80 : left);
+    if (left <= 0x7f) return Buffer.concat([Buffer.from([0x08, ...number]), act]);
+  }
+};
 
 export class Player {
   world = new World();
