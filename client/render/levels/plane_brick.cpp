@@ -22,6 +22,9 @@ constexpr int bend_most = 5;
 constexpr int straight_least = 41;
 /// Two planes are of one face up to this angle, 10 degrees; from face_edge_cosine on they are of two.
 constexpr float one_face_cosine = 0.985F;
+/// Angles between faces beyond 35 degrees are clear; below, so many corners must know their faces.
+constexpr float clear_edge_cosine = 0.82F;
+constexpr int corners_of_small_angle = 6;
 /// Codes on the wrong side of the surface, by roundings.
 constexpr float wrong_side_voxels = 0.05F;
 
@@ -127,18 +130,19 @@ struct Corners {
       distance[i] = decode(plane.code);
     }
   }
-  /// Whether their planes are of several faces, each clearly.
+  /// Whether their planes are of several faces, each clearly. Where these meet at a small angle, a few
+  /// corners alone may lie on round rock.
   bool show_faces() const {
-    bool several = false;
+    float least = 1.0F;
     for (size_t i = 0; i < 8; ++i)
       for (size_t j = i + 1; j < 8; ++j) {
         if (!known[i] || !known[j]) continue;
         const float cosine = glm::dot(normal[i], normal[j]);
-        if (cosine >= one_face_cosine) continue;
-        if (cosine > face_edge_cosine) return false;
-        several = true;
+        if (cosine < one_face_cosine && cosine > face_edge_cosine) return false;
+        least = std::min(least, cosine);
       }
-    return several;
+    if (least > face_edge_cosine) return false;
+    return least < clear_edge_cosine || std::ranges::count(known, true) >= corners_of_small_angle;
   }
   /// Whether a ray that takes the planes in place of the corner's distance stays on its side.
   bool keep_sides() const {
