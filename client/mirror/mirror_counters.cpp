@@ -2,6 +2,7 @@
 
 #include "client/mirror/limits.h"
 #include "client/mirror/mirror.h"
+#include "proto/limits.h"
 
 namespace scree {
 

@@ -79,8 +79,9 @@ void TestWorld::deliver(const TickDelta& delta) {
   for (const Reply& reply : delta.replies) replies_[{reply.session, reply.request}] = reply;
   for (const Notice& notice : delta.notices) {
     if (const auto* const cue = std::get_if<Cue>(&notice.what)) cues_.push_back({notice.to, *cue});
-    for (auto& [session, person] : persons_) {
-      if (!person.here || !is_meant(notice.to, session, team_of(session))) continue;
+    for (auto& entry : persons_) {
+      TestPerson& person = entry.second;
+      if (!person.here || !is_meant(notice.to, entry.first, team_of(entry.first))) continue;
       std::visit(
           Overloaded{[&](const NoticeLine& line) { person.lines.push_back(line.text); },
                      [&](const ChannelData& data) { person.messages.push_back(data); }, [](const Cue&) {}},
