@@ -9,6 +9,7 @@
 #include "bench/support/scratch.h"
 #include "server/rules/api.h"
 #include "server/rules/rules.h"
+#include "server/work/limits.h"
 #include "shared/base/timing.h"
 
 namespace scree {
@@ -50,7 +51,7 @@ BenchReport run_rules_bench(const BenchOptions& options) {
   Rules& rules = **loaded;
   rules.start({});
   WorldConfig config;
-  config.work_percent = 400;  // a storm, whatever the machine
+  config.work_percent = limits::work_percent_max;  // a storm, whatever the machine
   World world(config, 1);
   ScatteredBlows blows(config.terrain, storm_half_width_m, storm_radius_m, seeds_per_storm, 1);
   const Tick ticks = options.quick ? rules_ticks / 3 : rules_ticks;
