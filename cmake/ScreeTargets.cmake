@@ -1,5 +1,14 @@
 find_package(Threads REQUIRED)
 
+# OpenVDB registers types by functions of std:: with its own lambdas as arguments. These are the same function in its
+# library and in ours only where what they write is, too: sources that include its headers hide nothing.
+function(scree_uses_openvdb TARGET)
+  target_link_libraries(${TARGET} PRIVATE OpenVDB::openvdb)
+  if(PROJECT_IS_TOP_LEVEL AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    target_compile_options(${TARGET} PRIVATE -fvisibility=default -fno-visibility-inlines-hidden -Wno-attributes)
+  endif()
+endfunction()
+
 # Headers that many sources parse: scree_precompiled(NAME HEADER libraries whose flags they need …) compiles them once,
 # and target_precompile_headers(TARGET REUSE_FROM NAME) hands the result to a target of the same flags.
 function(scree_precompiled NAME HEADER)

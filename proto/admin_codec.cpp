@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "proto/body_list_codec.h"
+#include "proto/flight_codec.h"
 #include "proto/game_codec.h"
 #include "proto/limits.h"
+#include "proto/playback_codec.h"
 #include "proto/store_codec.h"
 #include "shared/base/text.h"
 #include "shared/region/limits.h"
@@ -14,6 +16,25 @@
 namespace scree {
 
 namespace {
+
+void write_history(wire::ListHistory& to, const HistoryRequest& from) {
+  if (from.at_m) write(*to.mutable_at(), *from.at_m);
+  to.set_radius_m(from.radius_m);
+  to.set_by(showable(from.by, limits::author_bytes_max));
+  to.set_since_s(from.since_s);
+  to.set_as_json(from.as_json);
+}
+
+void write_undo(wire::Undo& to, const UndoRequest& from) {
+  to.set_mode(static_cast<wire::UndoMode>(from.mode));
+  to.set_by(showable(from.by, limits::author_bytes_max));
+  to.set_since_s(from.since_s);
+  to.set_to_tick(from.to_tick);
+  to.set_show_session(from.show_session);
+  if (from.lo_m) write(*to.mutable_lo(), *from.lo_m);
+  if (from.hi_m) write(*to.mutable_hi(), *from.hi_m);
+  to.set_as_json(from.as_json);
+}
 
 struct WritingAct {
   wire::Admin& to;
@@ -35,21 +56,44 @@ struct WritingAct {
   void operator()(const LiftBanRequest& from) const {
     to.mutable_lift_ban()->set_address(showable(from.address, limits::address_bytes_max));
   }
-  void operator()(const ControlReplayRequest& from) const {
-    wire::ControlReplay& control = *to.mutable_control_replay();
-    control.set_play(static_cast<wire::ReplayPlay>(from.play));
-    control.set_speed(from.speed);
-    control.set_move(static_cast<wire::ReplayMove>(from.move));
-    control.set_value(from.value);
-  }
+  void operator()(const ControlReplayRequest& from) const { write(*to.mutable_control_replay(), from); }
   void operator()(const ListBodiesRequest& from) const { write(*to.mutable_list_bodies(), from); }
   void operator()(const ListJointsRequest& from) const { write(*to.mutable_list_joints(), from); }
   void operator()(const ListStoresRequest&) const { to.mutable_list_stores(); }
   void operator()(const ControlRulesRequest& from) const { write(*to.mutable_control_rules(), from); }
+  void operator()(const HistoryRequest& from) const { write_history(*to.mutable_list_history(), from); }
+  void operator()(const UndoRequest& from) const { write_undo(*to.mutable_undo(), from); }
+  void operator()(const ListFlightRequest& from) const { write(*to.mutable_list_flight(), from); }
   void operator()(const ListRegionMassesRequest& from) const {
     to.mutable_list_region_masses()->set_region(showable(from.region, limits::region_name_bytes_max));
   }
 };
+
+static_assert(wire::UndoMode_ARRAYSIZE == kind_count<UndoMode>);
+
+HistoryRequest read(const wire::ListHistory& from, FieldChecker& check) {
+  HistoryRequest history;
+  if (from.has_at()) history.at_m = check.vec3(from.at(), "place of edits");
+  history.radius_m = check.not_negative(from.radius_m(), "radius of edits");
+  history.by = check.text(from.by(), limits::author_bytes_max, "author of edits");
+  history.since_s = from.since_s();
+  history.as_json = from.as_json();
+  return history;
+}
+
+UndoRequest read(const wire::Undo& from, FieldChecker& check) {
+  UndoRequest undo;
+  undo.mode = check.asked_kind<UndoMode>(from.mode(), "mode of an undo");
+  undo.by = check.text(from.by(), limits::author_bytes_max, "author of edits");
+  undo.since_s = from.since_s();
+  undo.to_tick = from.to_tick();
+  undo.show_session = from.show_session();
+  if (from.has_lo() != from.has_hi()) check.refuse("a box of an undo has one corner");
+  if (from.has_lo()) undo.lo_m = check.vec3(from.lo(), "corner of an undo");
+  if (from.has_hi()) undo.hi_m = check.vec3(from.hi(), "corner of an undo");
+  undo.as_json = from.as_json();
+  return undo;
+}
 
 static_assert(wire::ReplayPlay_ARRAYSIZE == kind_count<ReplayPlay>);
 static_assert(wire::ReplayMove_ARRAYSIZE == kind_count<ReplayMove>);
@@ -97,9 +141,15 @@ AdminRequest read_act(const wire::Admin& from, FieldChecker& check) {
       return ListStoresRequest{};
     case wire::Admin::kControlRules:
       return read(from.control_rules(), check);
+    case wire::Admin::kListHistory:
+      return read(from.list_history(), check);
+    case wire::Admin::kUndo:
+      return read(from.undo(), check);
     case wire::Admin::kListRegionMasses:
       return ListRegionMassesRequest{
           check.text(from.list_region_masses().region(), limits::region_name_bytes_max, "name of a region")};
+    case wire::Admin::kListFlight:
+      return read(from.list_flight(), check);
     case wire::Admin::ACT_NOT_SET:
       break;
   }
@@ -165,6 +215,7 @@ void write(wire::AdminList& to, const AdminListMessage& from) {
   to.set_left_out(to.left_out() +
                   static_cast<uint32_t>(from.stores.size() - stores + from.region_masses.size() - masses));
   to.set_text(from.text.substr(0, limits::admin_text_bytes_max));
+  write_flight(to, from);
 }
 
 AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& check) {
@@ -185,6 +236,7 @@ AdminListMessage read_admin_list(const wire::AdminList& from, FieldChecker& chec
   list.stores = read_stores(from.stores(), limits::stores_a_message, check);
   for (const wire::RegionMass& mass : from.region_masses()) list.region_masses.push_back(read(mass, check));
   list.text = check.bytes(from.text(), limits::admin_text_bytes_max, "text of a list");
+  read_flight(from, list, check);
   return list;
 }
 

@@ -8,7 +8,9 @@
 
 #include "proto/admin_rows.h"
 #include "proto/body_list.h"
+#include "proto/flight_rows.h"
 #include "proto/game_message.h"
+#include "proto/history_message.h"
 #include "proto/joint_message.h"
 #include "proto/playback_state.h"
 #include "proto/region_message.h"
@@ -36,10 +38,10 @@ struct LiftBanRequest {
   std::string address;
 };
 struct ListStoresRequest {};
-using AdminRequest =
-    std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest, ListBansRequest,
-                 LiftBanRequest, ControlReplayRequest, ListBodiesRequest, ListJointsRequest,
-                 ListStoresRequest, ListRegionMassesRequest, ControlRulesRequest>;
+using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
+                                  ListBansRequest, LiftBanRequest, ControlReplayRequest, ListBodiesRequest,
+                                  ListJointsRequest, ListStoresRequest, ListRegionMassesRequest,
+                                  ControlRulesRequest, HistoryRequest, UndoRequest, ListFlightRequest>;
 
 /// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {
@@ -59,6 +61,8 @@ struct AdminListMessage {
   std::vector<StoreContent> stores{};       ///< in order, at most limits::stores_a_message
   std::vector<RegionMass> region_masses{};  ///< by origin and material, at most limits::admin_rows_max
   std::string text{};                       ///< lines for people, at most limits::admin_text_bytes_max
+  std::vector<SlowTickRow> slow_ticks{};    ///< the oldest first, at most limits::slow_rows_max
+  std::vector<PartyRow> parties{};          ///< at most limits::admin_rows_max
 };
 
 }  // namespace scree

@@ -77,6 +77,7 @@ struct Writing {
   void operator()(const SetRegionMessage& from) const { write(*to.mutable_set_region(), from); }
   void operator()(const RemoveRegionMessage& from) const { write(*to.mutable_remove_region(), from); }
   void operator()(const RulesMessage& from) const { to.set_rules(pack_rules(from)); }
+  void operator()(const RestoreMessage& from) const { to.set_restore(pack_restore(from)); }
   void operator()(const ChannelMessage& from) const { write(*to.mutable_channel(), from); }
   void operator()(const RepairMessage& from) const {
     wire::Repair& repair = *to.mutable_repair();
@@ -190,6 +191,8 @@ Result<ClientMessage> read_about_bodies(const wire::ClientMessage& from, FieldCh
       return checked(read(from.transfer(), check));
     case wire::ClientMessage::kRules:
       return checked(unpack_rules(from.rules(), check));
+    case wire::ClientMessage::kRestore:
+      return checked(unpack_restore(from.restore(), check));
     case wire::ClientMessage::kChannel:
       return checked(read(from.channel(), check));
     default:

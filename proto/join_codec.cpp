@@ -54,6 +54,7 @@ void write(wire::Hello& to, const HelloMessage& from) {
   to.set_ticket(from.ticket);
   to.set_world(from.world);
   to.set_at_spawn(from.at_spawn);
+  to.set_stones(from.stones);
 }
 
 HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
@@ -71,6 +72,7 @@ HelloMessage read_hello(const wire::Hello& from, FieldChecker& check) {
   hello.meets = from.meets();
   hello.administers = from.administers();
   hello.at_spawn = from.at_spawn();
+  hello.stones = from.stones();
   hello.token = check.text(from.token(), limits::access_token_bytes_max, "token");
   hello.ticket = check.bytes(from.ticket(), limits::ticket_bytes_max, "ticket");
   hello.world = from.world();

@@ -92,8 +92,16 @@ inline constexpr size_t admin_reason_bytes_max = 256;
 /// Minutes of a ban: ten years. Above: refused; 0 minutes are for ever.
 inline constexpr uint32_t ban_minutes_max = 5'256'000;
 
+/// Length of the name of an author of edits, bytes. Above: refused.
+inline constexpr size_t author_bytes_max = 64;
+
 /// Rows of sessions, or of bans, in one answer to an administrator: under 500 KiB. The rest is left out.
 inline constexpr size_t admin_rows_max = 2048;
+
+/// Rows of slow ticks in one answer to an administrator, and bytes of their words such as a stage: some 100
+/// KiB. Above: the oldest are left out; a longer word is a fault of the sender.
+inline constexpr size_t slow_rows_max = 256;
+inline constexpr size_t flight_word_bytes_max = 32;
 
 /// A line for the console of rules, and the text that answers an administrator, bytes. A longer line is
 /// refused, a longer text is cut.

@@ -126,6 +126,7 @@ size_t memory_bytes(const ServerMessage& message) {
           [](const ChunkMessage& m) { return bytes_of(m.bricks); },
           [](const UnchangedChunksMessage& m) { return bytes_of(m.chunks) + bytes_of(m.hashes); },
           [](const PieceMessage& m) { return bytes_of(m.volume); },
+          [](const StoneMessage& m) { return bytes_of(m.volume); },
           [](const PropMessage& m) { return bytes_of(m.prop); },
           [](const ContactsMessage& m) { return m.contacts.size() * sizeof(ContactEvent); },
           [](const JointsMessage& m) { return bytes_of(m.here) + bytes_of(m.gone); },

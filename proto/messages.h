@@ -59,6 +59,7 @@ struct HelloMessage {
   uint32_t oldest_protocol = 0;  ///< the oldest that it speaks; 0: none but `protocol`
   uint32_t operations = operation_kinds;  ///< it carries out so many kinds, in the order of their numbers
   bool at_spawn = false;  ///< the server puts the eye at WelcomeMessage::spawn, where there is one
+  bool stones = false;    ///< StoneMessages are wanted
 };
 
 /// A message of a kind that this version does not know, or a request with an unknown value. It is skipped
@@ -119,7 +120,8 @@ using WalkMessage = RequestMessage<WalkRequest>;
 using DigMessage = RequestMessage<DigRequest>;
 using PlaceMessage = RequestMessage<PlaceRequest>;
 using TransferMessage = RequestMessage<TransferRequest>;
-using RulesMessage = RequestMessage<RulesRequest>;  ///< in recordings and worlds alone
+using RulesMessage = RequestMessage<RulesRequest>;  ///< in recordings and worlds alone, as the next one
+using RestoreMessage = RequestMessage<RestoreRequest>;
 
 /// Hashes of chunks whose frame at `tick` had another check than the client computed.
 struct RepairMessage {
@@ -162,7 +164,7 @@ using ClientMessage =
                  BreakMessage, BlastMessage, AddJointMessage, RemoveJointMessage, SetMotorMessage,
                  CutOutMessage, ReleaseMessage, AddPieceMessage, QueryMessage, SetRegionMessage,
                  RemoveRegionMessage, StandMessage, WalkMessage, DigMessage, PlaceMessage, TransferMessage,
-                 RulesMessage, ChannelMessage, UnknownMessage>;
+                 RulesMessage, RestoreMessage, ChannelMessage, UnknownMessage>;
 
 // ---- server to client
 
@@ -267,6 +269,11 @@ struct PieceMessage {
   QuantisedPose pose;
 };
 
+/// A piece that has become terrain, as it lay, for who did not see it merge (SettledStone).
+struct StoneMessage : PieceMessage {
+  uint32_t lies = 0;
+};
+
 /// A prop, whole: a new one, or one that came into the interest.
 struct PropMessage {
   PieceId id = 0;
@@ -352,7 +359,7 @@ using ServerMessage =
                  MarksMessage, RecordedCursorsMessage, HealthMessage, ContentMessage, PaletteChangedMessage,
                  PropMessage, ContactsMessage, JointsMessage, KeptPiecesMessage, AnswerMessage,
                  RegionsMessage, PersonPlacesMessage, StoresMessage, SignsMessage, CuesMessage,
-                 ChannelMessage, UnknownMessage>;
+                 ChannelMessage, StoneMessage, UnknownMessage>;
 
 /// About what the decoded message takes in memory; a few compressed bytes can hold megabytes of codes.
 size_t memory_bytes(const ServerMessage& message);

@@ -14,4 +14,14 @@ RulesMessage unpack_rules(const std::string&, FieldChecker& check) {
   return {};
 }
 
+std::string pack_restore(const RestoreMessage&) {
+  CHECK(false, "only a server itself makes such a request");
+  return {};
+}
+
+RestoreMessage unpack_restore(const std::string&, FieldChecker& check) {
+  check.refuse("a page takes nothing back");
+  return {};
+}
+
 }  // namespace scree

@@ -7,6 +7,7 @@
 
 #include "proto/byte_stream.h"
 #include "proto/packed_shape.h"
+#include "proto/restore_layout.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
@@ -26,7 +27,7 @@ constexpr uint64_t kind_mask = (1U << kind_bits) - 1;
 constexpr size_t kinds = std::variant_size_v<Operation>;
 constexpr uint64_t head_max = (uint64_t{0xFFFFFFFFU} << kind_bits) | kind_mask;
 /// The kind of a fill of a material, of paint by voxels, of slides, of shatters by a shape, of digs and of
-/// places; a byte after the head says which.
+/// places and of restores; a byte after the head says which.
 constexpr uint64_t kind_with_material = 7;
 enum WithMaterial : uint8_t {
   fill_of_material = 0,
@@ -34,9 +35,10 @@ enum WithMaterial : uint8_t {
   slide_of_material = 2,
   shatter_by_shape = 3,
   dig_of_shape = 4,
-  place_of_material = 5
+  place_of_material = 5,
+  restore_of_bricks = 6
 };
-static_assert(kinds == kind_with_material + 3);
+static_assert(kinds == kind_with_material + 4);
 
 /// Bits of a stamp's shift with its sign folded. The higher bits hold the method, so that the usual method
 /// takes no byte of its own.
@@ -91,6 +93,7 @@ PieceId head_id(const Operation& operation) {
                         [](const SlideOperation&) { return PieceId{0}; },
                         [](const DigOperation& op) { return op.piece; },
                         [](const PlaceOperation&) { return PieceId{0}; },
+                        [](const RestoreOperation&) { return PieceId{0}; },
                     },
                     operation);
 }
@@ -165,6 +168,10 @@ struct Writing {
     writer.u8(place_of_material);
     write_shape(writer, place.shape);
     writer.u8(static_cast<uint8_t>(place.material));
+  }
+  void operator()(const RestoreOperation& restore) const {
+    writer.u8(restore_of_bricks);
+    write_restore(writer, restore);
   }
   void operator()(const IslandOperation& island) const {
     const VoxelCoord size = island.box.size(), start = island.start - island.box.lo;
@@ -283,7 +290,7 @@ void read(ByteReader& reader, PieceId, SlideOperation& slide) {
 }
 
 Operation read_with_material(ByteReader& reader, PieceId id) {
-  const uint8_t which = reader.u8("kind of an operation with a material", place_of_material);
+  const uint8_t which = reader.u8("kind of an operation with a material", restore_of_bricks);
   if (which == shatter_by_shape) {
     ShatterOperation shatter;
     PieceCut cut{read_shape(reader), {}};
@@ -296,7 +303,8 @@ Operation read_with_material(ByteReader& reader, PieceId id) {
     return shatter;
   }
   if (which == dig_of_shape) return DigOperation{read_shape(reader), id};
-  if (id != 0) reader.refuse("a fill, paint, slide or place with a piece id");
+  if (id != 0) reader.refuse("a fill, paint, slide, place or restore with a piece id");
+  if (which == restore_of_bricks) return read_restore(reader);
   if (which == slide_of_material) {
     SlideOperation slide;
     read(reader, id, slide);

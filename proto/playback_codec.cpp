@@ -107,4 +107,11 @@ MarksMessage read(const wire::Marks& from, FieldChecker& check) {
   return marks;
 }
 
+void write(wire::ControlReplay& to, const ControlReplayRequest& from) {
+  to.set_play(static_cast<wire::ReplayPlay>(from.play));
+  to.set_speed(from.speed);
+  to.set_move(static_cast<wire::ReplayMove>(from.move));
+  to.set_value(from.value);
+}
+
 }  // namespace scree

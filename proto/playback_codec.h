@@ -11,5 +11,6 @@ void write(wire::Marks& to, const MarksMessage& from);
 
 PlaybackMessage read(const wire::Playback& from, FieldChecker& check);
 MarksMessage read(const wire::Marks& from, FieldChecker& check);
+void write(wire::ControlReplay& to, const ControlReplayRequest& from);
 
 }  // namespace scree

@@ -3,7 +3,9 @@
 #include <rules.pb.h>
 
 #include "proto/game_codec.h"
+#include "proto/operation_codec.h"
 #include "shared/base/overloaded.h"
+#include "shared/operation/limits.h"
 
 namespace scree {
 
@@ -123,6 +125,44 @@ RulesMessage unpack_rules(const std::string& packed, FieldChecker& check) {
   rules.request = from.request();
   rules.act = read_rules_act(from, check);
   return rules;
+}
+
+std::string pack_restore(const RestoreMessage& from) {
+  wire::Restore to;
+  to.set_request(from.request);
+  std::vector<BrickView> views;
+  if (from.bricks != nullptr)
+    for (const RestoreRequest::Brick& brick : *from.bricks) {
+      views.push_back({brick.then.coord, &brick.then.brick, brick.then.materials});
+      to.add_now(brick.now);
+    }
+  to.set_bricks(to_string(encode_bricks(views)));
+  for (const PieceId piece : from.pieces) to.add_pieces(piece);
+  to.set_loose(pack_chunks(from.loose));
+  return to.SerializeAsString();
+}
+
+RestoreMessage unpack_restore(const std::string& packed, FieldChecker& check) {
+  wire::Restore from;
+  RestoreMessage restore;
+  if (!from.ParseFromString(packed)) {
+    check.refuse("the bytes of a restore are none");
+    return restore;
+  }
+  restore.request = from.request();
+  auto bricks = check.value_or_refuse(decode_bricks(as_span(from.bricks()), limits::restored_bricks_max));
+  if (bricks.size() != static_cast<size_t>(from.now_size()))
+    check.refuse("a restore has other hashes than bricks");
+  if (from.pieces_size() > static_cast<int>(limits::restored_pieces_max))
+    check.refuse("a restore has more pieces than limits.restored_pieces_max");
+  restore.loose = check.chunks(from.loose(), limits::loose_chunks_max, "loose chunks of a restore");
+  if (check.failed()) return restore;
+  auto taken = std::make_shared<std::vector<RestoreRequest::Brick>>();
+  for (size_t i = 0; i < bricks.size(); ++i)
+    taken->push_back({std::move(bricks[i]), from.now(static_cast<int>(i))});
+  if (!taken->empty()) restore.bricks = std::move(taken);
+  for (const uint32_t piece : from.pieces()) restore.pieces.push_back(piece);
+  return restore;
 }
 
 }  // namespace scree

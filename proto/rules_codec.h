@@ -17,6 +17,10 @@ std::string pack_rules(const RulesMessage& from);
 /// Refuses bytes that are none, and what validate() refuses.
 RulesMessage unpack_rules(const std::string& packed, FieldChecker& check);
 
+/// The bytes of a wire.Restore, likewise.
+std::string pack_restore(const RestoreMessage& from);
+RestoreMessage unpack_restore(const std::string& packed, FieldChecker& check);
+
 void write(wire::Notice& to, const Notice& from);
 Notice read(const wire::Notice& from, FieldChecker& check);
 

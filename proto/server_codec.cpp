@@ -32,6 +32,15 @@ namespace {
 
 constexpr size_t bricks_per_chunk = size_t{chunk_bricks} * chunk_bricks * chunk_bricks;
 
+void write(wire::Piece& to, const PieceMessage& from) {
+  to.set_id(from.id);
+  to.set_volume(to_string(encode_volume(from.volume)));
+  to.set_x(from.pose.x);
+  to.set_y(from.pose.y);
+  to.set_z(from.pose.z);
+  to.set_rotation(from.pose.rotation);
+}
+
 struct Writing {
   wire::ServerMessage& to;
 
@@ -65,14 +74,10 @@ struct Writing {
   void operator()(const PaletteChangedMessage& from) const {
     to.mutable_palette_changed()->set_palette(wire_digest(from.palette));
   }
-  void operator()(const PieceMessage& from) const {
-    wire::Piece& piece = *to.mutable_piece();
-    piece.set_id(from.id);
-    piece.set_volume(to_string(encode_volume(from.volume)));
-    piece.set_x(from.pose.x);
-    piece.set_y(from.pose.y);
-    piece.set_z(from.pose.z);
-    piece.set_rotation(from.pose.rotation);
+  void operator()(const PieceMessage& from) const { write(*to.mutable_piece(), from); }
+  void operator()(const StoneMessage& from) const {
+    write(*to.mutable_stone(), from);
+    to.mutable_stone()->set_lies(from.lies);
   }
   void operator()(const ContactsMessage& from) const { write(*to.mutable_contacts(), from); }
   void operator()(const PropMessage& from) const { write(*to.mutable_prop(), from); }
@@ -174,6 +179,11 @@ PieceMessage read(const wire::Piece& from, FieldChecker& check) {
   return piece;
 }
 
+StoneMessage read_stone(const wire::Piece& from, FieldChecker& check) {
+  if (from.lies() == 0) check.refuse("a stone of which nothing is rock");
+  return {read(from, check), from.lies()};
+}
+
 RefusalMessage read(const wire::Refusal& from, FieldChecker& check) {
   return {check.text(from.reason(), limits::reason_bytes_max, "reason"),
           check.text(from.name(), limits::refusal_name_bytes_max, "name of a reason")};
@@ -215,6 +225,8 @@ Result<ServerMessage> read_about_bodies(const wire::ServerMessage& from, FieldCh
       return checked(read(from.answer(), check));
     case wire::ServerMessage::kRegions:
       return checked(read(from.regions(), check));
+    case wire::ServerMessage::kStone:
+      return checked(read_stone(from.stone(), check));
     case wire::ServerMessage::kPersonPlaces:
       return checked(read(from.person_places(), check));
     case wire::ServerMessage::kStores:
@@ -268,6 +280,7 @@ Result<ServerMessage> read(const wire::ServerMessage& from) {
     case wire::ServerMessage::kCues:
     case wire::ServerMessage::kChannel:
     case wire::ServerMessage::kRegions:
+    case wire::ServerMessage::kStone:
       return read_about_bodies(from, check, checked);
     case wire::ServerMessage::kReset:
       return ResetMessage{};

@@ -7,7 +7,7 @@
 #include "bench/support/drawing.h"
 #include "bench/support/scenes.h"
 #include "client/render/levels/block_windows.h"
-#include "client/render/mesh/mesh_scheduler.h"
+#include "client/render/meshing/mesh_scheduler.h"
 #include "shared/base/timing.h"
 
 namespace scree {

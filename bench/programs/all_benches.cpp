@@ -41,6 +41,8 @@ std::vector<Bench> benches_to_k() {
        run_bodies_bench},
       {"fights", "four fights far apart on one, two and four threads: throughput, the same hashes",
        run_fights_bench},
+      {"figures", "a storm of 1,000 pieces: what a server's figures cost a tick, and their page",
+       run_figures_bench},
       {"heaps", "stones of three materials that fall into heaps and merge: pores, swell, angle at rest",
        run_heaps_bench},
       {"islands", "the search for loose rock: towers and arches, in 64 m and 1,024 m of edited terrain",
@@ -57,6 +59,8 @@ std::vector<Bench> benches_to_k() {
 
 std::vector<Bench> benches_from_l() {
   return {
+      {"library", "libscree_client beside the C++ that it stands for: messages of a storm, meshes, poses",
+       run_library_bench},
       {"link", "a session by links of 0 to 200 ms and 10 Mbit/s to 100 kbit/s, and cut ones: age, hashes",
        run_link_bench},
       {"loose", "40 blasts in each of 35 scenes: dust at every tick, and loose rock at the end",
@@ -88,8 +92,8 @@ std::vector<Bench> benches_from_l() {
        true},
       {"recombine", "merging by stamp, slices and sphere, against OpenVDB's meshToVolume and csgUnion",
        run_recombine_bench},
-      {"regions", "the same blows with 256 regions far away, in each other, and with one that counts",
-       run_regions_bench},
+      {"regions", "the same blows with 256 regions far away, in each other, and counting", run_regions_bench},
+      {"undo", "what remembering edits costs, and taking them back", run_undo_bench},
       {"rules", "a storm of 1,000 pieces with a handler of a script for each event; a reload",
        run_rules_bench},
       {"replay",

@@ -302,8 +302,18 @@ Result<AdminListMessage> list_region_masses(const AdminServer& server, const std
   return std::move(asked.first);
 }
 
+Result<AdminListMessage> list_flight(const AdminServer& server, const ListFlightRequest& request) {
+  auto asked = TRY(ask<AdminListMessage>(server, request));
+  return std::move(asked.first);
+}
+
 Result<std::string> control_rules(const AdminServer& server, const ControlRulesRequest& wish) {
   auto asked = TRY(ask<AdminListMessage>(server, wish));
+  return std::move(asked.first.text);
+}
+
+Result<std::string> ask_history(const AdminServer& server, const HistoryAct& act) {
+  auto asked = TRY(std::visit([&](const auto& one) { return ask<AdminListMessage>(server, one); }, act));
   return std::move(asked.first.text);
 }
 

@@ -134,9 +134,19 @@ std::string region_masses_lines(const AdminListMessage& list, const std::vector<
 
 /// Controls the server's rules, and returns what they said: lines for people, of any bytes.
 Result<std::string> control_rules(const AdminServer& server, const ControlRulesRequest& wish);
+/// Asks for the edits that the server remembers, or has some taken back: lines for people, or JSON, of any
+/// bytes.
+Result<std::string> ask_history(const AdminServer& server, const HistoryAct& act);
 /// For a terminal: of a line with anything but clean text, all that is not printable ASCII is escaped.
 std::string rules_lines(const std::string& text);
 std::string rules_json(const std::string& text);
+
+/// What the server keeps of its last ticks: slow ones and their causes, or work by party.
+Result<AdminListMessage> list_flight(const AdminServer& server, const ListFlightRequest& request);
+std::string slow_ticks_json(const AdminListMessage& list);
+std::string slow_ticks_lines(const AdminListMessage& list);
+std::string parties_json(const AdminListMessage& list);
+std::string parties_lines(const AdminListMessage& list);
 
 /// An answer, and the tick that it is of.
 struct SpaceAnswer {

@@ -56,6 +56,7 @@ Result<void> Bot::join() {
 tl::expected<void, ConnectionEnd> Bot::connect() {
   HelloMessage hello{protocol_version, "scree-bot", eye_m_, config_.interest_radius_m};
   hello.name = config_.name;
+  hello.meets = !config_.name.empty() || !config_.lines.empty() || config_.hears_s > 0.0;
   hello.at_spawn = config_.at_spawn && !stands_;
   TRY(join_and_wait(client_, hello));
   report_.welcome = *client_.welcome();
@@ -63,7 +64,8 @@ tl::expected<void, ConnectionEnd> Bot::connect() {
   repairs_asked_ = 0;
   ++report_.connections;
   stand_on_ground();
-  for (const ChannelData& data : config_.says) client_.send(ChannelMessage{data});
+  for (const std::string& line : config_.lines) client_.send(SayMessage{line});
+  for (const ChannelData& data : config_.messages) client_.send(ChannelMessage{data});
   log("connected", fmt::format("connected to {} at tick {} as {}", report_.server, report_.welcome.tick,
                                name_of(report_.welcome.role)));
   return {};

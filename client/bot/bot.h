@@ -26,16 +26,19 @@
 namespace scree {
 
 struct BotConfig : ServerEndpoint {
-  std::string name{};             ///< that of its person; empty: it has none
-  uint32_t carves = 20;           ///< 0: the bot ends after the handshake and one frame
-  uint32_t digs = 0;              ///< after the carves
-  uint32_t places = 0;            ///< after the digs, out of what the bot carries
-  uint32_t walks = 0;             ///< on foot, beside all of these; 0: the bot flies
-  std::vector<ChannelData> says;  ///< to the server's rules, once it has joined; at each connection
-  double hears_s = 0.0;           ///< it stays so long for what the rules have for it
+  std::string name{};                     ///< that of its person; empty: it has none
+  uint32_t carves = 20;                   ///< 0: the bot ends after the handshake and one frame
+  uint32_t digs = 0;                      ///< after the carves
+  uint32_t places = 0;                    ///< after the digs, out of what the bot carries
+  uint32_t walks = 0;                     ///< on foot, beside all of these; 0: the bot flies
+  std::optional<WalkSquare> walk_square;  ///< in which it walks; nothing: anywhere
+  std::vector<std::string> lines;     ///< that it says to everybody, once it has joined; at each connection
+  std::vector<ChannelData> messages;  ///< likewise, to the server's rules
+  double hears_s = 0.0;               ///< it stays so long for what the rules have for it
   uint64_t random_seed = 1;
   double rate_hz = 2.0;  ///< carves, digs and places a second; 0: as fast as replies come
   CarverConfig carver;
+  std::optional<glm::vec3> place_m;  ///< middle of the square in which it places; y is found from the ground
   bool at_spawn = false;  ///< carve before the eyes of who begins in the world, not around carver.centre_m
   std::string paint;      ///< material with which the rock of each carve is painted first; empty: none
   float interest_radius_m = 96.0F;  ///< around the carver's centre
@@ -101,7 +104,7 @@ class Bot {
   uint32_t number_of(Kind kind);
   MoveReport& moves(Kind kind);
   void count(Kind kind, const ReplyMessage& reply);
-  Carver::Target aim();
+  Carver::Target aim(Kind kind);
   Carver::Target aim_apart(float apart_m);
   float reach_m() const;
   void go_near(glm::vec3 place_m);

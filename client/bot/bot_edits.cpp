@@ -66,7 +66,7 @@ uint32_t Bot::number_of(Kind kind) {
 }
 
 void Bot::carve(Clock::time_point now) {
-  const Carver::Target target = aim();
+  const Carver::Target target = aim(Kind::carve);
   const uint32_t number = number_of(Kind::carve);
   const CarveMessage message = carver_.carve(target, number);
   requests_[number] = {now, Kind::carve, message.random_seed};
@@ -77,7 +77,7 @@ void Bot::carve(Clock::time_point now) {
 }
 
 void Bot::dig(Clock::time_point now) {
-  const Shape shape = carver_.shape_at(aim());
+  const Shape shape = carver_.shape_at(aim(Kind::dig));
   const uint32_t number = number_of(Kind::dig);
   requests_[number] = {now, Kind::dig};
   client_.send(DigMessage{{shape}, number});
@@ -122,9 +122,11 @@ void Bot::count(Kind kind, const ReplyMessage& reply) {
 }
 
 /// Where the server lets it edit: it goes there first, or on foot takes a place near itself.
-Carver::Target Bot::aim() {
+Carver::Target Bot::aim(Kind kind) {
   Field& field = client_.mirror()->field();
-  const Carver::Target target = carver_.aim(field);
+  const bool elsewhere = kind == Kind::place && config_.place_m;
+  const Carver::Target target =
+      elsewhere ? carver_.aim_near(field, *config_.place_m, config_.carver.area_m) : carver_.aim(field);
   if (config_.walks == 0) {
     go_near(target.point_m);
     return target;
@@ -137,10 +139,10 @@ Carver::Target Bot::aim() {
 
 /// Likewise, and away from the own body, which nothing can be put into.
 Carver::Target Bot::aim_apart(float apart_m) {
-  Carver::Target target = aim();
+  Carver::Target target = aim(Kind::place);
   for (int looks = 1; config_.walks > 0 && looks < limits::bot_looks_max; ++looks) {
     if (glm::distance(foot_->walker().feet_m(), target.point_m) > apart_m) break;
-    target = aim();
+    target = aim(Kind::place);
   }
   return target;
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <fmt/format.h>
 #include <limits>
 
 #include "client/cache/cache_options.h"
@@ -29,6 +30,8 @@ struct Words {
   std::string pattern{name_of(usual_pattern)};
   std::vector<std::string> messages{};  ///< channel and text of each
   std::vector<float> centre_m{};        ///< empty: in the view of the world's spawn
+  std::vector<float> place_m{};         ///< empty: around the centre
+  std::vector<float> walk_square_m{};   ///< its middle, and half its side; empty: none
 };
 
 void add_interest(CLI::App& app, BotConfig& bot) {
@@ -45,7 +48,13 @@ void add_interest(CLI::App& app, BotConfig& bot) {
       ->capture_default_str();
 }
 
-void add_moving(CLI::App& app, BotConfig& bot) {
+/// A place of the ground by two words.
+CLI::Option* add_place(CLI::App& app, const char* name, std::vector<float>& place_m, const char* help) {
+  constexpr double world_m = limits::world_half_width_m;
+  return bounded(app.add_option(name, place_m, help), {-world_m, world_m})->expected(2);
+}
+
+void add_moving(CLI::App& app, BotConfig& bot, Words& words) {
   bounded(app.add_option("--digs", bot.digs,
                          "number of digs, after the carves: what is dug goes into the bot's store"),
           whole_within(0, 1e6))
@@ -58,6 +67,7 @@ void add_moving(CLI::App& app, BotConfig& bot) {
       whole_within(0, 1e6))
       ->envname("SCREE_PLACES")
       ->capture_default_str();
+  add_place(app, "--place-centre", words.place_m, "x and z around which to place, metres; default: --centre");
 }
 
 void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
@@ -70,6 +80,12 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
           whole_within(0, 1e6))
       ->envname("SCREE_WALK")
       ->capture_default_str();
+  constexpr double world_m = limits::world_half_width_m;
+  bounded(app.add_option(
+              "--walk-in", words.walk_square_m,
+              "square to walk in, by x and z of its middle and half its side, metres; default: anywhere"),
+          {-world_m, world_m})
+      ->expected(3);
   bounded(app.add_option("--seed", bot.random_seed, "seed of the random choices"),
           whole_within(0, whole_most))
       ->envname("SCREE_SEED")
@@ -105,12 +121,8 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
       ->envname("SCREE_PATTERN")
       ->check(CLI::IsMember(patterns))
       ->capture_default_str();
-  constexpr double world_m = limits::world_half_width_m;
-  bounded(app.add_option("--centre", words.centre_m,
-                         "x and z around which to carve, metres; default: in the "
-                         "view of the world's spawn"),
-          {-world_m, world_m})
-      ->expected(2);
+  add_place(app, "--centre", words.centre_m,
+            "x and z around which to carve, metres; default: in the view of the world's spawn");
   bounded(app.add_option(
               "--area", bot.carver.area_m,
               "half the side of the square to carve in, metres; 0: each carve at the centre, from above"),
@@ -123,8 +135,10 @@ void add_carving(CLI::App& app, BotConfig& bot, Words& words) {
       ->check([](const std::string& name) { return name.empty() ? "must not be empty" : ""; }, "");
 }
 
-/// Channel and text, in turns.
-void add_rules(CLI::App& app, BotConfig& bot, Words& words) {
+void add_talking(CLI::App& app, BotConfig& bot, Words& words) {
+  app.add_option("--say", bot.lines,
+                 "a line for everybody, once the bot has joined; may be given more than once")
+      ->take_all();
   app.add_option("--message", words.messages,
                  "CHANNEL TEXT: a message for the server's rules, once the bot has joined; may be given more "
                  "than once")
@@ -161,13 +175,22 @@ Result<void> complete(BotOptions& options, const Words& words) {
     const std::string& text = words.messages[i + 1];
     ChannelData data{words.messages[i], {text.begin(), text.end()}};
     if (const auto valid = validate(data); !valid) return fail("--message: " + valid.error().message);
-    options.bot.says.push_back(std::move(data));
+    options.bot.messages.push_back(std::move(data));
+  }
+  for (const std::string& line : options.bot.lines) {
+    if (line.empty() || line.size() > limits::line_bytes_max)
+      return fail(fmt::format("--say: a line has 1 to {} bytes", limits::line_bytes_max));
   }
   CarverConfig& carver = options.bot.carver;
   carver.shape = *kind_named<ShapeKind>(words.shape);       // one of bot_shapes
   carver.pattern = kind_named<SeedPattern>(words.pattern);  // none: both
   options.bot.at_spawn = words.centre_m.empty();
   if (!options.bot.at_spawn) carver.centre_m = {words.centre_m[0], 0.0F, words.centre_m[1]};
+  if (const std::vector<float>& square = words.walk_square_m; !square.empty()) {
+    if (square[2] <= 0.0F) return fail("--walk-in: half of the square's side is more than 0 m");
+    options.bot.walk_square = WalkSquare{{square[0], 0.0F, square[1]}, square[2]};
+  }
+  if (!words.place_m.empty()) options.bot.place_m = {words.place_m[0], 0.0F, words.place_m[1]};
   return {};
 }
 
@@ -182,8 +205,8 @@ std::variant<BotOptions, int> parse_bot_options(int argc, char** argv) {
   CacheOptions cache(app, options.bot.cache, 0);
   add_interest(app, options.bot);
   add_carving(app, options.bot, words);
-  add_moving(app, options.bot);
-  add_rules(app, options.bot, words);
+  add_moving(app, options.bot, words);
+  add_talking(app, options.bot, words);
   add_ending(app, options);
   try {
     app.parse(argc, argv);

@@ -1,4 +1,4 @@
-// What a game's rules show and tell a bot.
+// What a game's rules and persons show and tell a bot.
 #include <fmt/format.h>
 
 #include "client/bot/bot.h"
@@ -28,6 +28,12 @@ void Bot::receive_rules(const ServerMessage& message) {
                           ++rules.messages;
                           if (rules.heard.size() < limits::bot_heard_max) rules.heard.push_back(data);
                           log("message", fmt::format("{}: {}", data.channel, in_words(data.bytes)));
+                        },
+                        [&](const SaidMessage& line) {
+                          ++rules.lines;
+                          if (rules.said.size() < limits::bot_heard_max) rules.said.push_back(line);
+                          const std::string who = line.session == 0 ? "server" : line.name;
+                          log("said", showable(who + ": " + line.text, limits::bot_heard_shown_bytes));
                         },
                         [](const auto&) {}},
              message);

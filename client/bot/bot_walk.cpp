@@ -21,7 +21,7 @@ constexpr uint32_t stand_request = 1U << 30U;
 void Bot::walk(Clock::time_point now) {
   if (first_frame_ == 0 || !client_.rejoin().has_near_ground() || !client_.loaded(steady_now_s())) return;
   const uint32_t rate_hz = report_.welcome.tick_rate_hz;
-  if (!walk_) walk_.emplace(config_.walks, rate_hz, config_.random_seed);
+  if (!walk_) walk_.emplace(config_.walks, rate_hz, config_.random_seed, config_.walk_square);
   if (!foot_) {
     foot_.emplace(rate_hz);
     asked_to_stand_ = {};
@@ -46,7 +46,7 @@ void Bot::walk(Clock::time_point now) {
       std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits::bot_walk_behind_s));
   walked_to_ = std::max(walked_to_, now - behind_max);
   for (; walked_to_ + tick <= now && !walk_->is_over(); walked_to_ += tick) {
-    const WalkInput input = walk_->next();
+    const WalkInput input = walk_->next(foot_->walker().feet_m());
     const float length = glm::length(input.go);
     const glm::vec3 look = length > 0.0F ? input.go / length : glm::vec3(0.0F, 0.0F, -1.0F);
     const auto message = foot_->step(input, look, mirror);

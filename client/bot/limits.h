@@ -50,7 +50,7 @@ inline constexpr int bot_looks_max = 16;
 /// empty.
 inline constexpr float bot_place_min_m = 0.25F;
 
-/// Messages of a game's rules that a report has. Above: they are counted alone.
+/// Messages of a game's rules that a report has, and lines. Above: they are counted alone.
 inline constexpr size_t bot_heard_max = 256;
 
 /// Bytes of such a message that the log has. Above: it is cut.

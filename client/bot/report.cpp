@@ -91,11 +91,16 @@ Json rules(const BotReport& report) {
   for (const Sign& sign : report.signs) signs.push_back(json_of(sign));
   for (const ChannelData& data : report.rules.heard)
     heard.push_back({{"channel", data.channel}, {"data", std::string(data.bytes.begin(), data.bytes.end())}});
+  Json said = Json::array();
+  for (const SaidMessage& line : report.rules.said)
+    said.push_back({{"session", line.session}, {"name", line.name}, {"text", line.text}});
   return {{"signs", signs},
           {"sign_lists", report.rules.signs},
           {"cues", report.rules.cues},
           {"messages", report.rules.messages},
-          {"heard", heard}};
+          {"heard", heard},
+          {"lines", report.rules.lines},
+          {"said", said}};
 }
 
 Json ledger(const StatusMessage& status) {

@@ -68,6 +68,8 @@ struct RulesReport {
   uint64_t cues = 0;               ///< sounds and puffs
   uint64_t messages = 0;           ///< of channels
   std::vector<ChannelData> heard;  ///< the first of them, at most limits::bot_heard_max
+  uint64_t lines = 0;              ///< that persons, the server or its rules said
+  std::vector<SaidMessage> said;   ///< the first of them, likewise
 };
 
 /// A bot's digs, or its places.

@@ -44,6 +44,7 @@ Result<MirrorChanges> Mirror::apply(const ServerMessage& message) {
             return {};
           },
           [&](const PieceMessage& piece) { return apply_piece(piece, changes); },
+          [&](const StoneMessage& stone) { return apply_stone(stone, changes); },
           [&](const PropMessage& prop) { return apply_prop(prop, changes); },
           [&](const JointsMessage& joints) { return apply_joints(joints, changes); },
           [&](const KeptPiecesMessage& kept) { return apply_kept(kept); },
@@ -135,6 +136,7 @@ Result<void> Mirror::apply_operation(const Operation& operation, Tick tick, floa
   if (prop != props_.end() && prop->first - made.first < made.count)
     return fail(fmt::format("piece {} has the id of a prop", prop->first));
   const Birthplace birthplace = birthplace_of(operation);
+  note_merge(operation, changes);
   const Applied applied = scree::apply(operation, field_, table_);
   for (const BrickCoord brick : applied.changed) changed.insert(chunk_of(brick));
   changes.bricks.insert(changes.bricks.end(), applied.changed.begin(), applied.changed.end());

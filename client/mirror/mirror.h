@@ -23,6 +23,7 @@
 #include "shared/operation/operation.h"
 #include "shared/operation/per_operation.h"
 #include "shared/query/scene_maker.h"
+#include "shared/recombine/settled_stone.h"
 
 namespace scree {
 
@@ -36,6 +37,8 @@ struct MirrorChanges {
   std::vector<PieceId> props_removed{};
   std::vector<JointId> joints_changed{};  ///< that are new, or have another motor
   std::vector<EndedJoint> joints_removed{};
+  /// Pieces that merged now, or before this client came there, for the eye. The mirror keeps none.
+  std::vector<SettledStone> stones{};
   bool palette = false;  ///< Mirror::palette() is another one
   bool regions = false;  ///< Mirror::regions() are others
   /// An image of the palette has come whole (Client::content).
@@ -168,6 +171,9 @@ class Mirror {
   void forget_all_but(uint64_t edited, ChunkCoord chunk, MirrorChanges& changes);
   void replace_chunk(ChunkCoord chunk, const std::vector<BrickPatch>& bricks, MirrorChanges& changes);
   Result<void> apply_piece(const PieceMessage& message, MirrorChanges& changes);
+  Result<void> apply_stone(const StoneMessage& message, MirrorChanges& changes);
+  /// Tells of the pieces that the operation, which is not applied yet, makes terrain.
+  void note_merge(const Operation& operation, MirrorChanges& changes) const;
   Result<void> apply_prop(const PropMessage& message, MirrorChanges& changes);
   Result<void> apply_kept(const KeptPiecesMessage& message);
   Result<void> apply_regions(const RegionsMessage& message, MirrorChanges& changes);

@@ -5,6 +5,20 @@
 
 namespace scree {
 
+Result<void> Mirror::apply_stone(const StoneMessage& message, MirrorChanges& changes) {
+  changes.stones.push_back(
+      {message.id, std::make_shared<const Volume>(message.volume), message.pose, message.lies});
+  return {};
+}
+
+void Mirror::note_merge(const Operation& operation, MirrorChanges& changes) const {
+  const auto* const stamp = std::get_if<StampOperation>(&operation);
+  if (stamp == nullptr) return;
+  changes.stones.push_back({stamp->piece, table_.at(stamp->piece), stamp->pose});
+  for (const StampedPiece& other : stamp->others)
+    changes.stones.push_back({other.piece, table_.at(other.piece), other.pose});
+}
+
 Result<void> Mirror::apply_prop(const PropMessage& message, MirrorChanges& changes) {
   if (find_moving(message.id) != nullptr)
     return fail(fmt::format("prop {} is sent a second time", message.id));

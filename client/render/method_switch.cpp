@@ -23,6 +23,7 @@ void MethodSwitch::begin_world() {
 void MethodSwitch::forget_world() {
   next_ = {};
   shown_ = {};
+  was_loaded_ = false;
 }
 
 const MethodSwitch::Slot* MethodSwitch::prepared() const {
@@ -77,6 +78,7 @@ Result<void> MethodSwitch::follow(const MirrorChanges& mirrored, const Scene& mi
     shown_ = std::exchange(next_, {});
     shown_is_past_ = false;
   }
+  was_loaded_ = was_loaded_ || shown_.method->loaded();
   return {};
 }
 

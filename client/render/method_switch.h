@@ -41,6 +41,9 @@ class MethodSwitch {
 
   /// Null before the first world.
   DrawMethod* shown() { return shown_.method.get(); }
+  /// Whether the view was whole at some time since the world began: what is prepared now only goes on from
+  /// there.
+  bool was_loaded() const { return was_loaded_; }
   /// The name of the method that is shown; empty before the first world.
   std::string_view shown_name() const { return name_of(shown_); }
   /// The method that loads beside the drawing one, or is not loaded yet; null when there is none.
@@ -77,7 +80,8 @@ class MethodSwitch {
   DrawOptionValues options_;
   Slot shown_;
   bool shown_is_past_ = false;  ///< of a world that is gone: it stands still
-  Slot next_;                   ///< not yet loaded
+  bool was_loaded_ = false;
+  Slot next_;  ///< not yet loaded
 };
 
 }  // namespace scree

@@ -1,15 +1,14 @@
 #include "client/render/renderer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
 #include <optional>
 
 #include "client/render/details/details.h"
 #include "client/render/gl/canvas.h"
 #include "client/render/gl/contact_drawer.h"
+#include "client/render/gl/depth_copy.h"
 #include "client/render/gl/gl.h"
 #include "client/render/gl/gl_errors.h"
 #include "client/render/gl/limb_drawer.h"
@@ -17,8 +16,9 @@
 #include "client/render/gl/material_images.h"
 #include "client/render/gl/material_table.h"
 #include "client/render/gl/particle_drawer.h"
-#include "client/render/gl/shader_sources.h"
 #include "client/render/gl/shadow_map.h"
+#include "client/render/gl/sky_drawer.h"
+#include "client/render/gl/water_drawer.h"
 #include "client/render/pieces/prop_views.h"
 #include "client/render/scene/limits.h"
 #include "shared/base/check.h"
@@ -47,12 +47,14 @@ glm::mat4 nowhere_in_shadow() {
 }  // namespace
 
 struct Renderer::Parts {
-  gl::Program sky;
+  SkyDrawer sky;
   LineDrawer lines;
   ParticleDrawer particle_drawer;
   std::vector<Particle> particles;
+  DepthCopy depths;
   ContactDrawer contact_drawer;
   std::vector<Contact> contacts;
+  WaterDrawer water;
   PropViews props;
   LimbDrawer limb_drawer;
   std::vector<Limb> limbs;
@@ -68,7 +70,7 @@ struct Renderer::Parts {
   MaterialTable materials{*palette, images};
   Fineness fineness;
   std::optional<ShadowMap> shadows{std::in_place, fineness.shadow_map_side};  ///< nothing: no shadows
-  gl::VertexArray nothing;  ///< core profiles draw with an array bound only
+  int shadow_age = 0;  ///< frames since the map was drawn; 0: it is to be drawn
   std::string description;
   gl::ErrorLog errors;
   bool asks_for_errors = true;
@@ -77,9 +79,9 @@ struct Renderer::Parts {
   Canvases canvases;   ///< of the last picture, at its own resolution
   Canvases stretched;  ///< of the last image that was stretched
 
-  Parts(gl::Program&& sky_program, LineDrawer&& line_drawer, ParticleDrawer&& of_particles,
+  Parts(SkyDrawer&& of_sky, LineDrawer&& line_drawer, ParticleDrawer&& of_particles,
         ContactDrawer&& of_contacts, LimbDrawer&& of_limbs, float radius_m)
-      : sky(std::move(sky_program)),
+      : sky(std::move(of_sky)),
         lines(std::move(line_drawer)),
         particle_drawer(std::move(of_particles)),
         contact_drawer(std::move(of_contacts)),
@@ -102,18 +104,7 @@ struct Renderer::Parts {
                             const LineList& lines);
   void draw_scene(DrawMethod* method, const Camera& camera, unsigned framebuffer, int width, int height,
                   const LineList& lines);
-  void draw_shadows(DrawMethod& method, const Camera& camera, DrawPass& pass);
-  void draw_sky(const DrawPass& pass) {
-    const GpuTimers::Part part(&timers, "sky");
-    sky.use();
-    sky.set("u_inverse_view_projection", glm::inverse(pass.view_projection));
-    sky.set("u_eye", pass.eye_m);
-    sky.set("u_sun", sun);
-    glDepthFunc(GL_LEQUAL);
-    glBindVertexArray(nothing.name());
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthFunc(GL_LESS);
-  }
+  void cast_shadows(DrawMethod& method, const Camera& camera, DrawPass& pass);
 };
 
 Renderer::Renderer(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {
@@ -126,10 +117,7 @@ Renderer::~Renderer() {
 
 Result<std::unique_ptr<Renderer>> Renderer::create(float view_radius_m) {
   if (const Result<void> version = gl::check_context(); !version) return fail(version.error().message);
-  Result<gl::Program> sky =
-      gl::Program::link("sky", std::array{shader_source("sky.vert")},
-                        std::array{shader_source("atmosphere.glsl"), shader_source("noise.glsl"),
-                                   shader_source("clouds.glsl"), shader_source("sky.frag")});
+  Result<SkyDrawer> sky = SkyDrawer::create();
   if (!sky) return fail(sky.error().message);
   Result<LineDrawer> lines = LineDrawer::create();
   if (!lines) return fail(lines.error().message);
@@ -189,12 +177,13 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
                    reach_m,
                    nowhere_in_shadow(),
                    shadows ? shadows->texture() : 0,
+                   shadows ? fineness.shadow_samples : 0,
                    props.count() > 0 || !limbs.empty() || !details.empty(),
                    materials.texture(),
                    images.texture(),
                    layers,
                    tints};
-  if (method != nullptr && shadows) draw_shadows(*method, camera, pass);
+  if (method != nullptr && shadows) cast_shadows(*method, camera, pass);
 
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   glViewport(0, 0, width, height);
@@ -215,12 +204,23 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
     const GpuTimers::Part part(&timers, "details");
     details.draw(pass);
   }
+  const bool with_contacts = fineness.contacts && !contacts.empty(), with_water = water.level_m().has_value();
   // Depths of a framebuffer that is not a canvas may be of a kind that cannot be copied.
-  if (fineness.contacts && canvases.ready() && framebuffer == canvases.drawn()) {
+  const bool has_depths =
+      (with_contacts || with_water) && canvases.ready() && framebuffer == canvases.drawn();
+  if (has_depths) depths.take(framebuffer, width, height);
+  if (has_depths && with_contacts) {
     const GpuTimers::Part part(&timers, "contacts");
-    contact_drawer.draw(contacts, pass, framebuffer, width, height);
+    contact_drawer.draw(contacts, pass, depths);
   }
-  draw_sky(pass);
+  {
+    const GpuTimers::Part part(&timers, "sky");
+    sky.draw(pass);
+  }
+  if (has_depths && with_water) {
+    const GpuTimers::Part part(&timers, "water");
+    water.draw(depths, pass);
+  }
   {
     const GpuTimers::Part part(&timers, "particles");
     particle_drawer.draw(particles, pass);
@@ -228,20 +228,24 @@ void Renderer::Parts::draw_scene(DrawMethod* method, const Camera& camera, unsig
   lines.draw(line_list, pass.view_projection);
 }
 
-void Renderer::Parts::draw_shadows(DrawMethod& method, const Camera& camera, DrawPass& pass) {
-  const GpuTimers::Part part(&timers, "shadows");
-  pass.kind = DrawPass::Kind::shadow;
-  pass.view_projection = shadows->begin(camera, sun, view_radius_m);
-  method.draw(pass);
-  props.draw(pass, *palette);
-  limb_drawer.draw(limbs, pass);
-  if (draws_details) details.draw(pass);
-  shadows->end();
+void Renderer::Parts::cast_shadows(DrawMethod& method, const Camera& camera, DrawPass& pass) {
+  if (shadow_age == 0) {
+    const GpuTimers::Part part(&timers, "shadows");
+    pass.kind = DrawPass::Kind::shadow;
+    pass.view_projection = shadows->begin(camera, sun, view_radius_m);
+    method.draw(pass);
+    props.draw(pass, *palette);
+    limb_drawer.draw(limbs, pass);
+    if (draws_details) details.draw(pass);
+    shadows->end();
+  }
   pass.lighting.shadow_matrix = shadows->matrix();
+  shadow_age = (shadow_age + 1) % fineness.shadow_frames;
 }
 
 Result<Image> Renderer::draw_image(DrawMethod& method, const Camera& camera, int width, int height,
                                    const LineList& lines) {
+  parts_->shadow_age = 0;
   parts_->timers.begin_frame(parts_->trace);
   if (Result<void> drawn = parts_->draw_picture(&method, camera, width, height, lines); !drawn)
     return fail(drawn.error().message);
@@ -327,6 +331,11 @@ void Renderer::set_contacts(std::vector<Contact> contacts) {
   parts_->contacts = std::move(contacts);
 }
 
+Result<void> Renderer::set_water(WaterLevel level_m) {
+  parts_->details.set_floor(level_m.value_or(-limits::world_half_height_m));
+  return parts_->water.set_level(level_m);
+}
+
 const std::vector<GpuTime>& Renderer::gpu_times() const {
   return parts_->timers.latest();
 }
@@ -334,10 +343,11 @@ const std::vector<GpuTime>& Renderer::gpu_times() const {
 void Renderer::set_fineness(const Fineness& fineness) {
   CHECK(fineness.render_scale >= limits::render_scale_min &&
         fineness.render_scale <= limits::render_scale_max);
-  CHECK(fineness.shadow_map_side >= 0 && fineness.samples >= 0);
+  CHECK(fineness.shadow_map_side >= 0 && fineness.samples >= 0 && fineness.shadow_frames > 0);
   if (fineness == parts_->fineness) return;
   parts_->fineness = fineness;
   parts_->shadows.reset();
+  parts_->shadow_age = 0;
   if (fineness.shadow_map_side > 0) parts_->shadows.emplace(fineness.shadow_map_side);
 }
 

@@ -17,6 +17,7 @@
 #include "client/render/scene/material_texels.h"
 #include "client/render/scene/particle.h"
 #include "client/render/scene/quality.h"
+#include "shared/base/water.h"
 #include "shared/material/palette.h"
 #include "shared/prop/model_mesh.h"
 
@@ -68,6 +69,10 @@ class Renderer {
 
   /// Where pieces and props darken what they lie on from now on, where fineness has that.
   void set_contacts(std::vector<Contact> contacts);
+
+  /// The water's surface from now on, in pictures alone; nothing: none. The first one fails where its shader
+  /// does.
+  Result<void> set_water(WaterLevel level_m);
 
   /// Draws into an image of its own. Fails if the driver cannot make one so large.
   Result<Image> draw_image(DrawMethod& method, const Camera& camera, int width, int height,

@@ -2,8 +2,17 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace scree::limits {
+
+/// Seconds until the next attempt to reach a server that is gone. After so many first ones that led to
+/// nothing, as long as a server takes to start anew, twice as many each time; at most the third number. A
+/// connection that lasted for the fourth one was worth something.
+inline constexpr double reconnect_min_s = 1.0;
+inline constexpr uint32_t reconnect_first = 15;
+inline constexpr double reconnect_max_s = 60.0;
+inline constexpr double reconnect_worth_s = 10.0;
 
 /// Seconds between two acknowledgements of frames: the server only counts them. None is sent while no newer
 /// frame has come.

@@ -76,7 +76,9 @@ CellFaces faces_at(uint planes, vec3 local) {
   ivec3 slot = planes_slot(planes, local);
   vec3 f = local - clamp(floor(local), vec3(0.0), vec3(7.0));
   CellFaces faces = CellFaces(false, -100.0, 100.0, vec3(0.0), vec3(0.0), vec4(0.0));
-  for (int i = 0; i < 8; ++i) {
+  // As in sharp_value(): so most pixels have no loop.
+  int corners = planes == 0u ? 0 : 8;
+  for (int i = 0; i < corners; ++i) {
     ivec3 corner = ivec3(i >> 2, (i >> 1) & 1, i & 1);
     vec4 plane = texelFetch(u_planes, slot + corner.zyx, 0);
     float square = dot(plane.xyz, plane.xyz);
@@ -101,8 +103,12 @@ CellFaces faces_at(uint planes, vec3 local) {
 // Farther from the surface than this no edge lies, but that of a wedge below 45 degrees.
 const float sharp_reach = 1.3;
 
-// Whether planes may say another distance there than the trilinear one.
-bool nears_edge(uvec4 entry, float smooth_value) { return entry.w != 0u && smooth_value < sharp_reach; }
+// Whether planes may say another distance there than the trilinear one. An entry says in which eighths of the brick edges
+// lie.
+bool nears_edge(uvec4 entry, vec3 local, float smooth_value) {
+  ivec3 far = ivec3(greaterThanEqual(local, vec3(4.0)));
+  return (entry.w >> uint(24 + far.x * 4 + far.y * 2 + far.z) & 1u) != 0u && smooth_value < sharp_reach;
+}
 
 // Where faces meet, the trilinear value is rounded: planes go on up to the edge, the largest where rock is convex, the
 // smallest where it is hollow.
@@ -110,17 +116,18 @@ float sharp_value(uvec4 entry, vec3 local, float smooth_value) {
   ivec3 slot = planes_slot(entry.w, local);
   vec3 f = local - clamp(floor(local), vec3(0.0), vec3(7.0));
   float most = -100.0, least = 100.0;
-  bool edge = false;
-  for (int i = 0; i < 8; ++i) {
+  // A number that compilers do not know: they would unroll the loop, which a processor that draws then cannot leave.
+  int corners = 1;
+  for (int i = 0; i < corners; ++i) {
     ivec3 corner = ivec3(i >> 2, (i >> 1) & 1, i & 1);
     vec4 plane = texelFetch(u_planes, slot + corner.zyx, 0);
     float square = dot(plane.xyz, plane.xyz);
-    if (i == 0) edge = is_edge(square);
+    if (i == 0 && is_edge(square)) corners = 8;
     float away = plane.w * band + (is_edge(square) ? edge_scale : 1.0) * dot(plane.xyz, f - vec3(corner));
     most = max(most, is_known(square) ? away : -100.0);
     least = min(least, is_known(square) ? away : 100.0);
   }
-  return edge ? clamp(smooth_value, least, most) : smooth_value;
+  return corners > 1 ? clamp(smooth_value, least, most) : smooth_value;
 }
 
 #endif

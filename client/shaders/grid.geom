@@ -19,6 +19,8 @@ out vec3 v_rock_normal;
 out float v_openness;
 out vec2 v_worn;
 flat out int v_look;
+flat out vec4 v_rotation;
+flat out float v_tint;
 
 const float nowhere = 1e9;
 const uint no_corner = 255u;
@@ -59,6 +61,8 @@ float distance_at(vec3 corner, Home home) {
 void emit(vec3 from_eye, vec3 normal, Home home) {
   v_worn = vec2(0.0);
   v_look = 0;
+  v_rotation = vec4(0.0, 0.0, 0.0, 1.0);
+  v_tint = 0.0;
   if (home.entry.x >> 24u == kind_stored) {
     vec3 local = in_level(from_eye, home.level) - home.first;
     vec3 slope = brick_gradient(home.entry.x, local);

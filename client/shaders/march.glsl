@@ -13,19 +13,22 @@ vec3 inverse_of(vec3 direction) {
   return 1.0 / mix(direction, vec3(1e-7), lessThan(abs(direction), vec3(1e-7)));
 }
 
-// Whether planes of faces may say another distance there than the trilinear one.
-bool nears_edge(Look there) {
+// Pixels that cover more of a voxel do not show whether an edge is rounded.
+const float edge_pixel = 0.25;
+
+// Whether planes of faces may say another distance there than the trilinear one, and a pixel of so many voxels shows it.
+bool nears_edge(Look there, float pixel) {
 #ifdef EDGES
-  return there.kind == kind_stored && nears_edge(there.entry, there.distance);
+  return there.kind == kind_stored && pixel < edge_pixel && nears_edge(there.entry, there.local, there.distance);
 #else
   return false;
 #endif
 }
 
 // From `from` (metres from the eye) along a unit direction, until the surface is within half a footprint of a
-// pixel, which grows by `pixel` metres a metre. Planes are asked in a loop of their own, for a processor that draws carries
-// out both sides of a branch.
-Hit march(vec3 from, vec3 direction, float along, float pixel) {
+// pixel, which grows by `pixel` metres a metre, or to the `end`. Planes are asked in a loop of their own, for a processor
+// that draws carries out both sides of a branch.
+Hit march(vec3 from, vec3 direction, float along, float end, float pixel) {
   Hit hit;
   hit.found = false;
   hit.level = 0;
@@ -34,7 +37,7 @@ Hit march(vec3 from, vec3 direction, float along, float pixel) {
   bool goes_on = true;
   while (goes_on) {
     bool edge = false;
-    for (; steps < 256; ++steps) {
+    for (; steps < 256 && along < end; ++steps) {
       vec3 p = from + direction * along;
       hit.level = level_of(p, hit.level);
       if (hit.level >= u_levels) break;
@@ -46,7 +49,7 @@ Hit march(vec3 from, vec3 direction, float along, float pixel) {
       }
       float per_m = u_voxels_per_m[hit.level];
       if (kind == kind_stored) {
-        edge = nears_edge(hit.there);
+        edge = nears_edge(hit.there, pixel * along * per_m);
         float close = max(0.02, 0.25 * pixel * along * per_m);
         hit.found = !edge && hit.there.distance < close;
         if (edge || hit.found) break;
@@ -59,7 +62,7 @@ Hit march(vec3 from, vec3 direction, float along, float pixel) {
     }
     goes_on = edge;
 #ifdef EDGES
-    for (; edge && steps < 256; ++steps) {
+    for (; edge && steps < 256 && along < end; ++steps) {
       float per_m = u_voxels_per_m[hit.level];
       float close = max(0.02, 0.25 * pixel * along * per_m);
       float distance = sharp_value(hit.there.entry, hit.there.local, hit.there.distance);
@@ -69,17 +72,17 @@ Hit march(vec3 from, vec3 direction, float along, float pixel) {
       vec3 p = from + direction * along;
       if (level_of(p, hit.level) != hit.level) break;
       hit.there = look(p, hit.level);
-      edge = nears_edge(hit.there);
+      edge = nears_edge(hit.there, pixel * along * per_m);
     }
-    goes_on = goes_on && !hit.found && steps < 256;
+    goes_on = goes_on && !hit.found && steps < 256 && along < end;
 #endif
   }
   hit.along = along;
   return hit;
 }
 
-// How far a cone is free that widens by `slope` metres a metre; −1 if all the way.
-float free_way(vec3 direction, float slope) {
+// How far a cone is free that widens by `slope` metres a metre, about rays of `pixel` metres a metre; −1 if all the way.
+float free_way(vec3 direction, float slope, float pixel) {
   float along = 0.0;
   int level = 0;
   for (int i = 0; i < 96; ++i) {
@@ -88,7 +91,7 @@ float free_way(vec3 direction, float slope) {
     if (level >= u_levels) return -1.0;
     Look found = look(p, level);
     if (found.kind == kind_unloaded || found.kind == kind_solid) break;
-    if (nears_edge(found)) break;
+    if (nears_edge(found, pixel * along * u_voxels_per_m[level])) break;
     float room = found.distance * lipschitz;
     if (found.kind != kind_stored) {
       vec3 nearest = min(-found.lo, found.hi);

@@ -1,34 +1,22 @@
-uniform float u_lift;  // metres: drawn in front of terrain that is so little nearer
-out vec4 o_colour;
+// What is seen of pieces, for raymarch_shade.frag: small triangles cost little so. Needs shape.glsl.
+in vec3 v_world;
+in float v_openness;
+in vec2 v_worn;
+flat in int v_look;
+flat in float v_piece;
+uniform vec3 u_eye;
+out uvec4 o_hit;  // as of raymarch.frag; 2^31 | which piece; its look, openness and wear; its normal
+
+uint bits(float value, float most) { return uint(clamp(value, 0.0, 1.0) * most + 0.5); }
 
 void main() {
-  PieceHit hit = march_piece();
-  if (!hit.found) discard;
-  vec3 from_eye = hit.world - u_eye;
-  // A stone that merged lies in the surface of the terrain that it became.
-  gl_FragDepth = depth_of(u_eye + from_eye * max(1.0 - u_lift / max(length(from_eye), 1e-3), 0.5));
-  float away = length(from_eye);
-  float voxel_m = 1.0 / u_voxels_per_m[0];
-  vec3 local_normal = rotated(unturned(), -from_eye / max(away, 1e-3));
-  float before = 0.0;
-  int material = 0;
-  if (hit.entry.x != 0u) {
-    local_normal = brick_normal(hit.entry, hit.in_brick, local_normal);
-    before = generated_in(hit.entry, hit.in_brick, 0.0);
-    material = look_at(hit.entry, hit.in_brick, local_normal, before);
-  }
-  vec3 normal = rotated(v_rotation, local_normal);
-  // On the ground it takes on the looks of what it is about to become.
-  float above = piece_at(hit.local + local_normal * probe_height);
-  vec2 there = worn_at(from_eye, normal, 0, generated_at(from_eye, 0), above);
-  vec2 worn = mix(vec2(max(-before, 0.0), max(before, 0.0)), there, v_dust);
-  int level = level_of(from_eye, 0);
-  float in_cleft = cleft_openness_at(from_eye, normal, level, above);
-  Rock rock = rock_at((v_origin + hit.local) * voxel_m, local_normal, worn, material, in_cleft, away);
-  rock.albedo *= 1.0 + piece_shade(material) * (v_tint - 0.4) * (1.0 - v_dust);
-  vec3 bent = normalize(rotated(v_rotation, rock.normal));
-  float sunlight = max(dot(bent, u_sun), 0.0);
-  if (level < u_levels && sunlight > 0.0) sunlight *= sun_at(from_eye + normal * (0.5 * voxel_m), u_sun, level);
-  if (sunlight > 0.0) sunlight *= lit(hit.world, normal);
-  o_colour = vec4(tone(in_fog(lit_rock(rock, bent, openness_at(from_eye, normal, level, in_cleft) * rock.open, sunlight, -from_eye / max(away, 1e-3)), hit.world, away)), 1.0);
+  // On the faces of an octahedron, which lie in a square (Cigolle et al. 2014).
+  vec3 normal = shape_normal();
+  normal /= abs(normal.x) + abs(normal.y) + abs(normal.z);
+  vec2 flat_normal = normal.xy;
+  if (normal.z < 0.0) flat_normal = (1.0 - abs(normal.yx)) * vec2(normal.x < 0.0 ? -1.0 : 1.0, normal.y < 0.0 ? -1.0 : 1.0);
+  flat_normal = flat_normal * 0.5 + 0.5;
+  o_hit = uvec4(floatBitsToUint(length(v_world - u_eye)), 0x80000000u | uint(v_piece),
+                uint(v_look) | bits(v_openness, 255.0) << 8u | bits(v_worn.x + v_worn.y, 65535.0) << 16u,
+                bits(flat_normal.x, 65535.0) | bits(flat_normal.y, 65535.0) << 16u);
 }

@@ -5,16 +5,14 @@ layout(location = 1) in vec3 a_normal;
 layout(location = 2) in float a_openness;
 layout(location = 3) in float a_worn;  // packed_worn() of client/render/levels/surface_looks.h
 layout(location = 4) in float a_look;  // 0: as the ground; else 1 + a row of the palette
+layout(location = 5) in float a_piece;  // which one, if it is a piece's
 
 uniform mat4 u_view_projection;
 uniform float u_step;         // voxels a step of a_position
-uniform vec3 u_origin;        // voxels: of the mesh, in the frame of the rock that it is or was
+uniform vec3 u_origin;        // of terrain, voxels
 uniform float u_voxel_m;
-uniform vec3 u_centre_m;      // in that frame: what lies at u_place_m
-uniform vec3 u_place_m;
-uniform vec4 u_rotation;      // quaternion x, y, z, w
 uniform vec3 u_eye;
-uniform float u_loose;        // 1 for a piece, 0 for terrain
+uniform float u_loose;        // 1 for pieces, 0 for terrain
 uniform float u_lift;         // metres: pieces are drawn in front of terrain that is so little nearer
 
 out vec3 v_world;
@@ -23,13 +21,30 @@ out vec3 v_rock_normal;
 out float v_openness;
 out vec2 v_worn;     // rock.glsl
 flat out int v_look;  // of all three vertices
+flat out vec4 v_rotation;  // quaternion x, y, z, w
+flat out float v_tint;     // 0..1, of a piece
+flat out float v_piece;    // which one
 
 const float worn_step = 58.0 / 127.0 / 15.0;
 
 void main() {
+  vec3 origin = u_origin, centre_m = vec3(0.0);
+  vec4 place = vec4(0.0);
+  v_rotation = vec4(0.0, 0.0, 0.0, 1.0);
+#ifdef PIECES
+  if (u_loose > 0.0) {
+    int piece = int(a_piece);
+    place = of_piece(piece, 0);
+    v_rotation = of_piece(piece, 1);
+    origin = of_piece(piece, 2).xyz;
+    centre_m = of_piece(piece, 3).xyz;
+  }
+#endif
   // Voxels are exact; metres are rounded once. So blocks meet to the bit, whatever the size of a voxel.
-  v_rock = (u_origin + a_position * u_step) * u_voxel_m;
-  v_world = u_place_m + rotated(u_rotation, v_rock - u_centre_m);
+  v_rock = (origin + a_position * u_step) * u_voxel_m;
+  v_world = place.xyz + rotated(v_rotation, v_rock - centre_m);
+  v_tint = place.w;
+  v_piece = a_piece;
   v_rock_normal = a_normal;
   v_openness = a_openness;
   float come = floor(a_worn / 16.0);

@@ -39,7 +39,7 @@ Result<ModelMesh> read_page_model(std::span<const uint8_t> bytes) {
 
 SessionChoice session_choice() {
   SessionChoice choice;
-  choice.interest_radius_m = traits_of(AutoQuality::first).view_radius_m;
+  choice.interest_radius_m = Visit::interest_radius_m({}, AutoQuality::first);
   choice.program = "scree-web";
   choice.cache.bytes_max = limits::page_cache_bytes;
   choice.cache.models = true;

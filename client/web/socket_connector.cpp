@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "client/connection/limits.h"
-#include "client/web/limits.h"
 #include "proto/codec.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
@@ -169,14 +168,14 @@ void SocketConnector::begin(Rejoin& rejoin, const HelloMessage& hello, double no
   first.insert(first.end(), opening.then.begin(), opening.then.end());
   socket_.open(first);
   busy_ = true;
-  until_s_ = now_s + limits::page_join_s;
+  until_s_ = now_s + patience_s_;
 }
 
 std::optional<Connector::Attempt> SocketConnector::poll(double now_s) {
   if (!busy_) return std::nullopt;
   const std::optional<Received> first = socket_.next();  // only a welcome can be
   if (!first && !socket_.is_closed() && now_s > until_s_)
-    socket_.close({{"no answer within " + std::to_string(std::lround(limits::page_join_s)) + " s"}, {}});
+    socket_.close({{"no answer within " + std::to_string(std::lround(patience_s_)) + " s"}, {}});
   if (!first && !socket_.is_closed()) return std::nullopt;
   busy_ = false;
   Attempt attempt;

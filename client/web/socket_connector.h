@@ -15,6 +15,7 @@
 
 #include "client/cache/connector.h"
 #include "client/connection/intake.h"
+#include "client/web/limits.h"
 
 namespace scree {
 
@@ -76,6 +77,8 @@ class SocketConnector final : public Connector {
   SocketConnector(PageSocket& socket, std::string where) : socket_(socket), where_(std::move(where)) {}
 
   void set_token(const std::string& token) { token_ = token; }
+  /// Seconds that an attempt may take, in place of limits::page_join_s.
+  void set_patience(double seconds) { patience_s_ = seconds; }
 
   void begin(Rejoin& rejoin, const HelloMessage& hello, double now_s) override;
   bool busy() const override { return busy_; }
@@ -88,6 +91,7 @@ class SocketConnector final : public Connector {
   std::string where_;
   std::string token_;
   bool busy_ = false;
+  double patience_s_ = limits::page_join_s;
   double until_s_ = 0.0;
 };
 

@@ -46,7 +46,7 @@ local function show_state()
     show.remove("2 left")
   else
     show.line("1 round", "round " .. game.number)
-    show.bar("2 left", #tiles .. " tiles, " .. #still_in() .. " persons", #tiles / (across * across))
+    show.bar("2 left", #tiles .. " tiles, still in: " .. #still_in(), #tiles / (across * across))
   end
 end
 

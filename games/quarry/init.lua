@@ -49,6 +49,7 @@ local function empty_depot()
 end
 
 local function next_order()
+  empty_depot() -- of what came too late
   local number = (order and order.number or 0) + 1
   local material = materials[math.random(#materials)]
   local volume = math.random(3, 8) + number
@@ -80,9 +81,10 @@ local function pay()
   end
 end
 
+-- Or near it: what is placed on the floor has its middle there.
 local function in_depot(at)
-  local off = at - depot.at
-  return math.abs(off.x) <= depot.half.x and math.abs(off.y) <= depot.half.y and math.abs(off.z) <= depot.half.z
+  local off, near = at - depot.at, 1
+  return math.abs(off.x) <= depot.half.x and math.abs(off.z) <= depot.half.z and math.abs(off.y) <= depot.half.y + near
 end
 
 -- Edits are for digging in deposits and placing in the depot; what is placed is remembered until it is there.
@@ -112,7 +114,7 @@ on.start(function()
   if not order then
     for material, at in pairs(deposits) do world.paint{ at = at, radius = 6, material = material } end
     world.fill{ shape = "box", at = vec(0, -0.5, 0), half = vec(5, 0.5, 5), material = "concrete" }
-    regions.set{ name = "depot floor", at = vec(0, -2, 0), half = vec(5, 2, 5), forbid = { "edits", "dents" } }
+    regions.set{ name = "depot floor", at = vec(0, -2, 0), half = vec(5, 2, 5), forbid = { "dents" } }
     show.marker("depot", "the depot", depot.at + vec(0, 3, 0))
     order = { number = 0, ends = world.time() + pause_s }
     save()

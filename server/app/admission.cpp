@@ -34,6 +34,11 @@ std::optional<VoxelBox> box_of(const Request& request, float voxel_size_m) {
     const VoxelCoord voxel{floor_to_int(at.x), floor_to_int(at.y), floor_to_int(at.z)};
     return VoxelBox{voxel, voxel + VoxelCoord{1, 1, 1}};
   }
+  if (const auto* const restore = std::get_if<RestoreRequest>(&request)) {
+    if (restore->bricks == nullptr) return std::nullopt;
+    const VoxelCoord lo = first_voxel(chunk_of(restore->bricks->front().then.coord));
+    return VoxelBox{lo, lo + VoxelCoord{chunk_size, chunk_size, chunk_size}};
+  }
   std::optional<Shape> shape = shape_of(request);
   if (const auto* const blast = std::get_if<BlastRequest>(&request))
     shape = sphere(blast->centre_m, blast_reach_m(blast->energy_j, voxel_size_m));

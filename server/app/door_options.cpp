@@ -69,6 +69,10 @@ void DoorOptions::declare_limits(CLI::App& app, NetConfig& net) {
       "--proxy", proxies_,
       "ADDRESS or ADDRESS/BITS of proxies that are trusted to name their clients, by PROXY headers "
       "or X-Forwarded-For; repeatable");
+  app.add_option(
+      "--metrics-network", metrics_networks_,
+      "ADDRESS or ADDRESS/BITS of programs that may read /metrics without a token, beside those of "
+      "this machine; repeatable");
   bounded(app.add_option("--connections-per-address", net.door.connections_max,
                          "connections that one address may hold; this machine's own have no limit"),
           whole_within(1, limits::door_connections_most))
@@ -92,9 +96,9 @@ void DoorOptions::declare_bytes_out(CLI::App& app) {
       ->capture_default_str();
 }
 
-void DoorOptions::complete(NetConfig& net) {
+void DoorOptions::complete(NetConfig& net, bool may_make_token) {
   check_bans(net.access.bans_path);
-  complete_token(net);
+  complete_token(net, may_make_token);
   // Who has a key for tokens wants them.
   if (anonymous_.empty() && !net.access.token_key_path.empty()) anonymous_ = nobody;
   if (!anonymous_.empty()) net.access.anonymous = kind_named<Role>(anonymous_);  // none: no role
@@ -112,9 +116,11 @@ void DoorOptions::check_bans(const std::string& path) {
 }
 
 /// The token is looked at where mistakes in options are.
-void DoorOptions::complete_token(NetConfig& net) {
+void DoorOptions::complete_token(NetConfig& net, bool may_make_token) {
   std::error_code ignored;
-  if (makes_token_ && !std::filesystem::exists(token_path_, ignored)) {
+  const bool makes_now = makes_token_ && !std::filesystem::exists(token_path_, ignored);
+  if (makes_now && !may_make_token) return;
+  if (makes_now) {
     if (const auto made = write_new_secret(token_path_); !made)
       throw CLI::ValidationError("--make-admin-token", made.error().message);
     token_made_ = token_path_;
@@ -141,6 +147,9 @@ void DoorOptions::complete_limits(NetConfig& net) const {
   auto proxies = Proxies::parse(proxies_);
   if (!proxies) throw CLI::ValidationError("--proxy", proxies.error().message);
   net.proxies = std::move(*proxies);
+  auto readers = read_networks(metrics_networks_);
+  if (!readers) throw CLI::ValidationError("--metrics-network", readers.error().message);
+  net.metrics_readers = std::move(*readers);
   net.bytes_out = {bytes_out_per_address_mb_ * bytes_per_mb, bytes_out_mb_ * bytes_per_mb};
   // Who may hold many may open them at once.
   net.door.connects_burst = std::max(net.door.connects_burst, static_cast<double>(net.door.connections_max));

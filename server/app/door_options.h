@@ -18,8 +18,8 @@ class DoorOptions {
  public:
   /// Outlives the parsing, as `net` does.
   void declare(CLI::App& app, NetConfig& net);
-  /// After the parsing: reads the admin token's file, or makes it. Throws CLI::ValidationError.
-  void complete(NetConfig& net);
+  /// After the parsing: reads the admin token's file, or makes it, where it may. Throws CLI::ValidationError.
+  void complete(NetConfig& net, bool may_make_token = true);
 
   const std::string& token_path() const { return token_path_; }
   bool makes_token() const { return makes_token_; }
@@ -33,7 +33,7 @@ class DoorOptions {
   void declare_limits(CLI::App& app, NetConfig& net);
   void declare_bytes_out(CLI::App& app);
   static void check_bans(const std::string& path);
-  void complete_token(NetConfig& net);
+  void complete_token(NetConfig& net, bool may_make_token);
   void complete_limits(NetConfig& net) const;
 
   std::string token_path_;
@@ -41,6 +41,7 @@ class DoorOptions {
   std::string token_made_;
   std::string anonymous_;  ///< empty: by what else is given
   std::vector<std::string> proxies_;
+  std::vector<std::string> metrics_networks_;
   double bytes_out_mb_ = limits::bytes_out_all / bytes_per_mb;
   double bytes_out_per_address_mb_ = limits::bytes_out_per_address / bytes_per_mb;
 };

@@ -91,9 +91,29 @@ inline constexpr uint32_t governor_raise_percent = 5;
 inline constexpr double still_seconds_max = 5.0;
 inline constexpr double still_line_seconds = 60.0;
 
+/// Seconds between two pulses of a server that lives (LiveConfig::pulse). A service manager's watchdog waits
+/// for many of them.
+inline constexpr double pulse_seconds = 1.0;
+
 /// Seconds for which saves that are due may wait for the one that is being written. Above: the server is not
 /// healthy; a disk that hangs gives no error.
 inline constexpr double save_delay_seconds_max = 10.0;
+
+/// Bounds of --backup-every, seconds, and of --backup-keep. More often than that a backup would follow the
+/// other without a pause.
+inline constexpr double backup_every_min_s = 1.0, backup_every_max_s = 366.0 * 86400.0;
+inline constexpr uint32_t backup_keep_max = 10'000;
+
+/// After each part of a backup the others have the disk for so many times as long as the part took, within
+/// these seconds: a large world takes 5 MB/s at least.
+inline constexpr double backup_pause_parts = 4.0;
+inline constexpr double backup_pause_min_s = 0.002, backup_pause_max_s = 0.2;
+
+/// Seconds until a backup that failed is tried again, or less where they come more often.
+inline constexpr double backup_retry_s = 60.0;
+
+/// Niceness of the thread that makes backups: ticks come first.
+inline constexpr int backup_niceness = 10;
 
 /// Milliseconds between two looks at what the process has in RAM.
 inline constexpr int resident_sample_ms = 500;

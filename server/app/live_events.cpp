@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <utility>
 
+#include "server/log/log.h"
 #include "server/store/event_lines.h"
 #include "server/store/limits.h"
 #include "server/world/stages.h"
@@ -93,9 +93,11 @@ void LiveEvents::warn() {
   const auto more = log_limit_.admit(failing_ ? "failing" : "written again", steady_now_s());
   if (!more) return;
   if (failing_)
-    spdlog::warn("{}: events wait, and are tried again (--events){}", *status.health.because, *more);
+    log_of(LogPart::store)
+        .warn("{}: events wait, and are tried again (--events){}", *status.health.because, *more);
   else
-    spdlog::info("{} is written again; {} events are lost (--events){}", path_, status.health.lost, *more);
+    log_of(LogPart::store)
+        .info("{} is written again; {} events are lost (--events){}", path_, status.health.lost, *more);
 }
 
 }  // namespace scree

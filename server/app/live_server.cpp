@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <pthread.h>
-#include <spdlog/spdlog.h>
 
 #include "server/app/limits.h"
 #include "server/app/live_server_state.h"
-#include "server/app/server_status.h"
+#include "server/log/log.h"
 #include "server/store/limits.h"
 #include "shared/base/timing.h"
 
@@ -38,6 +37,7 @@ void LiveServer::State::tell() {
         static_cast<uint32_t>(paged.chunks_read - std::exchange(read_before, paged.chunks_read));
   now.paging = {paged.chunks_in, paged.chunks_out, read_last_second, paged.waits, admission.held()};
   const std::scoped_lock lock(mutex);
+  watch.storage(status, paged);
   save_delay.note(status, steady_now_s());
   told = std::move(now);
 }
@@ -46,7 +46,7 @@ void LiveServer::State::end(const std::string& error) {
   const std::scoped_lock lock(mutex);
   running = false;
   if (error.empty()) return;
-  spdlog::error("{}", error);
+  log_of(LogPart::world).error("{}", error);
   if (!report.error) report.error = error;
 }
 
@@ -77,7 +77,7 @@ void LiveServer::State::record(std::shared_ptr<const TickDelta> delta, std::vect
   if (world.tick() % config.world.tick_rate_hz != 0 || ring_told) return;
   const RecordingSize size = recorder->size();
   ring_told = !size.over_limit.empty();
-  if (ring_told) spdlog::warn("{}: {}", recorder->path(), size.over_limit);
+  if (ring_told) log_of(LogPart::store).warn("{}: {}", recorder->path(), size.over_limit);
 }
 
 /// Each failure once, and its end.
@@ -88,48 +88,50 @@ void LiveServer::State::tell_recording() {
   const auto more = log_limit.admit(health.ok() ? "recorded again" : "not recorded", steady_now_s());
   if (!more) return;
   if (health.ok())
-    spdlog::info("the recording is written again, to {}; {} ticks are in no part of it{}", recorder->path(),
-                 health.lost, *more);
+    log_of(LogPart::store)
+        .info("the recording is written again, to {}; {} ticks are in no part of it{}", recorder->path(),
+              health.lost, *more);
   else
-    spdlog::warn("the recording is not written, and is tried again: {}{}", *health.because, *more);
+    log_of(LogPart::store)
+        .warn("the recording is not written, and is tried again: {}{}", *health.because, *more);
 }
 
-namespace {
-
-bool sets_work_percent(const Command& command) {
-  const auto* change = std::get_if<SettingsRequest>(&command.body);
-  const auto is_it = [](const SettingValue& setting) { return setting.name == "work-percent"; };
-  return change != nullptr && std::ranges::any_of(change->settings, is_it);
+/// The commands of the next tick. Nothing: the host's rule cannot go on.
+std::optional<Admitted> LiveServer::State::next_commands() {
+  Stopwatch stopwatch;
+  Admitted admitted{commands.drain(), {}};
+  World* const world = feed->world();
+  if (world == nullptr) return admitted;
+  world->want_physics(net->wants_physics());
+  ahead->serve(world->field(), net->eyes_m());
+  pager->begin_tick();
+  // Steps by hand do not wait for a thread.
+  TerrainAhead* const generator = config.pacing == Pacing::real_time ? ahead.get() : nullptr;
+  if (history)
+    for (Command& command : history->due()) admitted.commands.push_back(std::move(command));
+  admitted = admission.admit(std::move(admitted.commands),
+                             {*world, *pager, generator, saved_world->status().health.ok()});
+  if (history) history->refused(admitted.refused);
+  parts[TickPart::terrain] = stopwatch.lap_ms();
+  if (config.hooks.before && !ask_host(*world, admitted)) return std::nullopt;
+  parts[TickPart::rules] = stopwatch.lap_ms();
+  refuse_missing_models(admitted);
+  return admitted;
 }
-
-}  // namespace
 
 /// Runs one tick. False when it was the last.
 bool LiveServer::State::step() {
   const Clock::time_point begin = Clock::now();
   const double cpu_before_s = thread_cpu_s();
   Stopwatch stopwatch;
-  Admitted admitted{commands.drain(), {}};
-  if (World* world = feed->world()) {
-    world->want_physics(net->wants_physics());
-    ahead->serve(world->field(), net->eyes_m());
-    pager->begin_tick();
-    // Steps by hand do not wait for a thread.
-    TerrainAhead* const generator = config.pacing == Pacing::real_time ? ahead.get() : nullptr;
-    admitted = admission.admit(std::move(admitted.commands),
-                               {*world, *pager, generator, saved_world->status().health.ok()});
-    if (config.hooks.before && !ask_host(*world, admitted)) return false;
-    refuse_missing_models(admitted);
-  }
-  if (!limits_to_set.empty())  // a recording has them as any change of settings
-    admitted.commands.insert(admitted.commands.begin(),
-                             {0, 0, SettingsRequest{std::exchange(limits_to_set, {})}});
-  const bool is_chosen = std::ranges::any_of(admitted.commands, sets_work_percent);
-  if (work_percent_next && !is_chosen)
-    admitted.commands.push_back(
-        {0, 0, SettingsRequest{{{"work-percent", std::to_string(*work_percent_next)}}}});
-  work_percent_next.reset();
+  parts = {};
+  watch.begin(std::exchange(due, std::nullopt));
+  auto given = next_commands();
+  if (!given) return false;
+  Admitted& admitted = *given;
+  const bool is_chosen = add_settings(admitted.commands);
   const double terrain_in_ms = stopwatch.lap_ms();
+  watch.part(&FlightTick::terrain_in_ms);
   TickSpan ran{steady_now_s(), 0.0};
   const auto next = feed->next(admitted.commands);
   ran.done_s = steady_now_s();
@@ -140,29 +142,42 @@ bool LiveServer::State::step() {
   }
   std::shared_ptr<const TickDelta> delta = *next;
   if (!delta) {
-    spdlog::info("the recording ends here");
+    log_of(LogPart::replay).info("the recording ends here");
     end("");
     return false;
   }
+  parts[TickPart::simulation] = stopwatch.lap_ms();
+  watch.part(&FlightTick::world_ms);
+  tell_settings(*delta);
   if (governor && is_chosen) governor->chosen(feed->world()->config().work_percent);
   if (trace) trace_tick(*trace, begin, *delta);
   std::vector<Event> noted = events ? events->drain(*delta) : std::vector<Event>();
   if (recorder) record(delta, std::move(admitted.commands), std::move(noted));
-  stopwatch.lap_ms();
+  const double record_ms = stopwatch.lap_ms();
+  watch.part(&FlightTick::record_ms);
+  if (history) history->note(delta);
   if (saved_world) delta = save_and_filter(std::move(delta), std::move(admitted.refused));
   const double keep_ms = stopwatch.lap_ms();
+  parts[TickPart::keep] = record_ms + keep_ms;
+  watch.part(&FlightTick::keep_ms);
   const Clock::time_point handing_over = Clock::now();
   {
     const TraceSpan span(trace.get(), "simulation", "hand over");
     net->publish(delta, ran);
   }
+  parts[TickPart::hand_over] = stopwatch.lap_ms();
+  watch.part(&FlightTick::hand_over_ms);
   if (config.hooks.after) config.hooks.after(*delta);
+  parts[TickPart::rules] += stopwatch.lap_ms();
+  parts.cpu_ms = (thread_cpu_s() - cpu_before_s) * 1e3;
+  flight->add(watch.end(net->load()), *delta);
   const std::scoped_lock lock(mutex);
   report.whole_tick.add(std::chrono::duration<double, std::milli>(handing_over - begin).count());
-  report.whole_tick_cpu.add((thread_cpu_s() - cpu_before_s) * 1e3);
+  report.whole_tick_cpu.add(parts.cpu_ms);
   report.terrain_in.add(terrain_in_ms);
   report.after_tick.add(keep_ms);
   report.add(*delta);
+  report.add(parts);
   last_delta = delta;
   if (config.ticks_max != 0 && report.ticks >= config.ticks_max) running = false;
   if (time_is_over()) running = false;
@@ -203,27 +218,15 @@ bool LiveServer::State::wait_for_clients() {
   return true;
 }
 
-void LiveServer::State::count(TickSchedule::Delay delay) {
-  if (!delay.late) return;
-  const std::scoped_lock lock(mutex);
-  ++report.late_ticks;
-  if (delay.lost_ticks == 0) return;
-  report.overruns += delay.lost_ticks;
-  // A replay may take its time for a jump.
-  if (const auto more = log_limit.admit("late", steady_now_s()))
-    spdlog::log(config.replay.path.empty() ? spdlog::level::warn : spdlog::level::debug,
-                "tick {} came {} ticks late: they are lost{}", report.last_tick, delay.lost_ticks, *more);
-}
-
 /// Governs by a tick that took `length` of a tick's length.
 void LiveServer::State::govern(double length, TickSchedule::Delay delay) {
   if (!governor) return;
   const uint32_t percent = feed->world()->config().work_percent;
   work_percent_next = governor->tick_ended(length, delay.lost_ticks, percent);
   if (work_percent_next)
-    spdlog::info("ticks {}: their work may take {} % of their length now, before it was {} %",
-                 *work_percent_next < percent ? "are lost" : "are in time again", *work_percent_next,
-                 percent);
+    log_of(LogPart::world)
+        .info("ticks {}: their work may take {} % of their length now, before it was {} %",
+              *work_percent_next < percent ? "are lost" : "are in time again", *work_percent_next, percent);
 }
 
 void LiveServer::State::run() {
@@ -232,6 +235,7 @@ void LiveServer::State::run() {
   TickSchedule schedule(Clock::now(), period);
   while (sleep_until(schedule.due())) {
     const Clock::time_point began = Clock::now();
+    due = schedule.due();
     heartbeat.beat(steady_now_s());
     if (!step()) break;
     heartbeat.beat(steady_now_s());
@@ -280,14 +284,17 @@ Result<void> LiveServer::reload() {
 }
 
 void LiveServer::State::finish_files() {
+  backups.reset();
   const double until_s = steady_now_s() + limits::last_tries_s;  // for all together
   const auto note = [this](const Result<void>& finished) {
     if (!finished) end(finished.error().message);
   };
+  if (history) history->finish();
   if (saved_world && broken) saved_world->abandon();
   if (saved_world && !broken) note(saved_world->finish(*feed->world()));
   if (recorder) note(recorder->finish(std::max(0.0, until_s - steady_now_s())));
   if (events) note(events->finish());
+  if (flight) note(flight->finish());
   if (trace) note(trace->write(config.trace_path));
 }
 
@@ -305,36 +312,6 @@ Result<void> LiveServer::stop() {
   const ServerReport all = report();
   if (all.error) return fail(*all.error);
   return {};
-}
-
-ServerReport LiveServer::State::report_now(const NetStats& stats, const LatencyCounts& latency) const {
-  const std::scoped_lock lock(mutex);
-  ServerReport now = report;
-  now.net = stats;
-  now.latency = latency;
-  now.seconds = std::chrono::duration<double>(Clock::now() - started).count();
-  if (recorder) {
-    now.ticks_recorded = recorder->ticks_written();
-    now.record_waits = recorder->waits();
-    now.record_size = recorder->size();
-    now.record_path = recorder->path();
-    now.recording = recorder->health();
-  }
-  if (saved_world && !saved_world->is_temporary()) now.saving = saved_world->status();
-  now.resident_mb = resident_bytes() / bytes_per_mb;
-  if (pager) {
-    now.paging = pager->status();
-    now.work.memory_mb = now.paging.memory_mb;
-    now.requests_held = told.paging.requests_held;
-  }
-  if (events) now.events = events->status();
-  return now;
-}
-
-std::string LiveServer::State::status(const NetFigures& figures) const {
-  if (!is_open) return {};
-  return status_json(report_now(figures.stats, figures.latency), figures,
-                     {config.world.tick_rate_hz, config.net.replay, config.net.palette});
 }
 
 ServerReport LiveServer::report() const {

@@ -8,12 +8,16 @@
 // all public functions, but for push(), which any thread may call.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
+#include "server/app/backups.h"
 #include "server/app/limits.h"
 #include "server/app/server_report.h"
 #include "server/app/tick_feed.h"
+#include "server/flight/flight_recorder.h"
+#include "server/history/limits.h"
 #include "server/host/host_hooks.h"
 #include "server/net/net_server.h"
 #include "server/store/recording_ring.h"
@@ -24,6 +28,13 @@ namespace scree {
 
 /// real_time: at the tick rate, on a thread of its own. by_hand: by step_once() only.
 enum class Pacing { real_time, by_hand };
+
+/// What a server says of itself while it lives.
+struct LivePulse {
+  Tick tick = 0;
+  uint32_t sessions = 0;    ///< now
+  uint64_t late_ticks = 0;  ///< since the start
+};
 
 struct LiveConfig {
   WorldConfig world;        ///< a replay takes its recording's instead
@@ -36,6 +47,8 @@ struct LiveConfig {
   std::string
       world_path;  ///< file that keeps the world (server/store/world_file.h); empty: it ends with the server
   size_t bricks_in_max = 0;  ///< edited bricks in memory; 0: as many as the setting memory-max allows
+  uint32_t history_mb =
+      limits::history_mb;  ///< of the history of its edits (server/history); 0: there is none
   Durability durability = Durability::second;
   double autosave_s = 300.0;  ///< with Durability::off; 0: only at the end
   /// Limits of the machine (Setting::of_machine) that the server was told: they win over what the world that
@@ -47,7 +60,10 @@ struct LiveConfig {
   std::shared_ptr<const ContentFiles> images;
   /// Models of props (content/files/model_folder.h); null: none, and a prop that names one is refused.
   std::shared_ptr<const ContentFiles> models;
-  std::string trace_path;  ///< file of the trace (shared/base/trace.h); empty: none
+  BackupPlan backups;                                                      ///< of the kept world
+  SlowLimits slow{limits::slow_ms_default, limits::slow_save_ms_default};  ///< of the flight recorder
+  std::string slow_log_path;  ///< its log of slow ticks; empty: none
+  std::string trace_path;     ///< file of the trace (shared/base/trace.h); empty: none
   Pacing pacing = Pacing::real_time;
   double still_seconds = limits::still_seconds_max;  ///< without a tick: the simulation stands still
   bool governed = false;      ///< the setting work-percent follows how late ticks are (load_governor.h)
@@ -55,6 +71,9 @@ struct LiveConfig {
   double seconds_max = 0.0;   ///< the server ends after so many seconds; 0: never
   uint32_t wait_clients = 0;  ///< the first tick waits until so many clients have joined
   HostHooks hooks;            ///< the host's own rules
+  /// Called about each limits::pulse_seconds on the network thread, but not while the simulation stands
+  /// still.
+  std::function<void(const LivePulse&)> pulse;
 };
 
 /// As Linux lists the threads of a process; the bodies' helpers and the network have other threads.
@@ -86,6 +105,10 @@ class LiveServer {
 
   /// Reads certificate, keys and revoked tokens again (NetServer::reload).
   Result<void> reload();
+
+  /// Changes these settings in the next tick, all or none, as a command of the server that recordings have.
+  /// The log says why the world refuses them. An error: it is a replay.
+  Result<void> change_settings(const SettingValues& changes);
 
   /// Stops ticking, tells every client, saves the world, and finishes the recording. Returns the first error
   /// since the start. A second call does nothing more.

@@ -1,9 +1,9 @@
 // LiveServer's health: whether it ticks, and does what it promised.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "server/app/limits.h"
 #include "server/app/live_server_state.h"
+#include "server/log/log.h"
 #include "server/store/store_fault.h"
 #include "shared/base/wall_clock.h"
 
@@ -27,6 +27,12 @@ std::string saving_fault(const SaverStatus& status, double waited_s) {
     return fmt::format("the disk has not taken the world for {:.0f} s: the last tick on it is {}", waited_s,
                        status.saved_tick);
   return {};
+}
+
+std::string backup_fault(const StoreHealth& health) {
+  const auto fault = fault_in(*health.because);
+  return fmt::format("no backup has been made since {}, and it is tried again{}{}",
+                     iso_time(health.since_unix_ms), fault ? ": " : "", fault ? name_of(*fault) : "");
 }
 
 }  // namespace
@@ -54,6 +60,9 @@ ServerHealth LiveServer::State::health() const {
   if (saved_world && !saved_world->is_temporary())
     if (const std::string fault = saving_fault(saved_world->status(), waited_s); !fault.empty())
       found.add(HealthKind::saving, fault);
+  if (backups)
+    if (const StoreHealth health = backups->status().health; !health.ok())
+      found.add(HealthKind::backups, backup_fault(health));
   if (recorder)
     if (const StoreHealth health = recorder->health(); !health.ok())
       found.add(HealthKind::recording, writing_fault("the recording", health));
@@ -63,6 +72,19 @@ ServerHealth LiveServer::State::health() const {
   return found;
 }
 
+/// On the network thread, so that neither thread's end is missed.
+void LiveServer::State::send_pulse(double now_s) {
+  if (!config.pulse || now_s < pulse_at_s) return;
+  pulse_at_s = now_s + limits::pulse_seconds;
+  LivePulse pulse{.sessions = net->stats().sessions};
+  {
+    const std::scoped_lock lock(mutex);
+    pulse.tick = report.last_tick;
+    pulse.late_ticks = report.late_ticks;
+  }
+  config.pulse(pulse);
+}
+
 /// On the network thread, for the simulation's cannot say it of itself.
 void LiveServer::State::check_heartbeat(double now_s) {
   if (!is_open || config.pacing != Pacing::real_time) return;
@@ -70,9 +92,10 @@ void LiveServer::State::check_heartbeat(double now_s) {
     const std::scoped_lock lock(mutex);
     if (!running) return;
   }
+  if (!heartbeat.stands_still(now_s)) send_pulse(now_s);
   const auto line = heartbeat.check(now_s);
   if (!line) return;
-  spdlog::log(heartbeat.stands_still(now_s) ? spdlog::level::err : spdlog::level::warn, "{}", *line);
+  log_of(LogPart::world).write(heartbeat.stands_still(now_s) ? LogLevel::error : LogLevel::warn, *line);
 }
 
 }  // namespace scree

@@ -6,9 +6,12 @@
 #include "server/app/live_server_state.h"
 #include "server/app/prop_models.h"
 #include "server/app/world_materials.h"
+#include "server/log/log.h"
+#include "server/replay/recorded_field.h"
 #include "server/world/settings.h"
 #include "server/world/world_snapshot.h"
 #include "shared/base/check.h"
+#include "shared/base/overloaded.h"
 
 namespace scree {
 
@@ -41,12 +44,10 @@ Result<void> LiveServer::State::open() {
   if (config.world.ground != given && given != Digest{})
     return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
                 hex_of(given) + " (--ground)");
-  config.net.said = config.hooks.said;
-  config.net.joined = config.hooks.joined;
-  config.net.left = config.hooks.left;
-  config.net.heard = config.hooks.heard;
-  config.net.control_rules = config.hooks.controlled;
+  pass_on_hooks();
+  TRY(open_history());
   config.net.status = [this](const NetFigures& figures) { return status(figures); };
+  config.net.metrics = [this](const NetFigures& figures) { return metrics(figures); };
   config.net.health = [this] { return health(); };
   config.net.checked = [this](double now_s) { check_heartbeat(now_s); };
   config.net.takes_cursors = !config.record_path.empty();
@@ -59,6 +60,7 @@ Result<void> LiveServer::State::open() {
   tell_missing_images(*config.world.palette, config.images.get());
   period = seconds(1.0 / static_cast<double>(config.world.tick_rate_hz));
   TRY(open_events());
+  TRY(open_flight());
   // The port comes first: a server that cannot listen leaves no empty recording behind.
   World* const world = feed->world();
   TickDelta keyframe = world == nullptr ? TickDelta() : world->keyframe();
@@ -66,8 +68,10 @@ Result<void> LiveServer::State::open() {
   end_old_sessions(keyframe);
   tell_missing_models(keyframe.props_spawned, config.models.get());
   report.settings = keyframe.settings;  // ticks say only what changes
-  auto listening = TRY(NetServer::listen(config.net, commands, std::move(keyframe)));
-  net = std::move(listening);
+  auto listening = NetServer::listen(config.net, commands, std::move(keyframe));
+  if (!listening) forget_history();
+  TRY(listening);
+  net = std::move(*listening);
   if (config.hooks.started) config.hooks.started(host_acts());
   TRY(open_recorder());
   if (saved_world != nullptr) TRY(start_saving());
@@ -82,6 +86,18 @@ Result<void> LiveServer::State::open() {
   return {};
 }
 
+void LiveServer::State::pass_on_hooks() {
+  config.net.said = config.hooks.said;
+  config.net.joined = [this](const JoinedPerson& person) {
+    flight->name(person.session, person.name);
+    if (history) history->joined(person);
+    if (config.hooks.joined) config.hooks.joined(person);
+  };
+  config.net.left = config.hooks.left;
+  config.net.heard = config.hooks.heard;
+  config.net.control_rules = config.hooks.controlled;
+}
+
 /// They were another process's, and never go on.
 void LiveServer::State::end_old_sessions(const TickDelta& keyframe) {
   std::set<uint64_t> sessions;
@@ -93,7 +109,8 @@ void LiveServer::State::end_old_sessions(const TickDelta& keyframe) {
       if (sign.to.kind == AudienceKind::session) sessions.insert(sign.to.session);
   for (const uint64_t session : sessions)
     if (!commands.push({session, 0, LeaveRequest{}}))
-      spdlog::warn("the person of session {} stays, though the session is over", session);
+      log_of(LogPart::net, session)
+          .warn("the person of session {} stays, though the session is over", session);
 }
 
 Result<void> LiveServer::State::open_world() {
@@ -122,7 +139,10 @@ Result<void> LiveServer::State::open_world() {
 Result<void> LiveServer::State::start_saving() {
   SaverConfig keeping{config.durability, config.autosave_s, config.world.tick_rate_hz, {}};
   if (saved_world->is_temporary()) keeping.durability = Durability::off, keeping.autosave_s = 0.0;
-  if (recorder) keeping.before_save = [this](Tick tick) { recorder->commit_up_to(tick); };
+  keeping.before_save = [this](Tick tick) {
+    if (recorder) recorder->commit_up_to(tick);
+    if (history) history->commit_up_to(tick);
+  };
   World& world = *feed->world();
   TRY(saved_world->start(world, std::move(keeping)));
   resident = std::make_unique<ResidentMemory>();
@@ -130,6 +150,10 @@ Result<void> LiveServer::State::start_saving() {
                                    [seen = resident.get()] { return seen->bytes(); });
   TRY(opened);
   pager = std::move(*opened);
+  if (config.backups.every_s > 0.0) {
+    auto started = TRY(Backups::start(saved_world->path(), config.backups));
+    backups = std::move(started);
+  }
   tell();
   return {};
 }
@@ -149,6 +173,55 @@ Result<void> LiveServer::State::open_recorder() {
   recorder = std::move(*recording);
   report.record_path = config.record_path;
   return {};
+}
+
+/// The terrain of a tick comes out of the recording, where there is one.
+Result<void> LiveServer::State::open_history() {
+  if (saved_world == nullptr || config.history_mb == 0) return {};
+  World& world = *feed->world();
+  HistoryConfig keeping{.path = saved_world->path() + ".history",
+                        .world = saved_world->number(),
+                        .tick = world.tick(),
+                        .tick_rate_hz = config.world.tick_rate_hz,
+                        .voxel_size_m = config.world.terrain.voxel_size_m,
+                        .mb_max = config.history_mb};
+  TerrainThen then;
+  if (!config.record_path.empty())
+    then = [this](Tick tick) -> Result<std::unique_ptr<Field>> {
+      if (!recorder) return std::unique_ptr<Field>();
+      recorder->commit_up_to(tick);
+      return field_at(recorder->path(), tick, ground_giver(config.world_path, config.world));
+    };
+  auto opened = EditHistory::open(keeping, std::move(then));
+  TRY(opened);
+  history = std::move(*opened);
+  world.want_replaced(true);
+  config.net.ask_history = [this](uint64_t session, uint32_t request, const HistoryAct& asked,
+                                  const std::string& who) { answer_history(session, request, asked, who); };
+  return {};
+}
+
+/// That of a world which has no file either.
+void LiveServer::State::forget_history() {
+  if (history == nullptr || !saved_world->is_new()) return;
+  history.reset();
+  std::error_code ignored;
+  for (const char* part : {"", "-wal", "-shm"})
+    std::filesystem::remove(saved_world->path() + ".history" + part, ignored);
+}
+
+/// On the network's thread; the answer comes from the history's.
+void LiveServer::State::answer_history(uint64_t session, uint32_t request, const HistoryAct& asked,
+                                       const std::string& who) {
+  const auto answer = [this, session, request](Result<std::string> said) {
+    if (said)
+      net->send(session, ServerMessage(AdminListMessage{.request = request, .text = std::move(*said)}));
+    else
+      net->send(session, ServerMessage(ReplyMessage{request, said.error().message, 0}));
+  };
+  std::visit(Overloaded{[&](const HistoryRequest& history_asked) { history->ask(history_asked, answer); },
+                        [&](const UndoRequest& undo) { history->ask(undo, who, answer); }},
+             asked);
 }
 
 Result<void> LiveServer::State::open_events() {

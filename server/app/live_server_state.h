@@ -19,11 +19,15 @@
 #include "server/app/saved_world.h"
 #include "server/app/terrain_ahead.h"
 #include "server/app/terrain_pager.h"
+#include "server/app/tick_parts.h"
 #include "server/app/tick_schedule.h"
 #include "server/app/tick_trace.h"
+#include "server/app/tick_watch.h"
+#include "server/history/edit_history.h"
 #include "server/store/recorder.h"
 #include "shared/base/log_limit.h"
 #include "shared/base/timing.h"
+#include "shared/base/wall_clock.h"
 
 namespace scree {
 
@@ -39,21 +43,32 @@ struct LiveServer::State {
   Result<void> open_world();
   Result<void> open_recorder();
   Result<void> open_events();
+  Result<void> open_history();
+  void forget_history();
+  void pass_on_hooks();
+  void answer_history(uint64_t session, uint32_t request, const HistoryAct& asked, const std::string& who);
+  Result<void> open_flight();
   void end_old_sessions(const TickDelta& keyframe);
   ServerReport report_now(const NetStats& stats, const LatencyCounts& latency) const;
   /// On the network thread.
   std::string status(const NetFigures& figures) const;
+  std::string metrics(const NetFigures& figures) const;
   Saving saving() const;
   ServerHealth health() const;
   void check_heartbeat(double now_s);
+  void send_pulse(double now_s);
   void tell();
   std::shared_ptr<const TickDelta> save_and_filter(std::shared_ptr<const TickDelta> delta,
                                                    std::vector<Reply> refused);
   Result<void> start_saving();
   void run();
   bool step();
+  std::optional<Admitted> next_commands();
   HostActs host_acts();
   bool ask_host(const World& world, Admitted& admitted);
+  /// Adds those that the next tick changes by itself. Whether somebody chooses work-percent.
+  bool add_settings(std::vector<Command>& commands);
+  void tell_settings(const TickDelta& delta) const;
   void refuse_missing_models(Admitted& admitted);
   bool wait_for_clients();
   bool time_is_over() const {
@@ -78,20 +93,28 @@ struct LiveServer::State {
   std::unique_ptr<LiveEvents> events;  ///< null: nobody wants to know
   std::unique_ptr<Recorder> recorder;
   std::unique_ptr<SavedWorld> saved_world;   ///< null: a replay
-  std::unique_ptr<TerrainPager> pager;       ///< likewise
+  std::unique_ptr<EditHistory> history;      ///< likewise, or none is kept
+  std::unique_ptr<Backups> backups;          ///< null: none are made
+  std::unique_ptr<TerrainPager> pager;       ///< likewise, of a replay
   std::unique_ptr<ResidentMemory> resident;  ///< likewise
   PieceForecast forecast;
   Admission admission;
   std::unique_ptr<LoadGovernor> governor;     ///< null: a replay, or not wanted
   std::optional<uint32_t> work_percent_next;  ///< the governor's wish, for the next tick
   SettingValues limits_to_set;  ///< in the first tick: the machine's, which win over a kept world's
+  std::unique_ptr<FlightRecorder> flight;
+  TickWatch watch;                         ///< used by the simulation thread only, as the next
+  std::optional<Clock::time_point> due{};  ///< of the next tick; nothing: by hand
   std::unique_ptr<NetServer> net;
   std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
   std::unique_ptr<Trace> trace;         ///< null: no trace
   std::thread thread;
-  Heartbeat heartbeat;  ///< of the simulation's thread
+  Heartbeat heartbeat;      ///< of the simulation's thread
+  double pulse_at_s = 0.0;  ///< when the next pulse is due; used by the network thread only
   Clock::time_point started = Clock::now();
+  const uint64_t started_unix_s = unix_now_ms() / 1000;
   Clock::duration period{};
+  TickParts parts;                              ///< of the last tick; used by the simulation thread only
   LogLimit log_limit;                           ///< used by the simulation thread only, as the next two
   std::optional<std::string> record_complaint;  ///< the last that was logged
   bool ring_told = false;                       ///< that it is over its limit
@@ -108,6 +131,7 @@ struct LiveServer::State {
   Saving told;
   SaveDelay save_delay;
   std::condition_variable changed;
+  SettingValues settings_told;  ///< for the next tick: change_settings()
   bool stopping = false;
   bool running = true;
   ServerReport report;

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 #include <set>
-#include <spdlog/spdlog.h>
+
+#include "server/log/log.h"
 
 namespace scree {
 
@@ -25,8 +26,9 @@ tl::expected<void, Refused> check_model(const Request& request, const ContentFil
 
 void tell_models(const std::vector<ModelFile>& models) {
   for (const ModelFile& model : models)
-    spdlog::info("model {}: {}, {} triangles, {} KiB", hex_of(model.digest), model.name, model.triangles,
-                 (model.bytes + 1023) / 1024);
+    log_of(LogPart::content)
+        .info("model {}: {}, {} triangles, {} KiB", hex_of(model.digest), model.name, model.triangles,
+              (model.bytes + 1023) / 1024);
 }
 
 void tell_missing_models(const std::vector<SpawnedProp>& props, const ContentFiles* models) {
@@ -38,11 +40,12 @@ void tell_missing_models(const std::vector<SpawnedProp>& props, const ContentFil
     ++count;
   }
   if (missing.empty()) return;
-  spdlog::warn(
-      "{} props of this world name {} models that are not here, and clients draw their parts: give the "
-      "folder "
-      "of the models (--models); the first is {}",
-      count, missing.size(), hex_of(*missing.begin()));
+  log_of(LogPart::content)
+      .warn(
+          "{} props of this world name {} models that are not here, and clients draw their parts: give the "
+          "folder "
+          "of the models (--models); the first is {}",
+          count, missing.size(), hex_of(*missing.begin()));
 }
 
 }  // namespace scree

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <filesystem>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <thread>
 
 #include "content/builtin_palette.h"
@@ -12,8 +11,10 @@
 #include "server/app/temporary_world.h"
 #include "server/app/terrain_pager.h"
 #include "server/app/world_materials.h"
+#include "server/log/log.h"
 #include "server/store/limits.h"
 #include "server/store/stored_field.h"
+#include "server/store/world_upgrade.h"
 #include "server/work/memory.h"
 #include "server/world/limits.h"
 #include "server/world/recorded_values.h"
@@ -31,20 +32,23 @@ namespace {
 void tell_differences(const std::string& path, const WorldConfig& asked, const WorldConfig& saved_world,
                       const SettingValues& told) {
   if (!is_same_terrain(asked, saved_world) || asked.tick_rate_hz != saved_world.tick_rate_hz)
-    spdlog::info("{}: terrain and tick rate come from the file", path);
+    log_of(LogPart::store).info("{}: terrain and tick rate come from the file", path);
   const SettingValues wanted = print(asked);
   for (const SettingValue& stands : differing(print(saved_world), asked)) {
     const auto other = std::ranges::find(wanted, stands.name, &SettingValue::name);
     if (other == wanted.end())  // a number of a material
-      spdlog::info(
-          "{}: {} is {}, as it was set before; scree admin materials set {}={} takes that of the "
-          "palette",
-          path, stands.name, stands.value, stands.name.substr(material_prefix.size()), own_number);
+      log_of(LogPart::store)
+          .info(
+              "{}: {} is {}, as it was set before; scree admin materials set {}={} takes that of the "
+              "palette",
+              path, stands.name, stands.value, stands.name.substr(material_prefix.size()), own_number);
     else if (std::ranges::find(told, stands.name, &SettingValue::name) != told.end())
-      spdlog::info("{}: {} is {}, as this server was told, not {}, as it was saved", path, stands.name,
-                   other->value, stands.value);
+      log_of(LogPart::store)
+          .info("{}: {} is {}, as this server was told, not {}, as it was saved", path, stands.name,
+                other->value, stands.value);
     else
-      spdlog::info("{}: {} is {}, as it was saved, not {}", path, stands.name, stands.value, other->value);
+      log_of(LogPart::store)
+          .info("{}: {} is {}, as it was saved, not {}", path, stands.name, stands.value, other->value);
   }
 }
 
@@ -66,7 +70,7 @@ Result<std::unique_ptr<World>> read_in_time(const std::function<Result<std::uniq
   for (;;) {
     auto world = read();
     if (world || !may_pass(world.error()) || steady_now_s() > until_s) return world;
-    spdlog::warn("the world cannot be read, and is tried again: {}", world.error().message);
+    log_of(LogPart::store).warn("the world cannot be read, and is tried again: {}", world.error().message);
     std::this_thread::sleep_for(std::chrono::duration<double>(limits::retry_held_max_s));
   }
 }
@@ -90,16 +94,23 @@ Result<std::unique_ptr<SavedWorld>> SavedWorld::open(const std::string& path, co
   }
   std::unique_ptr<WorldFile> file;
   size_t chunks = 0;
+  int64_t format = 0;
   const auto read = [&]() -> Result<std::unique_ptr<World>> {
     file = TRY(WorldFile::open(path));
+    format = TRY(file->format());
     return restored(*file, threads, ground, wanted, *saved_world, chunks);
   };
   auto world = read_in_time(read);
   if (!world) return fail(world.error().message + way_out(path, world.error()));
   const World& restored_world = **world;
   tell_differences(path, config, restored_world.config(), told);
-  spdlog::info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path,
-               restored_world.tick(), chunks, restored_world.field().chunks_in().size());
+  log_of(LogPart::store)
+      .info("{}: goes on at tick {} with {} edited chunks, {} of them in memory", path, restored_world.tick(),
+            chunks, restored_world.field().chunks_in().size());
+  if (format < world_format)
+    log_of(LogPart::store)
+        .info("{}: it is of format {}: before its first save, a copy is kept as {}", path, format,
+              name_of_older(path));
   saved_world->file_ = std::move(file);
   saved_world->world_ = std::move(*world);
   return saved_world;
@@ -111,6 +122,10 @@ Result<std::unique_ptr<World>> SavedWorld::restored(WorldFile& file, size_t thre
                                                     SavedWorld& saved_world, size_t& chunks) {
   const std::string& path = file.path();
   auto rows = TRY(file.read_moment());
+  if (rows.stones_left_out > 0)
+    log_of(LogPart::store)
+        .warn("{}: stones that are drawn where pieces merged are left out: {} rows, the first: {}", path,
+              rows.stones_left_out, rows.stone_left_out);
   RecordedHeader& header = rows.world.moment.config;
   if (auto given = give_ground(header.ground, header.terrain, ground); !given)
     return fail(path + ": " + given.error().message);
@@ -179,15 +194,18 @@ void SavedWorld::complain(const SaverStatus& status) {
   const auto more = log_.admit(now.empty() ? "saved again" : "not saved", steady_now_s());
   if (!more) return;
   if (temporary_ && !now.empty())
-    spdlog::warn(
-        "terrain cannot leave memory, which is tried again: edits are refused once it is full (memory-max); "
-        "give the server a folder with room (XDG_CACHE_HOME), or a world to keep (--world): {}{}",
-        now, *more);
+    log_of(LogPart::store)
+        .warn(
+            "terrain cannot leave memory, which is tried again: edits are refused once it is full "
+            "(memory-max); "
+            "give the server a folder with room (XDG_CACHE_HOME), or a world to keep (--world): {}{}",
+            now, *more);
   else if (now.empty())
-    spdlog::info("the world is saved again, up to tick {}{}", status.saved_tick, *more);
+    log_of(LogPart::store).info("the world is saved again, up to tick {}{}", status.saved_tick, *more);
   else
-    spdlog::warn("the world is not saved since tick {}, and is tried again: {}{}", status.saved_tick, now,
-                 *more);
+    log_of(LogPart::store)
+        .warn("the world is not saved since tick {}, and is tried again: {}{}", status.saved_tick, now,
+              *more);
 }
 
 void SavedWorld::abandon() {
@@ -202,8 +220,9 @@ Result<void> SavedWorld::finish(World& world) {
   const Result<void> finished = saver_->finish(world.moment(), chunk_now(world.field()));
   const SaverStatus status = saver_->status();
   if (finished && !status.health.ok())
-    spdlog::info("{}: nothing has changed since tick {}, which the file holds, so nothing is lost: {}", path_,
-                 status.saved_tick, *status.health.because);
+    log_of(LogPart::store)
+        .info("{}: nothing has changed since tick {}, which the file holds, so nothing is lost: {}", path_,
+              status.saved_tick, *status.health.because);
   else
     complain(status);
   tell_log_left();
@@ -215,7 +234,7 @@ void SavedWorld::tell_log_left() const {
   std::error_code none;
   const auto bytes = std::filesystem::file_size(path_ + "-wal", none);
   if (!none && bytes > 0)
-    spdlog::warn("{0}-wal is left beside {0}, and has its newest rows: copy both", path_);
+    log_of(LogPart::store).warn("{0}-wal is left beside {0}, and has its newest rows: copy both", path_);
 }
 
 }  // namespace scree

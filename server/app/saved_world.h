@@ -50,6 +50,7 @@ class SavedWorld {
   ~SavedWorld();
   /// From any thread, after start(), also after the end.
   SaverStatus status() const { return saver_->status(); }
+  Durations save_times() const { return saver_->times(); }
 
  private:
   /// What a server wants of a world that goes on: the arguments of open().

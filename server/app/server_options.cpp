@@ -3,19 +3,24 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cstdio>
-#include <cstdlib>
+#include <fmt/format.h>
 #include <limits>
+#include <sstream>
 #include <string_view>
 #include <unistd.h>
 
 #include "proto/messages.h"
+#include "server/app/backup_options.h"
 #include "server/app/config_file.h"
 #include "server/app/door_options.h"
 #include "server/app/environment.h"
+#include "server/app/flight_options.h"
 #include "server/app/ground_giver.h"
 #include "server/app/limits.h"
+#include "server/app/log_options.h"
+#include "server/app/option_sources.h"
+#include "server/app/option_variables.h"
 #include "server/app/rules_options.h"
 #include "server/app/web_folder.h"
 #include "server/app/world_materials.h"
@@ -157,6 +162,12 @@ void add_saving_options(CLI::App& app, Raw& raw) {
           {0.0, 86400.0})
       ->capture_default_str()
       ->needs(world);
+  bounded(
+      app.add_option("--history-mb", live.history_mb,
+                     "megabytes for who edited what, and what it was before, by which administrators take "
+                     "edits back; 0: nothing is remembered"),
+      whole_within(0, limits::history_mb_max))
+      ->capture_default_str();
 }
 
 void add_recordings(CLI::App& app, Raw& raw) {
@@ -213,10 +224,7 @@ void add_run(CLI::App& app, Raw& raw) {
          "--trace", live.trace_path,
          "writes the times of all work to this file at the end; chrome://tracing and ui.perfetto.dev open it")
       ->check(check_writable, "FILE");
-  app.add_option("--log", raw.options.log_level,
-                 "lowest level of logged messages: trace, debug, info, warn, error or off")
-      ->check(CLI::IsMember({"trace", "debug", "info", "warn", "error", "off"}))
-      ->capture_default_str();
+  declare_log_options(app, raw.options.log);
 }
 
 /// A folder that was named has a page; the one beside the program may be missing.
@@ -278,24 +286,10 @@ void refuse_shared_files(const Raw& raw, const std::string& config_path) {
                             NamedFile{"--record", live.record_path, true, true},
                             NamedFile{"--events", live.events_path, true},
                             NamedFile{"--report", raw.options.report_path, true},
+                            NamedFile{"--slow-log", live.slow_log_path, true},
                             NamedFile{"--trace", live.trace_path, true}};
   if (Result<void> distinct = check_distinct(files); !distinct)
     throw CLI::ValidationError(distinct.error().message);
-}
-
-/// --sessions-max is SCREE_SESSIONS_MAX. Returns all names.
-std::vector<std::string> name_environment(CLI::App& app) {
-  std::vector<std::string> names;
-  for (CLI::Option* option : app.get_options()) {
-    const std::string flag = option->get_lnames().empty() ? "help" : option->get_lnames().front();
-    if (flag == "help" || flag == "version") continue;
-    std::string name = "SCREE_";
-    for (const char c : flag)
-      name += c == '-' ? '_' : static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    option->envname(name);
-    names.push_back(std::move(name));
-  }
-  return names;
 }
 
 void declare(CLI::App& app, Raw& raw) {
@@ -305,9 +299,11 @@ void declare(CLI::App& app, Raw& raw) {
   add_settings(app, raw);
   raw.doors.declare(app, raw.options.live.net);
   add_saving_options(app, raw);
+  declare_backups(app, raw.options.live.backups);
   add_recordings(app, raw);
   raw.rules.declare(app, raw.options.rules);
   add_run(app, raw);
+  declare_flight(app, raw.options.live);
   refuse_empty(app);
 }
 
@@ -331,34 +327,9 @@ std::string fault_of(const CLI::ConfigItem& item) {
   return {};
 }
 
-/// A variable that says no to a flag counts for CLI11 as the flag, and what the flag needs would be missing.
-/// Flags that need nothing may be on without a word, and no turns them off.
-void forget_flags_that_say_no(const CLI::App& app) {
-  for (const CLI::Option* option : app.get_options()) {
-    const char* const value = std::getenv(option->get_envname().c_str());
-    if (value == nullptr || option->get_items_expected_max() != 0 || option->get_needs().empty()) continue;
-    bool is_wanted = true;
-    if (CLI::detail::lexical_cast(value, is_wanted) && !is_wanted) unsetenv(option->get_envname().c_str());
-  }
-}
-
-/// CLI11 reads the file of options before it reads variables, and so none that a variable names.
-std::vector<const char*> with_config_of_environment(std::vector<const char*> arguments) {
-  static constexpr std::string_view flag = "--config";
-  const auto is_given = [](const char* argument) {
-    const std::string_view text(argument);
-    return text == flag || (text.starts_with(flag) && text[flag.size()] == '=');
-  };
-  const char* const path = std::getenv("SCREE_CONFIG");
-  if (path == nullptr || *path == '\0' || arguments.empty() || std::ranges::any_of(arguments, is_given))
-    return arguments;
-  arguments.insert(arguments.begin() + 1, {flag.data(), path});
-  return arguments;
-}
-
 }  // namespace
 
-std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
+ServerOptionsRead read_server_options(int argc, const char* const* argv, OptionsUse use) {
   CLI::App app("A dedicated server for terrain that breaks, falls, and becomes terrain again.",
                "scree-server");
   Raw raw;
@@ -369,16 +340,19 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   config->check(CLI::Validator([](std::string& path) { return fault_of_file(path); }, ""));
   app.allow_config_extras(CLI::config_extras_mode::error);
   declare(app, raw);
-  const std::vector<std::string> variables = name_environment(app);
+  const std::vector<std::string> variables = name_variables(app);
+  std::vector<OptionValue> values;
   try {
     if (const std::string fault = fault_in_environment(variables, environ); !fault.empty())
       throw CLI::ValidationError(fault);
     forget_flags_that_say_no(app);
-    const std::vector<const char*> arguments = with_config_of_environment({argv, argv + argc});
+    const std::vector<const char*> given(argv, argv + argc), arguments = with_config_of_environment(given);
     app.parse(static_cast<int>(arguments.size()), arguments.data());
+    const OptionSources sources(app, given, named_file(*config));
     if (const auto preset = kind_named<Preset>(raw.preset)) apply_preset(app, *preset, server_preset_options);
+    values = sources.values(app);
     refuse_shared_files(raw, named_file(*config));
-    raw.doors.complete(raw.options.live.net);
+    raw.doors.complete(raw.options.live.net, use == OptionsUse::start);
     raw.options.token_made = raw.doors.token_made();
     raw.options.live.durability = *kind_named<Durability>(raw.durability);
     if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
@@ -390,11 +364,26 @@ std::variant<ServerOptions, int> parse_server_options(int argc, const char* cons
   } catch (const CLI::ParseError& error) {
     const bool mistaken = error.get_exit_code() != 0;
     const std::string fault = mistaken ? fault_in_file(named_file(*config), fault_of) : std::string();
-    if (fault.empty()) return app.exit(error) == 0 ? 0 : usage_error;
-    std::fprintf(stderr, "scree-server: %s\n", fault.c_str());
-    return usage_error;
+    if (!fault.empty()) return OptionsEnd{usage_error, "", fmt::format("scree-server: {}\n", fault)};
+    std::ostringstream out, err;
+    const int code = app.exit(error, out, err);
+    return OptionsEnd{code == 0 ? 0 : usage_error, out.str(), err.str()};
   }
+  raw.options.values = std::move(values);
+  raw.options.config_path = named_file(*config);
   return raw.options;
+}
+
+int print_end(const OptionsEnd& end) {
+  std::fputs(end.out.c_str(), stdout);
+  std::fputs(end.err.c_str(), stderr);
+  return end.code;
+}
+
+std::variant<ServerOptions, int> parse_server_options(int argc, const char* const* argv) {
+  ServerOptionsRead read = read_server_options(argc, argv, OptionsUse::start);
+  if (auto* options = std::get_if<ServerOptions>(&read)) return std::move(*options);
+  return print_end(std::get<OptionsEnd>(read));
 }
 
 }  // namespace scree

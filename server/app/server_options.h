@@ -5,9 +5,12 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "content/files/model_folder.h"
 #include "server/app/live_server.h"
+#include "server/app/option_value.h"
+#include "server/log/log_config.h"
 #include "server/rules/rules.h"
 
 namespace scree {
@@ -17,9 +20,24 @@ struct ServerOptions {
   std::string report_path;        ///< empty: none
   std::string token_made;         ///< file of an admin token that was made; empty: none
   std::vector<ModelFile> models;  ///< live.models, for the log
-  std::string log_level = "info";
-  RulesOptions rules;  ///< without folders: there are none
+  LogConfig log;
+  RulesOptions rules;               ///< without folders: there are none
+  std::vector<OptionValue> values;  ///< every option, and where it comes from
+  std::string config_path;          ///< empty: there is no file
 };
+
+/// Why there is nothing to run: 0 after --help, 2 after an error; and what is to be printed.
+struct OptionsEnd {
+  int code = 0;
+  std::string out, err;
+};
+/// Prints it, and returns the code.
+int print_end(const OptionsEnd& end);
+
+/// start: makes what is asked for, as an admin token. look: makes and changes nothing.
+enum class OptionsUse : uint8_t { start, look };
+using ServerOptionsRead = std::variant<ServerOptions, OptionsEnd>;
+ServerOptionsRead read_server_options(int argc, const char* const* argv, OptionsUse use);
 
 /// The options; or the exit code when there is nothing to run: 0 after --help, 2 after an error, which is
 /// printed.

@@ -5,12 +5,15 @@
 #include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <spdlog/sinks/stdout_color_sinks.h>
-#include <spdlog/spdlog.h>
 
+#include "server/app/config_command.h"
+#include "server/app/config_reload.h"
 #include "server/app/prop_models.h"
 #include "server/app/resident_memory.h"
 #include "server/app/server_options.h"
+#include "server/app/service_notice.h"
+#include "server/log/log.h"
+#include "server/log/log_config.h"
 #include "server/work/limits.h"
 #include "shared/base/program_output.h"
 
@@ -32,24 +35,43 @@ sigset_t block_signals() {
   return signals;
 }
 
-void reload(LiveServer& server) {
-  if (const auto reloaded = server.reload(); reloaded)
-    spdlog::info("certificate, keys, revoked tokens, bans and the page were read again (SIGHUP)");
+void tell_options(LiveServer& server, const OptionChanges& changes) {
+  for (const std::string& line : changes.later) log_of(LogPart::app).warn("the file of options: {}", line);
+  if (changes.level) set_levels(changes.log);
+  if (changes.settings.empty()) return;
+  std::string words;
+  for (const SettingValue& setting : changes.settings) words += " " + setting.name + "=" + setting.value;
+  if (const auto changed = server.change_settings(changes.settings); !changed)
+    log_of(LogPart::app).warn("the file of options: nothing is set: {}", changed.error().message);
   else
-    spdlog::error("nothing was read again (SIGHUP), the old values stay in force: {}",
-                  reloaded.error().message);
+    log_of(LogPart::app).info("the file of options sets{}", words);
 }
 
-void wait_for_end(LiveServer& server, const sigset_t& signals) {
+void reload(LiveServer& server, ConfigReload& config) {
+  notify_reloading();
+  const auto changes = config.read();
+  const auto reloaded = changes ? server.reload() : tl::unexpected(changes.error());
+  if (!reloaded)
+    log_of(LogPart::app)
+        .error("nothing was read again (SIGHUP), the old values stay in force: {}", reloaded.error().message);
+  else
+    log_of(LogPart::app)
+        .info("{}certificate, keys, revoked tokens, bans and the page were read again (SIGHUP)",
+              *changes ? "the file of options, " : "");
+  if (reloaded && *changes) tell_options(server, **changes);
+  notify_ready();
+}
+
+void wait_for_end(LiveServer& server, const sigset_t& signals, ConfigReload& config) {
   const timespec period{0, poll_period_ns};
   while (server.running()) {
     const int signal = sigtimedwait(&signals, nullptr, &period);
     if (signal < 0) continue;
     if (signal == SIGHUP) {
-      reload(server);
+      reload(server, config);
       continue;
     }
-    spdlog::info("stopping ({})", signal == SIGINT ? "SIGINT" : "SIGTERM");
+    log_of(LogPart::app).info("stopping ({})", signal == SIGINT ? "SIGINT" : "SIGTERM");
     return;
   }
 }
@@ -60,7 +82,7 @@ bool write_report(const LiveServer& server, const std::string& path) {
   file << to_json(server.report());
   file.close();
   if (file) return true;
-  spdlog::error("the report cannot be written to {} (--report)", path);
+  log_of(LogPart::app).error("the report cannot be written to {} (--report)", path);
   return false;
 }
 
@@ -69,7 +91,7 @@ Result<void> load_rules(RulesOptions options, LiveConfig& live, std::unique_ptr<
   if (options.folders.empty()) return {};
   options.tick_rate_hz = live.world.tick_rate_hz;
   options.log = [](const std::string& line, bool is_fault) {
-    spdlog::log(is_fault ? spdlog::level::warn : spdlog::level::info, "{}", line);
+    log_of(LogPart::rules).write(is_fault ? LogLevel::warn : LogLevel::info, line);
   };
   live.world.work_percent = std::max(
       limits::work_percent_min, live.world.work_percent - std::min(live.world.work_percent, options.percent));
@@ -78,35 +100,38 @@ Result<void> load_rules(RulesOptions options, LiveConfig& live, std::unique_ptr<
   return {};
 }
 
-int run(const ServerOptions& options) {
+int run(const ServerOptions& options, ConfigReload config) {
   const sigset_t signals = block_signals();
-  spdlog::set_default_logger(spdlog::stderr_color_mt("scree-server"));
-  spdlog::set_level(spdlog::level::from_str(options.log_level));
-  spdlog::set_pattern("[%Y-%m-%dT%H:%M:%S.%e%z] [%n] [%^%l%$] %v");  // ISO 8601, with the zone
+  begin_log(options.log, "scree-server");
   LiveConfig live = options.live;
   std::unique_ptr<Rules> rules;  // outlives the server, which calls it
   if (const auto loaded = load_rules(options.rules, live, rules); !loaded) {
-    spdlog::error("{}", loaded.error().message);
+    log_of(LogPart::app).error("{}", loaded.error().message);
     return failed;
   }
+  live.pulse = notify_pulse;
   auto server = LiveServer::start(live);
   if (!server) {
-    spdlog::error("{}", server.error().message);
+    log_of(LogPart::app).error("{}", server.error().message);
     return failed;
   }
   tell_models(options.models);
   if (!options.token_made.empty())
-    spdlog::warn("an admin token was made: it is the line in {}, which only this server's user can read",
-                 options.token_made);
+    log_of(LogPart::app)
+        .warn("an admin token was made: it is the line in {}, which only this server's user can read",
+              options.token_made);
   std::printf("%s\n", listening_line((*server)->port(), options.live.net).c_str());
   std::fflush(stdout);
-  wait_for_end(**server, signals);
+  notify_ready();
+  wait_for_end(**server, signals, config);
+  notify_stopping();
   const auto stopped = (*server)->stop();
   const bool reported = write_report(**server, options.report_path);
   const ServerReport report = (*server)->report();
-  spdlog::info("{} ticks, {} carves and dents, {} pieces made, {} merged, {} alive, ledger error {}",
-               report.ticks, report.operations.of<CarveOperation>(), report.pieces_made, report.pieces_merged,
-               report.pieces_alive, report.ledger.error());
+  log_of(LogPart::app)
+      .info("{} ticks, {} carves and dents, {} pieces made, {} merged, {} alive, ledger error {}",
+            report.ticks, report.operations.of<CarveOperation>(), report.pieces_made, report.pieces_merged,
+            report.pieces_alive, report.ledger.error());
   return stopped && reported ? 0 : failed;
 }
 
@@ -115,9 +140,11 @@ int run(const ServerOptions& options) {
 int server_program(int argc, char** argv) {
   bound_heap_arenas();
   fail_at_file_limit();
-  const auto options = parse_server_options(argc, argv);
-  if (const int* status = std::get_if<int>(&options)) return *status;
-  return run(std::get<ServerOptions>(options));
+  if (is_config_command(argc, argv)) return config_command(argc, argv);
+  const auto parsed = parse_server_options(argc, argv);
+  if (const int* status = std::get_if<int>(&parsed)) return *status;
+  const auto& options = std::get<ServerOptions>(parsed);
+  return run(options, ConfigReload(argc, argv, options));
 }
 
 }  // namespace scree

@@ -181,6 +181,21 @@ void ServerReport::add(const TickDelta& delta) {
     if (!row.only_when_acting || delta.times.acted[stage]) stages[stage].add(delta.times[row.stage]);
   }
   tick.add(delta.times.total_ms());
+  for (size_t stage = 0; stage < tick_stages.size(); ++stage) {
+    stage_sums.ms[stage] += delta.times.ms[stage];
+    stage_sums.model_ms[stage] += delta.times.model_ms[stage];
+  }
+  model.add(delta.work.estimate_us / 1e3);
+  budget_s += delta.work.budget_us / 1e6;
+  last_work = delta.work;
+  persons = delta.persons.size();
+  kept = delta.kept.size();
+  for (const Reply& reply : delta.replies) ++(reply.refusal.empty() ? requests_granted : requests_refused);
+}
+
+void ServerReport::add(const TickParts& parts) {
+  for (size_t part = 0; part < parts.ms.size(); ++part) part_sums.ms[part] += parts.ms[part];
+  part_sums.cpu_ms += parts.cpu_ms;
 }
 
 std::string to_json(const ServerReport& report) {
@@ -206,6 +221,7 @@ std::string to_json(const ServerReport& report) {
                {"piece_bytes", sent.piece_bytes},
                {"ground_bytes", sent.ground_bytes},
                {"tile_bytes", sent.tile_bytes},
+               {"stone_bytes", sent.stone_bytes},
                {"content_bytes", sent.content_bytes},
                {"kept_bytes", sent.kept_bytes},
                {"chunks_kept", sent.chunks_kept},

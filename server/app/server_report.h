@@ -6,7 +6,8 @@
 #include <string>
 
 #include "server/app/terrain_pager.h"
-#include "server/net/durations.h"
+#include "server/app/tick_parts.h"
+#include "server/metrics/durations.h"
 #include "server/net/net_server.h"
 #include "server/store/event_log.h"
 #include "server/store/recording_ring.h"
@@ -55,7 +56,17 @@ struct ServerReport {
   WorkReport work;
   uint64_t late_ticks = 0;                           ///< ticks that began after their time
   uint64_t overruns = 0;                             ///< ticks of real time that were lost
+  LateTicks late;                                    ///< these late ticks by their cause
   std::array<Durations, tick_stages.size()> stages;  ///< by stage, of the ticks that its row names
+  StageTimes stage_sums;                             ///< of all ticks, by the clock and by the model
+  TickParts part_sums;                               ///< of all ticks
+  Durations model;                                   ///< of a tick, by the model of its work
+  uint64_t requests_granted = 0;                     ///< that a tick answered, as the next one
+  uint64_t requests_refused = 0;
+  double budget_s = 0.0;  ///< of all ticks together
+  TickWork last_work;     ///< of the last tick
+  uint64_t persons = 0;   ///< on foot
+  uint64_t kept = 0;      ///< pieces that the host's rules or directors keep
   Durations tick;
   Durations whole_tick;      ///< with all that the server does between two ticks of the world
   Durations whole_tick_cpu;  ///< of it the processor time of the simulation's thread
@@ -68,16 +79,20 @@ struct ServerReport {
   StoreHealth recording;
   uint64_t ticks_recorded = 0;
   uint64_t record_waits = 0;
+  size_t record_waiting = 0;  ///< ticks in its queue
+  Durations record_commits;
   RecordingSize record_size;
   std::string events_path;  ///< empty: no log
   EventLog::Status events;
   std::string world_path;  ///< empty: the world ends with the server
   SaverStatus saving;
+  Durations saves;
   PagerStatus paging;
   uint64_t requests_held = 0;        ///< that waited for their terrain to be read
   std::optional<std::string> error;  ///< the reason of an early end
 
   void add(const TickDelta& delta);
+  void add(const TickParts& parts);
 };
 
 std::string to_json(const ServerReport& report);

@@ -47,7 +47,9 @@ Result<std::string> temporary_world_path() {
 
 void remove_world(const std::string& path) {
   std::error_code ignored;
-  for (const char* part : {"", "-wal", "-shm", "-journal", "-new", "-lock"}) fs::remove(path + part, ignored);
+  for (const char* part :
+       {"", "-wal", "-shm", "-journal", "-new", "-lock", ".history", ".history-wal", ".history-shm"})
+    fs::remove(path + part, ignored);
 }
 
 }  // namespace scree

@@ -1,7 +1,6 @@
 #include "server/app/tick_feed.h"
 
-#include <spdlog/spdlog.h>
-
+#include "server/log/log.h"
 #include "server/replay/replay_source.h"
 #include "shared/base/log_limit.h"
 #include "shared/base/timing.h"
@@ -48,15 +47,16 @@ Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& 
   auto source = TRY(ReplaySource::open(options.path, options.from, ground, WithoutTicks::awaited));
   const WorldConfig world = source->header().world;
   if (source->last_tick() == 0)
-    spdlog::warn("{} has no tick yet: the replay waits for the first", options.path);
+    log_of(LogPart::replay).warn("{} has no tick yet: the replay waits for the first", options.path);
   else if (!source->is_ended())
-    spdlog::warn("{} is being written, or was cut short: it plays to its last whole tick, {}", options.path,
-                 source->last_tick());
+    log_of(LogPart::replay)
+        .warn("{} is being written, or was cut short: it plays to its last whole tick, {}", options.path,
+              source->last_tick());
   const PlayerOptions player{
       options.at_end, options.speed, ticks_per_transform,
       [path = options.path, limit = std::make_shared<LogLimit>()](const std::string& what) {
         if (const auto more = limit->admit("replay", steady_now_s()))
-          spdlog::warn("{}: {}{}", path, what, *more);
+          log_of(LogPart::replay).warn("{}: {}{}", path, what, *more);
       }};
   const Spawn spawn = source->spawn();
   return ReplayFeed{std::make_unique<RecordedFeed>(std::move(source), player), world, spawn};

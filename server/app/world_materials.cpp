@@ -1,10 +1,10 @@
 #include "server/app/world_materials.h"
 
 #include <set>
-#include <spdlog/spdlog.h>
 
 #include "content/builtin_palette.h"
 #include "content/files/palette_file.h"
+#include "server/log/log.h"
 #include "shared/material/rubble.h"
 
 namespace scree {
@@ -43,11 +43,12 @@ void tell_missing_images(const Palette& palette, const ContentFiles* images) {
     for (const std::optional<Digest>& image : {row.look.albedo, row.look.normal})
       if (image && (images == nullptr || !images->contains(*image))) missing.insert(*image);
   if (missing.empty()) return;
-  spdlog::info(
-      "{} images that this world's materials name are not here, and clients draw these without: give the "
-      "file "
-      "of the materials (--materials)",
-      missing.size());
+  log_of(LogPart::content)
+      .info(
+          "{} images that this world's materials name are not here, and clients draw these without: give the "
+          "file "
+          "of the materials (--materials)",
+          missing.size());
 }
 
 }  // namespace scree

@@ -336,6 +336,12 @@ int Bodies::steps_a_tick() const {
   return state_->steps_a_tick;
 }
 
+bool Bodies::is_awake(PieceId id) const {
+  const auto found = state_->bodies.find(id);
+  CHECK(found != state_->bodies.end());
+  return found->second.rigid->isActive();
+}
+
 size_t Bodies::awake() const {
   return static_cast<size_t>(std::ranges::count_if(
       state_->bodies, [](const auto& entry) { return entry.second.rigid->isActive(); }));

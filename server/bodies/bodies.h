@@ -203,6 +203,8 @@ class Bodies {
 
   /// Steps of the simulation in one tick: one up to limits::step_max_s, more in longer ticks.
   int steps_a_tick() const;
+  /// Whether the body, which must be present, is awake.
+  bool is_awake(PieceId id) const;
   /// Number of bodies that are awake.
   size_t awake() const;
   /// Number of points at which bodies touched terrain or each other in the last step.

@@ -59,6 +59,7 @@ constexpr Row rows[] = {
     {Refusal::dig_rate, "dig_rate"},
     {Refusal::in_the_way, "in_the_way"},
     {Refusal::rules_invalid, "rules_invalid"},
+    {Refusal::restore_invalid, "restore_invalid"},
     {Refusal::host, "host"},
     {Refusal::model_missing, "model_missing"},
     {Refusal::replay, "replay"},

@@ -59,6 +59,7 @@ enum class Refusal : uint8_t {
   dig_rate,
   in_the_way,
   rules_invalid,
+  restore_invalid,
   // The host's own rule refuses a request (server/host/host_hooks.h).
   host,
   // The server does not have the model that a prop names.

@@ -162,7 +162,8 @@ Role role_for(const Request& request) {
                                [](const DigRequest& dig) { return role_of(dig); },
                                [](const PlaceRequest& place) { return role_of(place); },
                                [](const TransferRequest& transfer) { return role_of(transfer); },
-                               [](const RulesRequest&) { return Role::admin; }},  // whom the world refuses
+                               [](const RulesRequest&) { return Role::admin; },  // whom the world refuses
+                               [](const RestoreRequest&) { return Role::admin; }},
                     request);
 }
 

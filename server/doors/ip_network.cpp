@@ -80,4 +80,17 @@ Result<IpNetwork> read_network(const std::string& text, BitsMin min) {
   return network_of(*address, as_v6 ? *bits : v4_at + *bits);
 }
 
+Result<std::vector<IpNetwork>> read_networks(std::span<const std::string> texts) {
+  std::vector<IpNetwork> networks;
+  for (const std::string& text : texts) networks.push_back(TRY(read_network(text)));
+  return networks;
+}
+
+bool any_holds(std::span<const IpNetwork> networks, std::string_view ip) {
+  if (networks.empty()) return false;
+  const auto address = read_ip(ip);
+  return address &&
+         std::ranges::any_of(networks, [&](const IpNetwork& network) { return network.holds(*address); });
+}
+
 }  // namespace scree

@@ -7,8 +7,10 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "shared/base/result.h"
 
@@ -44,5 +46,8 @@ struct BitsMin {
 
 /// ADDRESS/BITS; an address alone is a network of itself. The error names the bits that there may be.
 Result<IpNetwork> read_network(const std::string& text, BitsMin min = {});
+Result<std::vector<IpNetwork>> read_networks(std::span<const std::string> texts);
+/// Whether one of them holds the address; not where the text is no address.
+bool any_holds(std::span<const IpNetwork> networks, std::string_view ip);
 
 }  // namespace scree

@@ -1,6 +1,5 @@
 #include "server/doors/proxies.h"
 
-#include <algorithm>
 #include <asio/ip/address.hpp>
 
 namespace scree {
@@ -25,15 +24,12 @@ std::string_view without_port(std::string_view entry) {
 
 Result<Proxies> Proxies::parse(const std::vector<std::string>& networks) {
   Proxies proxies;
-  for (const std::string& text : networks) proxies.networks_.push_back(TRY(read_network(text)));
+  proxies.networks_ = TRY(read_networks(networks));
   return proxies;
 }
 
 bool Proxies::contains(std::string_view ip) const {
-  if (networks_.empty()) return false;
-  const auto address = read_ip(ip);
-  return address &&
-         std::ranges::any_of(networks_, [&](const IpNetwork& network) { return network.holds(*address); });
+  return any_holds(networks_, ip);
 }
 
 std::string Proxies::client_of(std::string_view forwarded_for, const std::string& sender) const {

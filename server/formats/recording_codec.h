@@ -23,7 +23,7 @@ namespace scree {
 
 /// Version of the blobs and the tables that is written, and the oldest that is read: what both have is the
 /// same. A reader refuses any other.
-inline constexpr uint32_t recording_format = 9;
+inline constexpr uint32_t recording_format = 10;
 inline constexpr uint32_t recording_format_oldest = 6;
 constexpr bool reads_recording_format(uint32_t format) {
   return recording_format_oldest <= format && format <= recording_format;

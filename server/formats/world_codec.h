@@ -17,7 +17,7 @@
 namespace scree {
 
 /// Version of the rows and tables of a world file. A reader refuses any other.
-inline constexpr uint32_t world_format = 4;
+inline constexpr uint32_t world_format = 5;
 inline constexpr uint32_t world_format_oldest = 1;
 constexpr bool reads_world_format(uint32_t format) {
   return world_format_oldest <= format && format <= world_format;

@@ -28,6 +28,7 @@
 #include "shared/game/sign.h"
 #include "shared/prop/joint.h"
 #include "shared/prop/prop.h"
+#include "shared/recombine/settled_stone.h"
 
 namespace scree {
 
@@ -319,6 +320,9 @@ struct WorldMoment {
   std::vector<StoreRecord> stores;     ///< ordered by owner
   std::vector<PlacedMass> provenance;  ///< ordered by place and origin
   GameValue game;
+  /// Stones where pieces merged, ordered by id. They are for the eye alone: rows of a world's file, and no
+  /// part of the value's bytes, by which worlds are compared.
+  std::vector<SettledStone> stones;
 };
 
 struct WorldSnapshot {

@@ -19,6 +19,7 @@
 #include "proto/messages.h"
 #include "server/command/command.h"
 #include "server/command/joined_person.h"
+#include "server/metrics/figure.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 
@@ -99,6 +100,8 @@ struct HostHooks {
   /// Called with what an administrator wants of the rules; the host answers it by HostActs::send(), with an
   /// AdminListMessage of that request. Empty: such requests are refused.
   std::function<void(uint64_t session, uint32_t request, const ControlRulesRequest& wish)> controlled;
+  /// Called for the host's own figures, which /metrics shows behind the server's; on the network thread.
+  std::function<std::vector<Figure>()> figures;
   /// Called when the simulation has ended, by the thread that stops the server.
   std::function<void()> stopped;
 };

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <variant>
 
 #include "auth/access_token.h"
 #include "proto/spawn_direction.h"
 #include "server/doors/unix_time.h"
+#include "server/log/log.h"
+#include "server/net/party_rows.h"
 #include "server/world/settings.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/timing.h"
@@ -108,7 +109,8 @@ void Administration::log_settings(const TickDelta& delta) {
   if (settings_asked_.empty()) return;
   for (const Reply& reply : delta.replies) {
     const auto asked = settings_asked_.extract({reply.session, reply.request});
-    if (!asked.empty() && reply.refusal.empty()) spdlog::info("{}", asked.mapped());
+    if (!asked.empty() && reply.refusal.empty())
+      log_of(LogPart::admin, reply.session).info("{}", asked.mapped());
   }
 }
 
@@ -120,6 +122,11 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
   const auto list = [&](AdminListMessage rows) {
     rows.request = message.request;
     session.send(ServerMessage(std::move(rows)));
+  };
+  const auto history = [&](const HistoryAct& asked) {
+    if (ask_history_) return ask_history_(session.id(), message.request, asked, author_of(session));
+    requests_.refuse(session, message.request,
+                     {Refusal::admin_invalid, "this server remembers no edits (--history-mb)"});
   };
   const auto reply = [&](const Result<void>& done) {
     if (!done)
@@ -134,22 +141,34 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
                  [&](const ListJointsRequest& joints) { list(publisher_.list(joints)); },
                  [&](const ListStoresRequest& stores) { list(publisher_.list(stores)); },
                  [&](const ListRegionMassesRequest& masses) { list(publisher_.list(masses)); },
+                 [&](const HistoryRequest& asked) { history(asked); },
+                 [&](const UndoRequest& asked) { history(asked); },
+                 [&](const ListFlightRequest& flight) { list(this->flight(flight)); },
                  [&](const KickRequest& kick) { reply(this->kick(kick, author_of(session))); },
                  [&](const BanRequest& ban) { reply(this->ban(ban, author_of(session))); },
                  [&](const LiftBanRequest& lift) { reply(this->lift(lift, author_of(session))); },
                  [&](const ControlRulesRequest& rules) {
                    if (!control_rules_) return reply(fail("this server runs no rules (--rules)"));
                    if (rules.control != RulesControl::list)
-                     spdlog::info("{} {}", author_of(session),
-                                  rules.control == RulesControl::reload
-                                      ? "reads the rules again"
-                                      : "runs a line of rules: " + rules.line);
+                     log_of(LogPart::admin, session.id())
+                         .info("{} {}", author_of(session),
+                               rules.control == RulesControl::reload ? "reads the rules again"
+                                                                     : "runs a line of rules: " + rules.line);
                    control_rules_(session.id(), message.request, rules);
                  },
                  [&](const ControlReplayRequest& control) {
                    reply(control_ ? control_(control) : fail("this server plays no recording (--replay)"));
                  }},
       message.act);
+}
+
+AdminListMessage Administration::flight(const ListFlightRequest& request) const {
+  AdminListMessage message;
+  if (request.list == FlightList::parties)
+    message.parties = with_sessions(flight_.parties ? flight_.parties() : std::vector<PartyRow>(), sessions_);
+  else if (flight_.ticks)
+    message.slow_ticks = flight_.ticks(request);
+  return message;
 }
 
 std::vector<BanRow> Administration::ban_rows() const {
@@ -173,8 +192,9 @@ Result<void> Administration::kick(const KickRequest& kick, const std::string& au
   const SessionEntry* const entry = sessions_.find(kick.session);
   const bool is_away = entry == nullptr && tickets_.departed(kick.session) != nullptr;
   if (entry == nullptr && !is_away) return fail(fmt::format("there is no session {}", kick.session));
-  spdlog::info("session {} is kicked by {}{}", kick.session, author,
-               with_reason(is_away ? ", while its connection was lost" : "", kick.reason));
+  log_of(LogPart::admin, kick.session)
+      .info("session {} is kicked by {}{}", kick.session, author,
+            with_reason(is_away ? ", while its connection was lost" : "", kick.reason));
   if (is_away) {
     tickets_.forget(kick.session);
     return {};
@@ -199,7 +219,7 @@ Result<void> Administration::ban(const BanRequest& ban, const std::string& autho
   Result<void> added = authorizer_.bans().add(key, {until_s, ban.reason}, now_s);
   const std::string until =
       until_s == 0 ? "until that is lifted" : "until " + iso_time(until_s * ms_per_second);
-  spdlog::info("{} is banned {} by {}{}", key, until, author, with_reason("", ban.reason));
+  log_of(LogPart::admin).info("{} is banned {} by {}{}", key, until, author, with_reason("", ban.reason));
   end_banned();
   return added;
 }
@@ -224,14 +244,14 @@ void Administration::end_banned() {
 
 void Administration::read_bans_again() {
   if (const auto read = authorizer_.bans().read_again(); !read)
-    spdlog::warn("not all bans were read again: {}", read.error().message);
+    log_of(LogPart::admin).warn("not all bans were read again: {}", read.error().message);
   end_banned();
 }
 
 Result<void> Administration::lift(const LiftBanRequest& lift, const std::string& author) {
   const std::string key = TRY(ban_key(lift.address));
   Result<void> lifted = authorizer_.bans().lift(key);
-  if (lifted) spdlog::info("the ban of {} is lifted by {}", key, author);
+  if (lifted) log_of(LogPart::admin).info("the ban of {} is lifted by {}", key, author);
   return lifted;
 }
 

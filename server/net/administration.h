@@ -23,10 +23,14 @@ class Administration {
   using Control = std::function<Result<void>(const ControlReplayRequest&)>;
   using ControlRules = std::function<void(uint64_t session, uint32_t request, const ControlRulesRequest&)>;
 
-  /// All arguments but `control` and `control_rules`, which are as of NetConfig, must outlive this object.
+  using AskHistory =
+      std::function<void(uint64_t session, uint32_t request, const HistoryAct&, const std::string& who)>;
+
+  /// All arguments but the functions, which are as of NetConfig, must outlive this object.
   /// `counts`: requests are counted there.
   Administration(SessionTable& sessions, Requests& requests, Authorizer& authorizer, Tickets& tickets,
-                 NetStats& counts, Control control, ControlRules control_rules, const Publisher& publisher)
+                 NetStats& counts, Control control, ControlRules control_rules, AskHistory ask_history,
+                 const Publisher& publisher)
       : sessions_(sessions),
         requests_(requests),
         authorizer_(authorizer),
@@ -34,8 +38,11 @@ class Administration {
         counts_(counts),
         control_(std::move(control)),
         control_rules_(std::move(control_rules)),
+        ask_history_(std::move(ask_history)),
         publisher_(publisher) {}
 
+  /// From now on.
+  void set_flight(FlightReports flight) { flight_ = std::move(flight); }
   /// Handles a request. The error is a wrong admin token's, and ends the session.
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
   /// Logs the settings that administrators asked for and that this tick made so.
@@ -51,6 +58,7 @@ class Administration {
   Result<const PlayerCursor*> person_at(const ClientSession& session, const std::string& number) const;
   void act(ClientSession& session, const AdminMessage& message);
   std::vector<BanRow> ban_rows() const;
+  AdminListMessage flight(const ListFlightRequest& request) const;
   Result<void> kick(const KickRequest& kick, const std::string& author);
   Result<void> ban(const BanRequest& ban, const std::string& author);
   Result<void> lift(const LiftBanRequest& lift, const std::string& author);
@@ -68,6 +76,8 @@ class Administration {
   NetStats& counts_;
   const Control control_;
   const ControlRules control_rules_;
+  const AskHistory ask_history_;
+  FlightReports flight_;
   const Publisher& publisher_;  ///< has the cursors of the persons who are there
   /// Lines for the log, by session and request, of settings that the world has not answered yet.
   std::map<std::pair<uint64_t, uint32_t>, std::string> settings_asked_;

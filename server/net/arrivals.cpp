@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 #include <optional>
-#include <spdlog/spdlog.h>
 
+#include "server/log/log.h"
 #include "server/net/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/text.h"
@@ -44,7 +44,7 @@ void Arrivals::turned_away(asio::ip::tcp::socket socket, const std::string& addr
 void Arrivals::count_turned_away(const std::string& peer, const Refused& refused) {
   ++parts_.counts.turned_away;
   parts_.counts.refusals.add(refused.reason);
-  parts_.log.say(spdlog::level::warn, name_of(refused.reason),
+  parts_.log.say(log_of(LogPart::net), LogLevel::warn, name_of(refused.reason),
                  fmt::format("{} turned away ({}): {}", peer, name_of(refused.reason), refused.message));
   changed_();
 }
@@ -78,7 +78,7 @@ void Arrivals::named(uint64_t id, const std::string& ip, const std::string& peer
 }
 
 void Arrivals::accepting_failed(const std::string& why) {
-  parts_.log.say(spdlog::level::warn, "accept", "cannot accept connections: " + why);
+  parts_.log.say(log_of(LogPart::net), LogLevel::warn, "accept", "cannot accept connections: " + why);
   close_an_outsider("the server lacks descriptors: " + why);
 }
 
@@ -104,7 +104,7 @@ void Arrivals::begin_session(std::shared_ptr<Transport> transport, const Visitor
   entry.at_door = from.at_door;
   // A client may say itself that it was relayed, which is no way around its address's budget.
   entry.is_many = from.relayed && parts_.config.proxies.contains(session->ip());
-  spdlog::debug("session {}: {} connected", id, session->peer());
+  log_of(LogPart::net, id).debug("session {}: {} connected", id, session->peer());
   if (parts_.sessions.outsiders() + parts_.web.size() > parts_.room.outsiders_max())
     close_an_outsider("too many connections that have not said hello (limits.outsiders_max)");
   session->start();

@@ -90,6 +90,7 @@ bool ClientSession::receive_message(std::span<const uint8_t> body) {
     return fail_with({Refusal::messages_per_second,
                       fmt::format("more than {} messages a second (limits.messages_per_second_max)",
                                   limits::messages_per_second_max)});
+  host_.count_in(body);
   const auto message = decode_client(body);
   if (!message) return fail_with({Refusal::message_malformed, message.error().message});
   if (phase_ == Phase::hello) return receive_first(*message);
@@ -137,6 +138,7 @@ void ClientSession::queue(SharedBytes bytes) {
   CHECK(bytes != nullptr && bytes->size() >= length_prefix_bytes);
   if (backlog_bytes_ == 0) progress_s_ = times_.now_s();
   backlog_bytes_ += bytes->size();
+  host_.count_out(*bytes);
   outbox_.push_back(std::move(bytes));
   CHECK_DEBUG(backlog_adds_up());
 }

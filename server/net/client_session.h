@@ -43,6 +43,9 @@ class SessionHost {
   /// Handles any later message. An error is sent as a refusal, and ends the session.
   virtual tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) = 0;
   virtual void refused(ClientSession& session, const Refused& refused) = 0;
+  /// Counts what is queued for a client, with the length in front, and what came from one, without.
+  virtual void count_out(std::span<const uint8_t> /*bytes*/) {}
+  virtual void count_in(std::span<const uint8_t> /*body*/) {}
   /// The last call for this session.
   virtual void closed(ClientSession& session, const std::string& reason) = 0;
 };

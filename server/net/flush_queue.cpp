@@ -12,8 +12,8 @@
 
 namespace scree {
 
-void FlushQueue::add(const std::shared_ptr<ClientSession>& session, Tick tick) {
-  if (!session->wait_for_flush()) waiting_.push_back({session, tick});
+void FlushQueue::add(const std::shared_ptr<ClientSession>& session, Tick tick, double done_s) {
+  if (!session->wait_for_flush()) waiting_.push_back({session, tick, done_s});
 }
 
 /// A recording's ticks may go back.
@@ -51,6 +51,20 @@ void FlushQueue::send(size_t count) {
     one.session->settle();
   }
   rate_.flushed(count, steady_now_s() - begin_s);
+  note_age(turn);
+}
+
+/// Those of a tick have the same age.
+void FlushQueue::note_age(std::span<const Waiting> sent) {
+  const double now_s = steady_now_s();
+  while (!sent.empty()) {
+    const double since_s = sent.front().since_s;
+    const auto others =
+        std::ranges::find_if(sent, [&](const Waiting& one) { return one.since_s != since_s; });
+    const auto count = static_cast<size_t>(others - sent.begin());
+    frame_age_.add(std::max(0.0, 1e3 * (now_s - since_s)), count);
+    sent = sent.subspan(count);
+  }
 }
 
 }  // namespace scree

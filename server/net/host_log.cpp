@@ -4,9 +4,9 @@ namespace scree {
 
 void log_access(const Access& access) {
   if (!access.tls()) return;
-  spdlog::info("TLS: the certificate's SHA-256 fingerprint is {}", access.tls()->fingerprint());
+  log_of(LogPart::net).info("TLS: the certificate's SHA-256 fingerprint is {}", access.tls()->fingerprint());
   if (access.tls()->out_of_date())
-    spdlog::warn("TLS: the certificate has expired, or is not valid yet: clients refuse it");
+    log_of(LogPart::net).warn("TLS: the certificate has expired, or is not valid yet: clients refuse it");
 }
 
 }  // namespace scree

@@ -1,11 +1,11 @@
 // The network side's lines for the log: of each kind a few a second. On the network thread.
 #pragma once
 
-#include <spdlog/spdlog.h>
 #include <string>
 #include <string_view>
 
 #include "server/doors/access.h"
+#include "server/log/log.h"
 #include "shared/base/log_limit.h"
 #include "shared/base/timing.h"
 
@@ -13,8 +13,8 @@ namespace scree {
 
 class HostLog {
  public:
-  void say(spdlog::level::level_enum level, std::string_view kind, const std::string& line) {
-    if (const auto more = limit_.admit(kind, steady_now_s())) spdlog::log(level, "{}{}", line, *more);
+  void say(const PartLog& log, LogLevel level, std::string_view kind, const std::string& line) {
+    if (const auto more = limit_.admit(kind, steady_now_s())) log.write(level, line + *more);
   }
 
  private:

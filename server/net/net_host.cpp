@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <utility>
 
 #include "crypto/signing_key.h"
 #include "proto/codec.h"
 #include "server/doors/unix_time.h"
+#include "server/log/log.h"
 #include "server/net/may_wait.h"
 #include "server/net/person_eyes.h"
 #include "server/net/person_names.h"
@@ -65,7 +65,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       requests_(commands, sessions_, figures_.counts(), config_),
       returns_([this](uint64_t session) { requests_.gone(session); }, door_),
       administration_(sessions_, requests_, authorizer_, returns_.tickets(), figures_.counts(),
-                      config_.control, config_.control_rules, publisher_),
+                      config_.control, config_.control_rules, config_.ask_history, publisher_),
       web_(config_, authorizer_, door_, bytes_out_, figures_.counts(), log_, *this),
       arrivals_(context_,
                 {config_, door_, authorizer_, sessions_, room_, web_, *this, figures_.counts(), log_},
@@ -74,22 +74,26 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       workers_(config_.net_threads),
       publisher_(publisher_config(config_), workers_),
       flush_queue_(context_, workers_, config_.tick_rate_hz),
-      timer_(context_) {}
+      timer_(context_) {
+  administration_.set_flight(config_.flight);
+}
 
 Result<void> NetHost::listen() {
   TRY(authorizer_.open());
   log_access(authorizer_.access());
   if (const std::string& fault = authorizer_.bans().fault(); !fault.empty())
-    spdlog::warn("not all lines of the file of bans hold: {}", fault);
-  for (const std::string& open : open_doors(config_.access, config_.bind)) spdlog::warn("open: {}", open);
+    log_of(LogPart::admin).warn("not all lines of the file of bans hold: {}", fault);
+  for (const std::string& open : open_doors(config_.access, config_.bind))
+    log_of(LogPart::admin).warn("open: {}", open);
   TRY(web_.open());
   TRY(arrivals_.listen());
   if (web_.speaks_http() && config_.web.hosts.empty() && !is_loopback_address(config_.bind))
-    spdlog::info(
-        "browsers reach this server by its addresses in numbers, localhost or {}: any other name needs "
-        "--web-host NAME "
-        "(SCREE_WEB_HOST)",
-        own_host_name());
+    log_of(LogPart::net)
+        .info(
+            "browsers reach this server by its addresses in numbers, localhost or {}: any other name needs "
+            "--web-host NAME "
+            "(SCREE_WEB_HOST)",
+            own_host_name());
   room_.fit(service_.sessions_max);
   tick_timer();
   return {};
@@ -145,6 +149,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
                   hello.world == world_, entry.party);
   publisher_.set_store(session.id(), store_of_person(grant.token_id, session.id()));
   publisher_.set_team(session.id(), grant.team, hello.meets);
+  publisher_.want_stones(session.id(), hello.stones);
   bytes_out_.open(entry.receiver(), now_s);
   name_person(sessions_, session.id(), talk_);
   entry.program = hello.client;
@@ -158,11 +163,11 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   note(EventKind::join, entry, hello.eye_m);
   if (config_.joined)
     config_.joined({session.id(), entry.name, grant.role, grant.team, grant.token_id,
-                    hello.meets && !hello.administers, before.has_value(), hello.administers});
+                    hello.meets && !hello.administers, before.has_value(), hello.administers, session.ip()});
   ++figures_.counts().sessions_joined;
   figures_.counts().sessions_resumed += before ? 1 : 0;
   update_stats();
-  log_.say(spdlog::level::info, "joined",
+  log_.say(log_of(LogPart::net, session.id()), LogLevel::info, "joined",
            fmt::format("session {}: {} {} from {} as {}, interest {} m", session.id(), hello.client,
                        before ? "goes on" : "joined", session.peer(), name_of(grant.role), radius_m));
 }
@@ -179,7 +184,7 @@ tl::expected<void, Refused> NetHost::receive(ClientSession& session, const Clien
             return ask(session, asked.request, static_cast<const Asks&>(asked));
           },
           [&](const RepairMessage& repair) -> Done {
-            log_.say(spdlog::level::warn, "repair",
+            log_.say(log_of(LogPart::net, session.id()), LogLevel::warn, "repair",
                      fmt::format("session {}: {} chunks differ at tick {}", session.id(),
                                  repair.chunks.size(), repair.tick));
             publisher_.repair(session.id(), repair);
@@ -268,7 +273,7 @@ tl::expected<void, Refused> NetHost::skip(ClientSession& session, const UnknownM
     requests_.refuse(session, *unknown.request, {Refusal::value_unknown, why});
     return {};
   }
-  log_.say(spdlog::level::info, "message_unknown",
+  log_.say(log_of(LogPart::net, session.id()), LogLevel::info, "message_unknown",
            fmt::format("session {}: a message of an unknown kind is skipped", session.id()));
   return {};
 }
@@ -288,7 +293,7 @@ void NetHost::refused(ClientSession& session, const Refused& refused) {
   if (!session.turned_away()) {  // which is counted already
     ++figures_.counts().sessions_refused;
     figures_.counts().refusals.add(refused.reason);
-    log_.say(spdlog::level::warn, name_of(refused.reason),
+    log_.say(log_of(LogPart::net, session.id()), LogLevel::warn, name_of(refused.reason),
              fmt::format("session {}: {} refused ({}): {}", session.id(), session.peer(),
                          name_of(refused.reason), refused.message));
   }
@@ -303,10 +308,10 @@ void NetHost::closed(ClientSession& session, const std::string& reason) {
   if (const std::optional<Refusal> disconnect_reason = session.disconnect_reason()) {
     ++figures_.counts().sessions_disconnected;
     figures_.counts().refusals.add(*disconnect_reason);
-    log_.say(spdlog::level::warn, name_of(*disconnect_reason),
+    log_.say(log_of(LogPart::net, session.id()), LogLevel::warn, name_of(*disconnect_reason),
              fmt::format("session {}: {} cut off: {}", session.id(), session.peer(), reason));
   } else if (!session.only_asked() && !session.turned_away()) {
-    log_.say(spdlog::level::info, "closed",
+    log_.say(log_of(LogPart::net, session.id()), LogLevel::info, "closed",
              fmt::format("session {}: {} closed: {}", session.id(), session.peer(), reason));
   }
   SessionEntry& entry = sessions_.at(session.id());

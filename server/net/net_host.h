@@ -27,6 +27,7 @@
 #include "server/net/ground_pace.h"
 #include "server/net/host_figures.h"
 #include "server/net/host_log.h"
+#include "server/net/message_counts.h"
 #include "server/net/net_server.h"
 #include "server/net/requests.h"
 #include "server/net/returns.h"
@@ -78,6 +79,8 @@ class NetHost final : public SessionHost, public WebHost {
   tl::expected<void, Refused> receive(ClientSession& session, const ClientMessage& message) override;
   void refused(ClientSession& session, const Refused& refused) override;
   void closed(ClientSession& session, const std::string& reason) override;
+  void count_out(std::span<const uint8_t> bytes) override { messages_.add_out(bytes); }
+  void count_in(std::span<const uint8_t> body) override { messages_.add_in(body); }
   // ---- WebHost
   void begin_websocket(std::shared_ptr<Transport> stream, const Visitor& from, uint64_t id) override {
     arrivals_.begin_session(std::move(stream), from, id);
@@ -99,7 +102,7 @@ class NetHost final : public SessionHost, public WebHost {
   void check_time();
   void share_bytes_out();
   void grant(const ServiceLimits& service);
-  void queue_frames(const TickDelta& delta);
+  void queue_frames(const TickDelta& delta, double done_s);
   void stream_ground();
   Backlog backlog_of(uint64_t session) const;
   void answer(const TickDelta& delta, const TickSpan& span);
@@ -114,6 +117,7 @@ class NetHost final : public SessionHost, public WebHost {
   ServiceLimits service_;  ///< as they stand
   const uint64_t world_;   ///< WelcomeMessage::world
   HostFigures figures_;
+  MessageCounts messages_;
   HostLog log_;
   asio::io_context context_;
   Door door_;

@@ -22,12 +22,15 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   if (delta.service && *delta.service != service_) grant(*delta.service);
   RefusalCounts& refusals = figures_.counts().refusals;
   for (const Reply& reply : delta.replies)
-    if (reply.reason) refusals.add(*reply.reason);
+    if (reply.reason) {
+      refusals.add(*reply.reason);
+      if (SessionEntry* const entry = sessions_.find(reply.session)) ++entry->refused;
+    }
   publisher_.set_refusals(refusals);
   if (delta.tick % config_.tick_rate_hz == 0) publisher_.set_latency(requests_.times().drain_status());
   if (config_.saving) publisher_.set_saving(config_.saving());
   share_bytes_out();
-  queue_frames(delta);
+  queue_frames(delta, span.done_s);
   administration_.log_settings(delta);
   answer(delta, span);
   flush_queue_.send_turn(delta.tick, more);
@@ -54,7 +57,7 @@ Backlog NetHost::backlog_of(uint64_t session) const {
   return backlog;
 }
 
-void NetHost::queue_frames(const TickDelta& delta) {
+void NetHost::queue_frames(const TickDelta& delta, double done_s) {
   const auto backlog = [this](uint64_t session) { return backlog_of(session); };
   const auto& entries = sessions_.entries();
   auto found = entries.begin();
@@ -63,7 +66,7 @@ void NetHost::queue_frames(const TickDelta& delta) {
     if (found != entries.end() && found->first < outgoing.session) ++found;
     if (found == entries.end() || found->first != outgoing.session) found = entries.find(outgoing.session);
     if (found == entries.end()) continue;
-    flush_queue_.add(found->second.session, delta.tick);
+    flush_queue_.add(found->second.session, delta.tick, done_s);
     found->second.session->queue(std::move(outgoing.bytes));
   }
 }
@@ -113,8 +116,19 @@ HealthMessage NetHost::health() {
 
 NetFigures NetHost::status_figures() {
   update_stats();
-  return {figures_.stats(), figures_.latency(), publisher_.status(), sessions_.rows(steady_now_s()),
-          health()};
+  NetFigures figures{.stats = figures_.stats(),
+                     .latency = figures_.latency(),
+                     .status = publisher_.status(),
+                     .sessions = sessions_.rows(steady_now_s()),
+                     .health = health(),
+                     .messages = messages_,
+                     .frame_age = flush_queue_.frame_age(),
+                     .sessions_max = static_cast<uint32_t>(room_.sessions_max())};
+  for (const auto& [id, entry] : sessions_.entries()) {
+    figures.unsent_bytes += entry.session->backlog_bytes();
+    figures.sessions_behind += entry.session->backlog().reads_along() ? 0 : 1;
+  }
+  return figures;
 }
 
 }  // namespace scree

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <functional>
 #include <thread>
+#include <utility>
 
 #include "server/net/net_host.h"
 #include "shared/base/check.h"
@@ -27,6 +28,7 @@ struct NetServer::Impl {
   size_t in_flight = 0;  ///< guarded by mutex
   bool stopped = false;  ///< guarded by mutex
   std::atomic<uint64_t> waits{0};
+  NetLoad load;  ///< guarded by mutex
 };
 
 NetServer::NetServer(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -80,9 +82,19 @@ void NetServer::publish(std::shared_ptr<const TickDelta> delta, const TickSpan& 
     CHECK_EQ(delta->tick, impl_->published + 1,
              "publish every tick, in order: clients hold the world by its changes");
   impl_->published = delta->tick;
-  impl_->post([host = &impl_->host, delta = std::move(delta), span](bool more) {
-    host->publish(*delta, span, more);
+  impl_->post([impl = impl_.get(), delta = std::move(delta), span, posted_s = steady_now_s()](bool more) {
+    const double taken_s = steady_now_s(), cpu_s = thread_cpu_s();
+    impl->host.publish(*delta, span, more);
+    const auto ms = [](double seconds) { return static_cast<float>(1e3 * seconds); };
+    const NetLoad load{ms(taken_s - posted_s), ms(steady_now_s() - taken_s), ms(thread_cpu_s() - cpu_s)};
+    const std::scoped_lock lock(impl->mutex);
+    if (load.lag_ms + load.busy_ms >= impl->load.lag_ms + impl->load.busy_ms) impl->load = load;
   });
+}
+
+NetLoad NetServer::load() const {
+  const std::scoped_lock lock(impl_->mutex);
+  return std::exchange(impl_->load, NetLoad{});
 }
 
 Result<void> NetServer::reload() {

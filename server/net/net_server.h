@@ -24,10 +24,13 @@
 #include "server/doors/access.h"
 #include "server/doors/bytes_out.h"
 #include "server/doors/door.h"
+#include "server/doors/ip_network.h"
 #include "server/doors/limits.h"
 #include "server/doors/proxies.h"
 #include "server/net/command_queue.h"
+#include "server/net/flight_reports.h"
 #include "server/net/limits.h"
+#include "server/net/message_counts.h"
 #include "server/net/request_times.h"
 #include "server/net/server_health.h"
 #include "server/publish/limits.h"
@@ -66,6 +69,19 @@ struct NetFigures {
   StatusMessage status;   ///< what clients are told alike
   std::vector<SessionRow> sessions;
   HealthMessage health;
+  MessageCounts messages;
+  Durations frame_age;        ///< of frames when their client's socket is given them, since their tick's end
+  uint64_t unsent_bytes = 0;  ///< that wait for all clients together
+  uint64_t sessions_behind =
+      0;                      ///< of those that have joined: more waits for them than their links take soon
+  uint32_t sessions_max = 0;  ///< the setting
+};
+
+/// How the network thread keeps up, by the tick that it took latest since it was asked before.
+struct NetLoad {
+  float lag_ms = 0.0F;   ///< from the tick's end until it was taken
+  float busy_ms = 0.0F;  ///< for handing it on
+  float cpu_ms = 0.0F;   ///< of it on a processor
 };
 
 struct NetConfig {
@@ -102,8 +118,13 @@ struct NetConfig {
   std::function<void(uint64_t session, const ChannelData&)> heard;
   /// Takes what an administrator wants of the rules, which answer later. Empty: this server has none.
   std::function<void(uint64_t session, uint32_t request, const ControlRulesRequest&)> control_rules;
+  /// Takes what an administrator asks of the world's history, which answers later, and who he is, in words.
+  /// Empty: this server keeps none.
+  std::function<void(uint64_t session, uint32_t request, const HistoryAct&, const std::string& who)>
+      ask_history;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplayRequest&)> control;
+  FlightReports flight{};
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
   bool chat = true;                     ///< whether persons' lines are passed on
   bool log_chat = false;                ///< whether they are logged, too
@@ -116,6 +137,9 @@ struct NetConfig {
   /// status.json for operators (docs/browser.md); on the network thread. Empty, or an empty text: there is
   /// none.
   std::function<std::string(const NetFigures&)> status;
+  /// Likewise /metrics (docs/monitoring.md).
+  std::function<std::string(const NetFigures&)> metrics;
+  std::vector<IpNetwork> metrics_readers;  ///< whose programs may read it, beside those of this machine
 };
 
 class NetServer {
@@ -154,6 +178,8 @@ class NetServer {
   NetStats stats() const;
   /// The latency of requests that a tick answered, since the start. From any thread.
   LatencyCounts latency() const;
+  /// Of the ticks since the last call. From any thread.
+  NetLoad load() const;
   /// Positions of the clients' eyes as of the last tick that was sent; metres. From any thread.
   std::vector<glm::vec3> eyes_m() const;
   /// Persons' cursors as of the last tick that was sent, by session. From any thread.

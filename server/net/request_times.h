@@ -8,7 +8,7 @@
 #include <deque>
 #include <map>
 
-#include "server/net/durations.h"
+#include "server/metrics/durations.h"
 #include "shared/base/latency.h"
 
 namespace scree {

@@ -121,6 +121,7 @@ void Requests::pass_input(ClientSession& session, const Command& command) {
 void Requests::refuse(ClientSession& session, uint32_t request, const Refused& refused) {
   ++counts_.requests_refused;
   counts_.refusals.add(refused.reason);
+  if (SessionEntry* const entry = sessions_.find(session.id())) ++entry->refused;
   session.send(
       ServerMessage(ReplyMessage{request, refused.message, 0, std::string(name_of(refused.reason))}));
 }

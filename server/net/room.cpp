@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <tuple>
 
 #include "server/doors/descriptors.h"
 #include "server/doors/limits.h"
+#include "server/log/log.h"
 
 namespace scree {
 
@@ -18,11 +18,12 @@ void Room::fit(uint32_t sessions_max) {
   descriptors_ = std::max(granted, 2 * limits::descriptors_reserved) - limits::descriptors_reserved;
   outsiders_max_ = std::min(limits::outsiders_max, descriptors_ / 4);
   if (granted >= wanted || this->sessions_max() == sessions_max) return;
-  spdlog::warn(
-      "this process may open {} files: room for {} sessions, not {} (sessions-max); ulimit -n, or "
-      "LimitNOFILE of a "
-      "service, says how many",
-      granted, this->sessions_max(), sessions_max);
+  log_of(LogPart::net)
+      .warn(
+          "this process may open {} files: room for {} sessions, not {} (sessions-max); ulimit -n, or "
+          "LimitNOFILE of a "
+          "service, says how many",
+          granted, this->sessions_max(), sessions_max);
 }
 
 size_t Room::sessions_max() const {

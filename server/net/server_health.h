@@ -15,7 +15,7 @@ namespace scree {
 /// What a fault is about: everything; what was promised to those who are there; newcomers.
 enum class HealthLevel : uint8_t { life, promise, place };
 
-enum class HealthKind : uint8_t { simulation, saving, recording, events, stopping, starting, full };
+enum class HealthKind : uint8_t { simulation, saving, recording, events, stopping, starting, full, backups };
 
 struct HealthRow {
   std::string_view name;
@@ -38,6 +38,8 @@ constexpr HealthRow row_of(HealthKind kind) {
       return {"starting", HealthLevel::place};
     case HealthKind::full:
       return {"full", HealthLevel::place};
+    case HealthKind::backups:
+      return {"backups", HealthLevel::promise};
   }
   return {};
 }

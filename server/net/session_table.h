@@ -35,6 +35,7 @@ struct SessionEntry {
   bool administers = false;  ///< as of HelloMessage
   bool at_door = true;       ///< it has a place there (Door::enter), which it gives back
   ByteAccount bytes_out{};   ///< of a joined session
+  uint64_t refused = 0;      ///< of its requests, by the world or by a limit
 
   RateLimit queries{limits::queries_per_second_max, limits::queries_burst_max};  ///< of questions about space
 

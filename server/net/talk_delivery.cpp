@@ -1,8 +1,9 @@
 #include "server/net/talk_delivery.h"
 
 #include <optional>
-#include <spdlog/spdlog.h>
 #include <vector>
+
+#include "server/log/log.h"
 
 namespace scree {
 
@@ -24,7 +25,8 @@ void pass_on(const SayMessage& said, ClientSession& speaker, Talk& talk, const S
   if (!heard) return;
   if (heard->by_all && listeners.hook && !listeners.hook(heard->line)) return;
   if (heard->by_all && listeners.log)
-    spdlog::info("session {} ({}) says: {}", speaker.id(), heard->line.name, heard->line.text);
+    log_of(LogPart::chat, speaker.id())
+        .info("session {} ({}) says: {}", speaker.id(), heard->line.name, heard->line.text);
   const SharedBytes line = share(heard->line);
   if (!heard->by_all) return speaker.send(line);
   for (const uint64_t id : talk.everybody()) {

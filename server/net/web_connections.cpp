@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include "auth/access_token.h"
 #include "proto/codec.h"
 #include "server/doors/entrance.h"
 #include "server/doors/unix_time.h"
+#include "server/log/log.h"
+#include "server/metrics/figure_page.h"
 #include "server/net/limits.h"
 #include "server/net/server_health.h"
 #include "shared/base/check.h"
@@ -32,6 +33,21 @@ std::optional<std::string> bearer_token(const std::string& authorization) {
 int status_of(Refusal reason) {
   if (reason == Refusal::token_missing) return 401;
   return reason == Refusal::token_guesses ? 429 : 403;
+}
+
+/// The refusal of somebody who is no administrator.
+HttpResponse for_administrators(Refusal reason) {
+  HttpResponse no = words(status_of(reason), std::string(name_of(reason)));
+  if (no.status == 401) no.fields.emplace_back("WWW-Authenticate", "Bearer");
+  no.refused = reason;
+  return no;
+}
+
+/// An answer that nobody keeps; without a text the server is not open yet.
+HttpResponse fresh_answer(const char* type, std::string text) {
+  if (text.empty()) return words(503, "the server is starting");
+  return {.fields = {{"Content-Type", type}, {"Cache-Control", "no-store"}},
+          .body = std::make_shared<const std::string>(std::move(text))};
 }
 
 }  // namespace
@@ -121,9 +137,10 @@ void WebConnections::note_proxy_here() {
   if (has_proxy_here_) return;
   has_proxy_here_ = true;
   door_.share_loopback();
-  spdlog::warn(
-      "a proxy on this machine brings others here: from now on its own programs have no more rights than "
-      "they. Name the proxy by --proxy 127.0.0.1, so that each person behind it has limits of their own");
+  log_of(LogPart::web)
+      .warn(
+          "a proxy on this machine brings others here: from now on its own programs have no more rights than "
+          "they. Name the proxy by --proxy 127.0.0.1, so that each person behind it has limits of their own");
 }
 
 HttpResponse WebConnections::answer(const HttpConnection& from, const HttpRequest& request) {
@@ -144,13 +161,17 @@ HttpResponse WebConnections::answer(const HttpConnection& from, const HttpReques
   const bool asks_health =
       request.path == "/healthz" || request.path == "/livez" || request.path == "/readyz";
   if (asks_health && request.method != HttpMethod::other) return answer_health(request);
-  if (auto no = site_->refuse_host(request, asker.peer)) return std::move(*no);
+  // Programs name the server as they reach it, in a container by a name that it does not know.
+  const bool asks_metrics = request.path == "/metrics" && request.method != HttpMethod::other;
+  if (!asks_metrics)
+    if (auto no = site_->refuse_host(request, asker.peer)) return std::move(*no);
   if (config_.access.tls_required && !from.encrypted()) {
     HttpResponse elsewhere = refusal(307, Refusal::tls_required, "this server accepts only https");
     if (!request.host.empty())
       elsewhere.fields.emplace_back("Location", "https://" + request.host + request.path);
     return elsewhere;
   }
+  if (asks_metrics) return metrics(from, asker, request);
   if (request.path == "/status.json" && request.method != HttpMethod::other)
     return status_json(asker, request);
   return answer_site(entry, asker, request);
@@ -231,20 +252,31 @@ void WebConnections::answered(const HttpResponse& response, size_t bytes) {
 }
 
 HttpResponse WebConnections::status_json(const Asker& asker, const HttpRequest& request) {
-  if (const auto may = may_see_status(asker, request); !may) {
-    HttpResponse no = words(status_of(may.error().reason), std::string(name_of(may.error().reason)));
-    if (no.status == 401) no.fields.emplace_back("WWW-Authenticate", "Bearer");
-    no.refused = may.error().reason;
-    return no;
-  }
+  if (const auto may = may_see_status(asker, request); !may) return for_administrators(may.error().reason);
   NetFigures figures = host_.status_figures();
   // A proxy here that nobody has named may ask, too, and show nothing.
   if (!authorizer_.knows_administrators())
     for (SessionRow& row : figures.sessions) row.name = row.address = "";
   std::string json = config_.status ? config_.status(figures) : std::string();
-  if (json.empty()) return words(503, "the server is starting");
-  return {.fields = {{"Content-Type", "application/json"}, {"Cache-Control", "no-store"}},
-          .body = std::make_shared<const std::string>(std::move(json))};
+  return fresh_answer("application/json", std::move(json));
+}
+
+/// The figures name no person and no address.
+HttpResponse WebConnections::metrics(const HttpConnection& from, const Asker& asker,
+                                     const HttpRequest& request) {
+  if (const auto may = may_see_metrics(from, asker, request); !may)
+    return for_administrators(may.error().reason);
+  return fresh_answer(figure_page_type, config_.metrics ? config_.metrics(host_.status_figures()) : "");
+}
+
+/// This machine's own programs may by whom no stranger may ask, also where there are administrators. Programs
+/// of a network may that ask themselves, or for whom a trusted proxy speaks.
+tl::expected<void, Refused> WebConnections::may_see_metrics(const HttpConnection& from, const Asker& asker,
+                                                            const HttpRequest& request) {
+  if (door_.is_free(asker.address) && !shows_strangers(request)) return {};
+  const bool asks_itself = !request.relayed || config_.proxies.contains(from.ip());
+  if (asks_itself && any_holds(config_.metrics_readers, asker.ip)) return {};
+  return check_administrator(asker, request);
 }
 
 /// Where nobody could be an administrator, this machine's own programs may see it. A page that leads a
@@ -253,7 +285,13 @@ HttpResponse WebConnections::status_json(const Asker& asker, const HttpRequest& 
 tl::expected<void, Refused> WebConnections::may_see_status(const Asker& asker, const HttpRequest& request) {
   const bool nobody_can = !authorizer_.knows_administrators();
   if (nobody_can && door_.is_free(asker.address) && !shows_strangers(request)) return {};
-  if (nobody_can) return refuse(Refusal::no_admin_token, "");
+  return check_administrator(asker, request);
+}
+
+/// By the request's token.
+tl::expected<void, Refused> WebConnections::check_administrator(const Asker& asker,
+                                                                const HttpRequest& request) {
+  if (!authorizer_.knows_administrators()) return refuse(Refusal::no_admin_token, "");
   const auto token = bearer_token(request.authorization);
   if (!token) return refuse(Refusal::token_missing, "");
   if (!is_access_token(*token)) {
@@ -280,7 +318,7 @@ void WebConnections::opened_websocket(HttpConnection& from, std::shared_ptr<Tran
 
 void WebConnections::disconnect(const HttpConnection& connection, Refusal reason) {
   counts_.refusals.add(reason);
-  log_.say(spdlog::level::warn, name_of(reason),
+  log_.say(log_of(LogPart::web), LogLevel::warn, name_of(reason),
            fmt::format("connection {}: cut off ({}): it speaks HTTP", connection.id(), name_of(reason)));
 }
 

@@ -1,5 +1,5 @@
-// The connections that speak HTTP: the page, status.json, and the way from a request to a WebSocket. On the
-// network thread.
+// The connections that speak HTTP: the page, status.json, /metrics, and the way from a request to a
+// WebSocket. On the network thread.
 //
 // Connections have numbers as sessions do. Each holds a place at the door, which it gives back when it ends;
 // a WebSocket takes number and place with it. A trusted proxy's connection may carry the requests of many
@@ -116,7 +116,11 @@ class WebConnections final : public HttpHost {
   HttpResponse answer_site(Entry& entry, const Asker& asker, const HttpRequest& request);
   HttpResponse answer_health(const HttpRequest& request);
   HttpResponse status_json(const Asker& asker, const HttpRequest& request);
+  HttpResponse metrics(const HttpConnection& from, const Asker& asker, const HttpRequest& request);
   tl::expected<void, Refused> may_see_status(const Asker& asker, const HttpRequest& request);
+  tl::expected<void, Refused> may_see_metrics(const HttpConnection& from, const Asker& asker,
+                                              const HttpRequest& request);
+  tl::expected<void, Refused> check_administrator(const Asker& asker, const HttpRequest& request);
 
   const NetConfig& config_;
   Authorizer& authorizer_;

@@ -300,7 +300,8 @@ void OperationTrace::finish(const TracedWorld& world, const Operation& operation
                             uint64_t party) const {
   Provenance& provenance = world.provenance;
   Flow flow;
-  flow.builds = std::holds_alternative<FillOperation>(operation);
+  flow.builds =
+      std::holds_alternative<FillOperation>(operation) || std::holds_alternative<RestoreOperation>(operation);
   for (const BrickCoord coord : applied.changed) {
     const auto before = std::ranges::lower_bound(bricks_, coord, {}, &TracedBrick::coord);
     CHECK(before != bricks_.end() && before->coord == coord);

@@ -17,6 +17,7 @@ static_assert(chunk_batch <= limits::kept_chunks_max);
 }  // namespace
 
 void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet, ServedPart& part) {
+  followed_.clear();
   credit_bytes_ = std::min(credit_bytes_ + limits::chunk_bytes_per_tick, limits::chunk_bytes_per_tick);
   if (!offer_.ready() || credit_bytes_ <= 0 || outlet.room_bytes() <= 0 || view.wanted_chunks() == 0) return;
   UnchangedChunksMessage unchanged;
@@ -26,6 +27,7 @@ void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet
     const PublishedChunk& chunk = tick.changes.state.chunks().at(coord);
     if (offer_.answers(coord, chunk.hash)) {
       view.sent_chunk(coord);
+      followed_.push_back(coord);
       unchanged.chunks.push_back(coord);
       unchanged.hashes.push_back(chunk.hash);
       continue;
@@ -38,6 +40,7 @@ void ChunkStream::serve(const ServedTick& tick, ClientView& view, Outlet& outlet
     part.used.push_back(coord);
     const SharedBytes bytes =
         outlet.is_slow() ? next_part(tick, view, outlet, coord, chunk) : whole(tick, view, coord, chunk);
+    if (view.held().contains(coord)) followed_.push_back(coord);
     credit_bytes_ -= size_of(bytes);
     part.stats.chunk_bytes += bytes->size();
     outlet.send(bytes, part);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "server/publish/chunk_offer.h"
 #include "server/publish/client_view.h"
@@ -16,6 +17,8 @@ class ChunkStream {
   ChunkOffer& offer() { return offer_; }
   /// Sends what this tick has room for.
   void serve(const ServedTick& tick, ClientView& view, Outlet& outlet, ServedPart& part);
+  /// Chunks that the client follows since the last serve().
+  const std::vector<ChunkCoord>& followed() const { return followed_; }
 
  private:
   SharedBytes whole(const ServedTick& tick, ClientView& view, ChunkCoord coord,
@@ -27,6 +30,7 @@ class ChunkStream {
   int64_t credit_bytes_ = 0;
   int next_brick_ = 0;  ///< of a chunk, where the next part begins
   ChunkOffer offer_;
+  std::vector<ChunkCoord> followed_;
 };
 
 }  // namespace scree

@@ -4,12 +4,22 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/vec3.hpp>
+#include <utility>
+#include <vector>
 
 #include "shared/base/limits.h"
 #include "shared/field/chunk_distance.h"
 #include "shared/field/coord.h"
 
 namespace scree {
+
+/// Keeps the `count` smallest, in order.
+template <typename T>
+void retain_nearest(std::vector<std::pair<float, T>>& candidates, size_t count) {
+  const size_t retained = std::min(count, candidates.size());
+  std::ranges::partial_sort(candidates, candidates.begin() + static_cast<std::ptrdiff_t>(retained));
+  candidates.resize(retained);
+}
 
 /// Places of chunks within the radius, about, and a few beyond.
 inline double places_near(float radius_m, float voxel_size_m) {

@@ -44,6 +44,8 @@ void ClientFeed::serve(const ServedTick& tick, const Backlog& backlog, ServedPar
   if (reads_along) store_.serve(tick, outlet_, part);
   if (reads_along) game_.serve(tick, outlet_, part);
   if (reads_along) chunks_.serve(tick, view_, outlet_, part);
+  if (reads_along) stones_.open(tick, chunks_.followed());
+  if (with_poses) stones_.serve(tick, view_, outlet_, part);
   if (with_status) send_status(tick, part);
   if (reads_along) physics_feed_.serve(tick, view_, outlet_, part);
 }
@@ -63,6 +65,7 @@ bool ClientFeed::ready(size_t backlog_bytes, ServedPart& part) {
     chunks_.offer().forget();
     joints_.forget();
     kept_.forget();
+    stones_.forget();
     regions_.forget();
     game_.forget();
     persons_.forget();
@@ -80,6 +83,7 @@ bool ClientFeed::frame_due(const ServedTick& tick) const {
 
 bool ClientFeed::send_frame(const ServedTick& tick, FrameScope scope, ServedPart& part) {
   FrameSelection selection = view_.select_frame(tick.changes, scope);
+  stones_.note(tick, selection);
   if (selection.is_empty() && !frame_due(tick)) return true;
   last_frame_ = tick.tick();
   const EncodeCache::Frame& frame = tick.cache.frame(std::move(selection), tick.changes);

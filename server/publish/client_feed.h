@@ -20,6 +20,7 @@
 #include "server/publish/region_stream.h"
 #include "server/publish/replay_news.h"
 #include "server/publish/served_tick.h"
+#include "server/publish/stone_stream.h"
 #include "server/publish/store_stream.h"
 
 namespace scree {
@@ -37,6 +38,7 @@ class ClientFeed {
   ReplayNews& replay() { return replay_; }
   PhysicsFeed& physics_feed() { return physics_feed_; }
   StoreStream& store() { return store_; }
+  StoneStream& stones() { return stones_; }
   GameStream& game() { return game_; }
   /// Gets no frames until it has read all that waits.
   bool stopped() const { return stopped_; }
@@ -69,6 +71,7 @@ class ClientFeed {
   ReplayNews replay_;
   PhysicsFeed physics_feed_;
   StoreStream store_;
+  StoneStream stones_;
   GameStream game_;
   bool stopped_ = false;
   bool reset_due_ = false;

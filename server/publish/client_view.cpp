@@ -14,14 +14,6 @@ namespace scree {
 
 namespace {
 
-/// Keeps the `count` smallest, in order.
-template <typename T>
-void retain_nearest(std::vector<std::pair<float, T>>& candidates, size_t count) {
-  const size_t retained = std::min(count, candidates.size());
-  std::ranges::partial_sort(candidates, candidates.begin() + static_cast<std::ptrdiff_t>(retained));
-  candidates.resize(retained);
-}
-
 uint32_t fold(uint64_t hash) {
   return static_cast<uint32_t>(hash >> 32U) ^ static_cast<uint32_t>(hash);
 }

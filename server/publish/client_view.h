@@ -120,6 +120,7 @@ class ClientView {
   bool holds_tile(TileKey key) const { return tiles_.contains(key); }
 
   const ChunkSet& held() const { return held_; }
+  bool wants(ChunkCoord chunk) const { return wanted_.contains(chunk); }
   bool knows(PieceId piece) const {
     const auto known = known_.find(piece);
     return known != known_.end() && !known->second.gone;

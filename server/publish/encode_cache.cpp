@@ -169,4 +169,8 @@ SharedBytes EncodeCache::prop(PieceId id, const PublishedProp& prop) {
   return whole(id, [&] { return PropMessage{id, *prop.prop, prop.pose}; });
 }
 
+SharedBytes EncodeCache::stone(const SettledStone& stone) {
+  return whole(stone.id, [&] { return StoneMessage{{stone.id, *stone.volume, stone.pose}, stone.lies}; });
+}
+
 }  // namespace scree

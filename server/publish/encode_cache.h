@@ -1,8 +1,8 @@
 // Encodes a tick's frames, chunks and pieces once; all clients with the same selection share the bytes. Holds
 // at most limits::encoded_chunk_bytes_max of chunks, and what one tick encodes.
 //
-// frame(), chunk(), piece() and prop() may be called by several threads at once: who asks first encodes,
-// others that ask for the same wait for it. start_tick() is called while nobody does.
+// frame(), chunk(), piece(), prop() and stone() may be called by several threads at once: who asks first
+// encodes, others that ask for the same wait for it. start_tick() is called while nobody does.
 #pragma once
 
 #include <atomic>
@@ -33,6 +33,7 @@ class EncodeCache {
   SharedBytes chunk(ChunkCoord coord, const PublishedChunk& chunk);
   SharedBytes piece(PieceId id, const PublishedPiece& piece);
   SharedBytes prop(PieceId id, const PublishedProp& prop);
+  SharedBytes stone(const SettledStone& stone);
   /// The chunk's bytes are let go. While nobody encodes.
   void forget(ChunkCoord chunk);
 

@@ -25,6 +25,10 @@ inline constexpr int64_t chunk_bytes_per_tick = 16 * 1024;
 /// Bytes of pieces' volumes sent to one client in a tick. Above: the rest waits, nearest first.
 inline constexpr int64_t piece_bytes_per_tick = 8 * 1024;
 
+/// Bytes of stones, where pieces merged, sent to one client in a tick: for the eye alone, so less than of
+/// pieces. Above: the rest waits, nearest first.
+inline constexpr int64_t stone_bytes_per_tick = 4 * 1024;
+
 /// Bricks sent as patches to one client in one frame: 512 KiB of codes, so that a frame stays within
 /// message_bytes_max even when nothing compresses. Above: whole chunks are streamed instead.
 inline constexpr size_t patch_bricks_max = 1024;

@@ -10,6 +10,7 @@ PublisherStats& PublisherStats::operator+=(const PublisherStats& other) {
   kept_bytes += other.kept_bytes;
   chunks_kept += other.chunks_kept;
   piece_bytes += other.piece_bytes;
+  stone_bytes += other.stone_bytes;
   ground_bytes += other.ground_bytes;
   tile_bytes += other.tile_bytes;
   content_bytes += other.content_bytes;

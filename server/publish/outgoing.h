@@ -26,6 +26,7 @@ struct PublisherStats {
   uint64_t transform_bytes = 0;  ///< motions and packed poses within frames
   uint64_t chunk_bytes = 0;
   uint64_t piece_bytes = 0;
+  uint64_t stone_bytes = 0;
   uint64_t ground_bytes = 0;
   uint64_t tile_bytes = 0;
   uint64_t content_bytes = 0;  ///< palettes and images

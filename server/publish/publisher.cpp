@@ -86,6 +86,10 @@ void Publisher::set_store(uint64_t session, const StoreName& own) {
   if (ClientFeed* client = find(session)) client->store().set_own(own);
 }
 
+void Publisher::want_stones(uint64_t session, bool wanted) {
+  if (ClientFeed* client = find(session)) client->stones().want(wanted);
+}
+
 void Publisher::subscribe_physics(uint64_t session, bool physics) {
   ClientFeed* const client = find(session);
   if (client != nullptr && client->physics_feed().set_physics(physics))

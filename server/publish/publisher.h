@@ -110,6 +110,8 @@ class Publisher {
   void set_store(uint64_t session, const StoreName& own);
   /// The team that the client's access token states, and whether it wants lines (HelloMessage::meets).
   void set_team(uint64_t session, const std::string& team, bool meets);
+  /// Whether the client gets StoneMessages.
+  void want_stones(uint64_t session, bool wanted);
   /// Whether the client gets PhysicsMessages of the ticks that have them.
   void subscribe_physics(uint64_t session, bool physics);
   /// Whether the client gets ContactsMessages, as of PhysicsFeed::set_contacts.

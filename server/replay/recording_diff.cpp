@@ -76,6 +76,10 @@ std::string text_of(const Command& command, const Palette& palette) {
                                text_of(transfer.to));
           },
           [](const RulesRequest& rules) { return "rules: " + text_of(rules.act); },
+          [](const RestoreRequest& restore) {
+            return fmt::format("restore {} bricks, remove {} pieces",
+                               restore.bricks == nullptr ? 0 : restore.bricks->size(), restore.pieces.size());
+          },
           [](const AddPieceRequest& add) {
             return add.volume ? fmt::format("add a piece of {} voxels", add.volume->window.codes.size())
                               : std::string("add a piece that cannot be read");

@@ -35,6 +35,10 @@ void append(TickDelta& to, const TickDelta& next) {
   to.props_spawned.insert(to.props_spawned.end(), next.props_spawned.begin(), next.props_spawned.end());
   std::ranges::stable_sort(to.props_spawned, {}, &SpawnedProp::id);
   to.props = next.props;
+  for (const PlacedStone& gone : next.stones_gone)
+    if (std::erase_if(to.stones, [&](const PlacedStone& one) { return one.stone.id == gone.stone.id; }) == 0)
+      to.stones_gone.push_back(gone);
+  to.stones.insert(to.stones.end(), next.stones.begin(), next.stones.end());
   to.joints_added.insert(to.joints_added.end(), next.joints_added.begin(), next.joints_added.end());
   to.joints_removed.insert(to.joints_removed.end(), next.joints_removed.begin(), next.joints_removed.end());
   sort_joints(to);
@@ -130,6 +134,7 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   const PublishedJoints joints = state_->joints;
   const PublishedStores stores = state_->stores;
   const SettingValues settings = state_->settings;
+  const std::vector<PlacedStone> stones = state_->stones.all();
   const auto regions = state_->regions;
   const auto signs = state_->signs;
   TRY(state_->go_to(to, before));
@@ -152,6 +157,8 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
     if (const auto known = stores.find(store); known == stores.end() || known->second != masses)
       delta->stores.push_back({store, masses});
   std::ranges::sort(delta->stores, std::less<>(), &StoreContent::store);
+  delta->stones_gone = stones;
+  delta->stones = state_->stones.all();
   if (state_->settings != settings) delta->settings = state_->settings;
   state_->tell_spawn(*delta);
   return delta;

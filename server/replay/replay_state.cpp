@@ -70,6 +70,7 @@ Result<void> ReplaySource::State::restore(KeyframeParts parts, BricksBefore& bef
   if (keyframe.materials.agrees(ledger)) materials = keyframe.materials;
   settings = keyframe.settings;
   state_hash = keyframe.state_hash;
+  recall_stones(tick);
   return check_hash(keyframe.field_hash);
 }
 
@@ -219,6 +220,8 @@ Result<std::shared_ptr<TickDelta>> ReplaySource::State::advance(BricksBefore* be
   if (!undoable) played.clear();
   if (undoable) played.push_back(std::move(undo));
   if (played.size() > played_ticks_max) played.pop_front();
+  stones.follow(field, *delta);
+  stone_history.note(*delta);
   return delta;
 }
 
@@ -239,6 +242,7 @@ void ReplaySource::State::revert_tick(BricksBefore& before) {
   settings = std::move(last.settings);
   state_hash = last.state_hash;
   --tick;
+  recall_stones(tick);
 }
 
 /// Backwards from the ticks that can be taken back; else from the state there is, or a keyframe, whichever is
@@ -279,6 +283,7 @@ std::shared_ptr<const TickDelta> ReplaySource::State::whole_state() {
   for (const auto& [id, one] : props) delta->props_spawned.push_back({id, one.prop});
   for (const auto& [id, joint] : joints) delta->joints_added.push_back({id, joint});
   for (const auto& [store, masses] : stores) delta->stores.push_back({store, masses});
+  delta->stones = stones.all();
   delta->settings = settings;
   if (!regions->empty()) delta->regions = regions;
   if (!signs->empty()) delta->signs = signs;

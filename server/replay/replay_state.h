@@ -3,6 +3,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -12,8 +13,10 @@
 #include "server/replay/event_marks.h"
 #include "server/replay/recorded_cursors.h"
 #include "server/replay/replay_source.h"
+#include "server/replay/stone_history.h"
 #include "server/world/published_state.h"
 #include "server/world/spawn_place.h"
+#include "server/world/stone_keeper.h"
 #include "shared/operation/operation.h"
 
 namespace scree {
@@ -45,6 +48,10 @@ struct ReplaySource::State {
   Result<std::shared_ptr<TickDelta>> advance(BricksBefore* before = nullptr, bool undoable = false);
   Result<void> go_to(Tick wanted, BricksBefore& before);
   void revert_tick(BricksBefore& before);
+  /// Those that lie after a tick, where the pieces and the terrain are as of it.
+  void recall_stones(Tick at) {
+    stones.restart(pieces, stone_history.at(at), std::numeric_limits<PieceId>::max(), field);
+  }
   std::shared_ptr<const TickDelta> whole_state();
   /// Pieces, ledger and hashes as they stand.
   std::shared_ptr<TickDelta> unchanged() const;
@@ -74,6 +81,8 @@ struct ReplaySource::State {
   std::deque<PlayedTick> played;  ///< the last ticks up to this one, that can be taken back
   RecordedCursors cursors;
   EventMarks marks;
+  StoneKeeper stones;  ///< as they lie after `tick`, of those that began in ticks that were played
+  StoneHistory stone_history;
 
   /// Where visitors begin as it stands now; tell_spawn() notes in a later delta when it is another place.
   Spawn spawn() {

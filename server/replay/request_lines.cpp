@@ -53,6 +53,15 @@ Asked asked_of(const TransferRequest& transfer, const Palette& palette) {
   return {"transfer", {}, fmt::format("{} from {} to {}", of, text_of(transfer.from), text_of(transfer.to))};
 }
 
+Asked asked_of(const RulesRequest& rules) {
+  return {"rules", {}, text_of(rules.act)};
+}
+
+Asked asked_of(const RestoreRequest& restore) {
+  const size_t bricks = restore.bricks == nullptr ? 0 : restore.bricks->size();
+  return {"restore", {}, fmt::format("{} bricks, without {} pieces", bricks, restore.pieces.size())};
+}
+
 Asked asked_of(const SettingsRequest& settings) {
   Asked asked{"settings"};
   for (const SettingValue& setting : settings.settings)
@@ -125,9 +134,8 @@ Asked asked_by(const Request& request, const Palette& palette) {
                  [](const DigRequest& dig) { return asked_of(dig); },
                  [&](const PlaceRequest& place) { return asked_of(place, palette); },
                  [&](const TransferRequest& transfer) { return asked_of(transfer, palette); },
-                 [](const RulesRequest& rules) {
-                   return Asked{"rules", {}, text_of(rules.act)};
-                 },
+                 [](const RulesRequest& rules) { return asked_of(rules); },
+                 [](const RestoreRequest& restore) { return asked_of(restore); },
                  [](const AddPieceRequest& add) {
                    return Asked{
                        "add_piece",

@@ -96,10 +96,11 @@ void Happenings::add_operation(const AppliedOperation& applied, const TickDelta&
     weight = {std::abs(static_cast<double>(applied.stored)) / units_per_voxel * voxel_m3, 0.0};
   }
   all.push_back(
-      {event, [place_m = place_of(applied, delta, voxel_size_m_), weight, pieces, party = applied.party,
-               is_merge = stamp != nullptr,
+      {event, [place_m = place_of(applied, delta, voxel_size_m_), weight, pieces, session = applied.session,
+               party = applied.party, is_merge = stamp != nullptr,
                is_load = applied.stage == TickStage::support](ScriptWriter& to, RulesMoment& moment) {
-         write_person(to, "by", party, moment);
+         write_person(to, "by", moment.persons->contains(session) ? session : moment.person_of(party),
+                      moment);
          write_place(to, place_m);
          write_number(to, "volume", weight.volume_m3);
          write_number(to, "mass", weight.mass_kg);
@@ -145,7 +146,7 @@ void write_told(ScriptWriter& to, const Event& event, const RulesMoment& moment)
   write_place(to, event.place_m);
   if (event.kind == EventKind::hurt || event.kind == EventKind::buried) {
     write_person(to, "person", event.tag, moment);
-    write_person(to, "by", event.session, moment);
+    write_person(to, "by", moment.person_of(event.session), moment);
     write_body(to, "body", event.other);
     if (event.kind == EventKind::hurt) write_number(to, "energy", event.energy_j);
     return;

@@ -60,4 +60,8 @@ inline constexpr size_t lines_kept = 40;
 inline constexpr double watch_period_s = 0.5;
 inline constexpr double save_period_s = 10.0;
 
+/// Parties of persons who have left that rules know, beside twice as many as persons are here. Above: they
+/// are forgotten.
+inline constexpr size_t parties_known_min = 64;
+
 }  // namespace scree::limits

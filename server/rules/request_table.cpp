@@ -59,6 +59,7 @@ constexpr std::array kinds_of_requests{
     kind_row<PlaceRequest>("place", &place_fields),
     kind_row<TransferRequest>("transfer", &transfer_fields),
     kind_row<RulesRequest>("rules"),
+    kind_row<RestoreRequest>("restore"),
 };
 static_assert(kinds_of_requests.size() == std::variant_size_v<Request>);
 static_assert([] {
@@ -91,6 +92,11 @@ Result<void> check_kind_field(std::string_view kind, const ScriptValue& table) {
 
 std::string_view kind_of(const Request& request) {
   return row_of_request(request).name;
+}
+
+std::string_view kind_at(size_t index) {
+  CHECK(index < kinds_of_requests.size());
+  return kinds_of_requests[index].name;
 }
 
 Result<Request> read_request(std::string_view kind, const ScriptValue& table, const RulesMoment& moment) {

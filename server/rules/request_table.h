@@ -12,6 +12,8 @@ namespace scree {
 
 /// Its name in scripts: "carve". Every request has one.
 std::string_view kind_of(const Request& request);
+/// By the index of Request.
+std::string_view kind_at(size_t index);
 
 /// A request of that kind, which must be one that scripts can write. What a table does not say is as usual;
 /// seeds of random numbers follow from the tick and the request's number. The table may say its `kind`, and

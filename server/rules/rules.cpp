@@ -44,6 +44,7 @@ HostHooks Rules::hooks() {
           .heard = [this](uint64_t session, const ChannelData& data) { hear(session, data); },
           .controlled = [this](uint64_t session, uint32_t request,
                                const ControlRulesRequest& wish) { control(session, request, wish); },
+          .figures = [this] { return figures(); },
           .stopped = nullptr};
 }
 
@@ -74,6 +75,7 @@ void Rules::begin_tick(const World& world) {
     derived_ = std::make_unique<Happenings>(world.config().terrain.voxel_size_m, world.config().palette);
   const double now_s = static_cast<double>(world.tick()) / options_.tick_rate_hz;
   for (const auto& mod : mods_) mod->begin_tick(seed_of(world), now_s);
+  if (world.tick() % options_.tick_rate_hz == 0) note_figures();
 }
 
 void Rules::before(const World& world, TickCommands& commands) {
@@ -89,6 +91,7 @@ void Rules::before(const World& world, TickCommands& commands) {
   moment.world = &world;
   moment.commands = &commands;
   moment.persons = &persons_;
+  moment.parties = &parties_;
   moment.acts = &acts;
   moment.next_request = &next_request_;
   ScriptBudget budget = budget_of(0.01 * options_.percent / options_.tick_rate_hz, options_.backstop);
@@ -102,6 +105,7 @@ void Rules::before(const World& world, TickCommands& commands) {
     });
   // Who came has come before he asks for something; what he asks for is decided before all else.
   take_persons(inbox, moment, budget);
+  follow_parties(commands);
   decide(commands, moment, budget);
   pass_lines(inbox, moment, budget);
   queue_heard(inbox);
@@ -129,6 +133,14 @@ void Rules::before(const World& world, TickCommands& commands) {
                            : run_line(control.wish.rules, control.wish.line, moment);
     answer(control, std::move(text));
   }
+}
+
+/// Who left is forgotten once there are many.
+void Rules::follow_parties(const TickCommands& commands) {
+  for (const Command& command : commands.all())
+    if (persons_.contains(command.session)) parties_[party_of(command)] = command.session;
+  if (parties_.size() <= 2 * persons_.size() + limits::parties_known_min) return;
+  std::erase_if(parties_, [&](const auto& one) { return !persons_.contains(one.second); });
 }
 
 void Rules::tell_all(std::string_view event, RulesMoment& moment, ScriptBudget& budget,

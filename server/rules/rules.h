@@ -59,6 +59,8 @@ class Rules {
   void leave(uint64_t session);
   void hear(uint64_t session, const ChannelData& data);
   void control(uint64_t session, uint32_t request, const ControlRulesRequest& wish);
+  /// As of the last second.
+  std::vector<Figure> figures() const;
 
   /// Whether a mod has a handler of the event. For the simulation's thread.
   bool is_wanted(std::string_view event) const;
@@ -92,6 +94,7 @@ class Rules {
   void answer(const Control& control, std::string text);
 
   void begin_tick(const World& world);
+  void note_figures();
   void take_persons(const Inbox& inbox, RulesMoment& moment, ScriptBudget& budget);
   void decide(TickCommands& commands, RulesMoment& moment, ScriptBudget& budget);
   void decide_on(size_t index, TickCommands& commands, RulesMoment& moment, ScriptBudget& budget);
@@ -104,7 +107,10 @@ class Rules {
   RulesOptions options_;
   Mods mods_;                            ///< of the simulation's thread, as the next ones
   std::unique_ptr<Happenings> derived_;  ///< null before the first tick
+  void follow_parties(const TickCommands& commands);
+
   RulesPersons persons_;
+  RulesParties parties_;
   std::deque<Happening> waiting_;
   uint64_t left_out_ = 0;  ///< happenings, since it was said
   std::vector<Reply> replies_;
@@ -118,7 +124,8 @@ class Rules {
   std::shared_ptr<Mods> next_mods_;  ///< in force from the next tick on; null: none
   std::vector<Control> reloads_;
   std::deque<std::string> lines_;  ///< the last ones
-  bool hears_lines_ = false;       ///< a mod has a handler for what persons say
+  std::vector<Figure> figures_;
+  bool hears_lines_ = false;  ///< a mod has a handler for what persons say
   bool stops_ = false;
   std::thread worker_;  ///< that loads, and watches
 };

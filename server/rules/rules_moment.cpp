@@ -45,4 +45,11 @@ void write_reply(ScriptWriter& to, const Reply& reply, const RulesMoment& moment
   to.close_table();
 }
 
+uint64_t RulesMoment::person_of(uint64_t party) const {
+  if (parties != nullptr)
+    if (const auto last = parties->find(party); last != parties->end() && persons->contains(last->second))
+      return last->second;
+  return persons->contains(party) ? party : 0;
+}
+
 }  // namespace scree

@@ -26,6 +26,10 @@ struct RulesPerson {
 };
 using RulesPersons = std::map<uint64_t, RulesPerson>;
 
+/// By party (Command::party): the session of it that asked for something last. Persons without access tokens
+/// share one with others of their address.
+using RulesParties = std::map<uint64_t, uint64_t>;
+
 /// A function that gets the reply to a request, in the tick after it was answered.
 struct AwaitedReply {
   uint32_t request = 0;
@@ -37,12 +41,15 @@ struct RulesMoment {
   const World* world = nullptr;
   TickCommands* commands = nullptr;  ///< null likewise
   const RulesPersons* persons = nullptr;
+  const RulesParties* parties = nullptr;
   const HostActs* acts = nullptr;
   uint32_t* next_request = nullptr;  ///< numbers of the rules' own requests
 
   /// The scene of this moment, and every person on foot, made when they are first asked for.
   const QueryScene& scene();
   const std::vector<PersonPlace>& places();
+  /// The session of who stands for a party: who of it asked last, and is here. 0: nobody is.
+  uint64_t person_of(uint64_t party) const;
 
  private:
   std::unique_ptr<HeldScene> held_;

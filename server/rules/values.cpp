@@ -227,8 +227,8 @@ Result<uint64_t> read_person(const ScriptValue& value) {
 }
 
 void write_party(ScriptWriter& to, uint64_t party, const RulesMoment& moment) {
-  if (party != 0 && moment.persons->contains(party))
-    write_person(to, party);
+  if (const uint64_t person = moment.person_of(party); person != 0)
+    write_person(to, person);
   else
     to.nil();
 }

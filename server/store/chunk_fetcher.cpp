@@ -3,12 +3,12 @@
 #include <condition_variable>
 #include <deque>
 #include <mutex>
-#include <spdlog/spdlog.h>
 #include <thread>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 
+#include "server/log/log.h"
 #include "server/store/limits.h"
 #include "shared/base/check.h"
 #include "shared/base/timing.h"
@@ -120,7 +120,7 @@ std::vector<SuppliedChunk> ChunkFetcher::collect(size_t chunks_max) {
       chunks.push_back(std::move(one.chunk));
       continue;
     }
-    if (s.failed.empty()) spdlog::error("a part of the world cannot be read: {}", one.error);
+    if (s.failed.empty()) log_of(LogPart::store).error("a part of the world cannot be read: {}", one.error);
     if (s.failed.size() >= limits::chunks_asked_max) s.failed.clear();
     s.failed[one.chunk.chunk] = {one.error, steady_now_s() + limits::unreadable_retry_s};
   }

@@ -178,10 +178,16 @@ Result<void> Database::put(const Statement& insert, std::span<const int64_t> key
 }
 
 Result<void> Database::run(const Statement& prepared, uint64_t key) {
+  const auto number = static_cast<int64_t>(key);
+  return run(prepared, {&number, 1});
+}
+
+Result<void> Database::run(const Statement& prepared, std::span<const int64_t> numbers) {
   sqlite3_stmt* statement = prepared.get();
-  CHECK_EQ(sqlite3_bind_parameter_count(statement), 1);
+  CHECK_EQ(static_cast<size_t>(sqlite3_bind_parameter_count(statement)), numbers.size());
   sqlite3_reset(statement);
-  sqlite3_bind_int64(statement, 1, static_cast<int64_t>(key));
+  int at = 0;
+  for (const int64_t number : numbers) sqlite3_bind_int64(statement, ++at, number);
   const int code = sqlite3_step(statement);
   sqlite3_reset(statement);
   if (code != SQLITE_DONE) return failure("cannot be written");
@@ -244,12 +250,15 @@ Result<void> Database::each_text(const std::string& select, const TextVisitor& v
   }
 }
 
-Result<void> Database::copy_to(const std::string& path) {
+Result<void> Database::copy_to(const std::string& path, const CopyPace& pace) {
   auto to = TRY(create(path));
   sqlite3_backup* backup = sqlite3_backup_init(to.database_.get(), "main", database_.get(), "main");
   if (backup == nullptr) return to.failure("cannot be written");
-  sqlite3_backup_step(backup, -1);
+  bool goes_on = true;
+  while (goes_on && sqlite3_backup_step(backup, pace.pages) == SQLITE_OK)
+    goes_on = pace.go_on == nullptr || pace.go_on();
   if (sqlite3_backup_finish(backup) != SQLITE_OK) return to.failure("cannot be written");
+  if (!goes_on) return fail(fmt::format("{}: the copy was given up", path));
   return {};
 }
 

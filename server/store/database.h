@@ -1,5 +1,5 @@
 // A thin wrapper of SQLite: blobs by a number, each with a checksum, and errors that name the file. Internal
-// to server/store. One thread at a time.
+// to server/store and server/history. One thread at a time.
 #pragma once
 
 #include <chrono>
@@ -51,6 +51,8 @@ class Database {
   Result<void> put(const Statement& insert, std::span<const int64_t> keys, std::span<const uint8_t> data);
   /// Runs a statement with the parameter (key).
   Result<void> run(const Statement& statement, uint64_t key);
+  /// The same with the parameters (numbers …).
+  Result<void> run(const Statement& statement, std::span<const int64_t> numbers);
   /// Calls `visit(key, data, whole)` for each row of a select of (key, data, checksum); `whole`: the data
   /// matches its checksum. Ends at the first error, also one of `visit`.
   using RowVisitor = std::function<Result<void>(uint64_t key, std::span<const uint8_t> data, bool whole)>;
@@ -63,8 +65,15 @@ class Database {
   /// The same with columns of text.
   using TextVisitor = std::function<Result<void>(std::span<const std::string> columns)>;
   Result<void> each_text(const std::string& select, const TextVisitor& visit);
-  /// Copies the whole database, as of one moment, into a new file.
-  Result<void> copy_to(const std::string& path);
+  /// Copies the whole database, as of one moment, into a new file. By a `pace` in parts of so many pages:
+  /// after each one it calls `go_on`, which may wait; false gives the copy up. Who saves meanwhile does not
+  /// begin it anew, where the file has a log (WAL).
+  struct CopyPace {
+    int pages = -1;                    ///< negative: all at once
+    std::function<bool()> go_on = {};  ///< empty: true
+  };
+  Result<void> copy_to(const std::string& path, const CopyPace& pace);
+  Result<void> copy_to(const std::string& path) { return copy_to(path, CopyPace{}); }
   /// How long calls wait for another program that holds the file.
   void wait_at_most(std::chrono::milliseconds time);
   /// Whether an error of a database says that the system refused, as on a full disk: nothing of the file.

@@ -65,6 +65,7 @@ class Telling {
   std::optional<Event> operator()(const StampOperation&) const { return std::nullopt; }
   std::optional<Event> operator()(const DiscardOperation&) const { return std::nullopt; }
   std::optional<Event> operator()(const SlideOperation&) const { return std::nullopt; }
+  std::optional<Event> operator()(const RestoreOperation&) const { return std::nullopt; }  // as one: a note
 
  private:
   Event at(EventKind kind, glm::vec3 place_m) const {
@@ -128,6 +129,10 @@ std::optional<glm::vec3> place_of(const AppliedOperation& applied, const TickDel
                  [&](const IslandOperation& island) -> Place { return centre_of(island.box, voxel_size_m); },
                  [&](const SlideOperation& slide) -> Place { return centre_of(slide.box, voxel_size_m); },
                  [](const StampOperation& stamp) -> Place { return dequantise(stamp.pose).position_m; },
+                 [&](const RestoreOperation& restore) -> Place {
+                   if (restore.bricks == nullptr) return std::nullopt;
+                   return centre_of(read_box(restore, {}, voxel_size_m), voxel_size_m);
+                 },
                  [](const DiscardOperation&) -> Place { return std::nullopt; }},
       applied.operation);
 }

@@ -92,6 +92,14 @@ inline constexpr uint32_t recording_parts_max = 9999;
 /// Pages in SQLite's write-ahead log, a file beside a world's. Above: SQLite merges them into the file.
 inline constexpr int wal_pages_max = 4096;
 
+/// Bytes that a copy of a world's file moves before others have a turn: a few milliseconds of a disk. More
+/// would make saves wait.
+inline constexpr size_t copy_part_bytes = size_t{1} << 20U;
+
+/// Copies of a world's file before the same new format, under names with a number. Above: the world is not
+/// saved, and the server says so.
+inline constexpr int older_worlds_max = 99;
+
 /// Bytes of a page of a recording: frames of ticks in which little happens share one.
 inline constexpr uint64_t recording_page_bytes = 16384;
 

@@ -127,4 +127,14 @@ uint64_t Recorder::waits() const {
   return state_->waits;
 }
 
+size_t Recorder::waiting() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->entries();
+}
+
+Durations Recorder::commits() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->commits;
+}
+
 }  // namespace scree

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "server/metrics/durations.h"
 #include "server/store/recording.h"
 #include "server/store/recording_writer.h"
 #include "server/store/retry_pause.h"
@@ -68,6 +69,8 @@ class Recorder {
   std::string path() const;        ///< of the last part; from any thread
   uint64_t ticks_written() const;  ///< from any thread
   uint64_t waits() const;          ///< times that push() had to wait; from any thread
+  size_t waiting() const;          ///< ticks that are not written yet; from any thread
+  Durations commits() const;       ///< how long commits took, failed ones too; from any thread
   RecordingSize size() const;      ///< as of the last commit; from any thread
 
  private:

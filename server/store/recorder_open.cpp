@@ -1,9 +1,9 @@
 // How a Recorder begins.
 #include <algorithm>
 #include <filesystem>
-#include <spdlog/spdlog.h>
 #include <utility>
 
+#include "server/log/log.h"
 #include "server/store/recorder_state.h"
 #include "server/store/schema.h"
 #include "shared/base/timing.h"
@@ -43,8 +43,8 @@ Made new_part(const std::string& path, const RecordingHeader& header, const Reco
 /// Goes on with the newest part that the world reaches to; else begins another one.
 Made fitting_part(const std::string& path, const RecordingHeader& header, const RecordingStart* from,
                   RingLimit limit) {
-  std::string why = path + " is there already";
   const std::vector<std::string> parts = recording_parts(path);
+  std::string why = (parts.empty() ? path : parts.back()) + " is there already";
   for (auto part = parts.rbegin(); part != parts.rend() && from != nullptr; ++part) {
     auto resumed = RecordingWriter::resume(*part, header, *from, limit);
     if (resumed || Database::may_pass(resumed.error())) return resumed;
@@ -52,7 +52,7 @@ Made fitting_part(const std::string& path, const RecordingHeader& header, const 
   }
   const std::string part = TRY(next_recording_part(path));
   auto made = new_part(part, header, from, limit);
-  if (made && part != path) spdlog::warn("the session is recorded to {}: {}", part, why);
+  if (made && part != path) log_of(LogPart::store).warn("the session is recorded to {}: {}", part, why);
   return made;
 }
 

@@ -84,6 +84,7 @@ struct Recorder::State {
   PartWish wants_part = PartWish::none;
   bool part_waits = false;  ///< in the queue
   RecordingSize size;
+  Durations commits;
 };
 
 }  // namespace scree

@@ -2,9 +2,10 @@
 #include <algorithm>
 #include <chrono>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
+#include "server/log/log.h"
 #include "server/store/database.h"
+#include "server/store/free_space.h"
 #include "server/store/limits.h"
 #include "server/store/recorder_state.h"
 #include "server/store/schema.h"
@@ -110,17 +111,25 @@ Result<void> Recorder::State::write_waiting() {
 }
 
 Result<void> Recorder::State::commit() {
-  TRY(writer->commit());
+  Stopwatch stopwatch;
+  const Result<void> done = writer->commit();
+  {
+    const std::scoped_lock lock(mutex);
+    commits.add(stopwatch.lap_ms());
+  }
+  TRY(done);
   if (limit.is_on() && writer->has_dropped() && !dropped_older) drop_older_parts();
   note_safe();
   return {};
 }
 
 void Recorder::State::note_safe() {
+  const uint64_t free_bytes = free_bytes_at(writer->path());
   {
     const std::scoped_lock lock(mutex);
     safe = written;
     size = writer->size();
+    size.disk_free_bytes = free_bytes;
   }
   changed.notify_all();
 }
@@ -239,7 +248,7 @@ void Recorder::State::try_last() {
     next.reset();
     remove_recording(named);
   }
-  for (const std::string& line : left.close_all(last_until_s)) spdlog::warn("{}", line);
+  for (const std::string& line : left.close_all(last_until_s)) log_of(LogPart::store).warn("{}", line);
 }
 
 /// A part that waits for its world begins, and a file that is held, or that fails in any other way, may be

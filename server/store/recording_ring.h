@@ -41,7 +41,8 @@ enum class PartWish : uint8_t { none, soon, now };
 /// What a recording takes on the disk.
 struct RecordingSize {
   uint64_t file_bytes = 0, log_bytes = 0;
-  std::string over_limit;  ///< why a ring takes more than it may, in words; empty: it does not
+  uint64_t disk_free_bytes = 0;  ///< where the file lies, by a Recorder; 0: nobody knows
+  std::string over_limit;        ///< why a ring takes more than it may, in words; empty: it does not
   uint64_t bytes() const { return file_bytes + log_bytes; }
 };
 

@@ -1,18 +1,19 @@
 #include "server/store/world_file.h"
 
 #include <algorithm>
-#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <map>
 #include <set>
-#include <unistd.h>
 
+#include "server/formats/world_stones.h"
 #include "server/store/ground_mass.h"
 #include "server/store/limits.h"
 #include "server/store/store_fault.h"
+#include "server/store/world_copy.h"
 #include "server/store/world_reading.h"
 #include "server/store/world_schema.h"
+#include "server/store/world_upgrade.h"
 #include "shared/base/check.h"
 
 namespace scree {
@@ -20,15 +21,6 @@ namespace scree {
 namespace {
 
 using Rows = std::vector<std::vector<uint8_t>>;
-
-/// A rename is on the disk when its folder is.
-void sync_folder_of(const std::string& path) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  const int file = ::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (file < 0) return;
-  fsync(file);
-  close(file);
-}
 
 /// Refuses what is there already, and the logs of a world that was there: SQLite would write their pages into
 /// the new one.
@@ -68,20 +60,19 @@ struct WorldFile::State {
   explicit State(Database d) : database(std::move(d)) {}
   Result<void> prepare();
   Result<void> begin_to_save();
+  Result<void> bring_up_to_date();              ///< within the transaction of a save
   Result<void> write(const WorldChunk& chunk);  ///< the rows alone, within a transaction
   Result<void> write(const WorldMoment& moment);
+  Result<void> write(const std::vector<SettledStone>& all);  ///< what changed of them
   Result<void> put(const Statement& statement, uint64_t key, const std::vector<uint8_t>& data);
   Result<void> put_back();
-  /// Which world the file holds, as of which tick.
-  struct Standing {
-    uint64_t world = 0;
-    Tick tick = 0;
-  };
-  Result<Standing> standing();
+  Result<WorldStanding> standing();
 
   Database database;
-  Statement put_header, put_moment, put_chunk, put_piece, delete_piece, get_chunk;
+  Statement put_header, put_moment, put_chunk, put_piece, delete_piece, put_stone, delete_stone, get_chunk;
   std::map<PieceId, bool> pieces;  ///< that have rows, and whether these say that they are kept
+  std::set<PieceId> stones;        ///< that have rows
+  int64_t format_found = 0;        ///< of the file before the first save
   uint64_t bytes_written = 0;
   bool durable = true;  ///< saves are synced
 };
@@ -96,6 +87,8 @@ Result<void> WorldFile::State::prepare() {
   TRY(prepare(put_moment, world_schema::put_into("moment")));
   TRY(prepare(put_chunk, world_schema::put_into("chunks")));
   TRY(prepare(put_piece, world_schema::put_into("pieces")));
+  TRY(prepare(put_stone, world_schema::put_into("stones")));
+  TRY(prepare(delete_stone, world_schema::delete_from("stones")));
   return prepare(delete_piece, world_schema::delete_from("pieces"));
 }
 
@@ -112,7 +105,15 @@ Result<void> WorldFile::State::write(const WorldChunk& chunk) {
   return put(put_chunk, world_schema::chunk_key(chunk.chunk), encode(chunk));
 }
 
-/// With the pieces.
+Result<void> WorldFile::State::write(const std::vector<SettledStone>& all) {
+  std::set<PieceId> ended = stones;
+  for (const SettledStone& stone : all)
+    if (ended.erase(stone.id) == 0) TRY(put(put_stone, stone.id, encode(stone)));
+  for (const PieceId id : ended) TRY(database.run(delete_stone, id));
+  return {};
+}
+
+/// With the pieces and the stones.
 Result<void> WorldFile::State::write(const WorldMoment& moment) {
   std::set<PieceId> alive;
   for (const PieceRecord& piece : moment.pieces) {
@@ -123,6 +124,7 @@ Result<void> WorldFile::State::write(const WorldMoment& moment) {
   }
   for (const auto& [id, kept] : pieces)
     if (!alive.contains(id)) TRY(database.run(delete_piece, id));
+  TRY(write(moment.stones));
   return put(put_moment, 0, encode(moment));
 }
 
@@ -253,13 +255,14 @@ Result<std::vector<BrickPatch>> WorldFile::read_bricks(ChunkCoord chunk) {
   return std::move(row->bricks);
 }
 
-/// The log, the statements, and which pieces the file has, once.
+/// The copy of an older file, the log, and which pieces the file has, once.
 Result<void> WorldFile::State::begin_to_save() {
   if (put_moment != nullptr) return {};
-  const std::string settings = fmt::format(
-      "PRAGMA journal_mode = WAL; PRAGMA synchronous = {}; PRAGMA wal_autocheckpoint = {};"
-      "PRAGMA user_version = {};",  // what is written is of the present format
-      synchronous(durable), limits::wal_pages_max, world_format);
+  format_found = TRY(database.number("PRAGMA user_version")).value_or(0);
+  if (format_found < world_schema::world.format) TRY(keep_older_world(database.path()));
+  const std::string settings =
+      fmt::format("PRAGMA journal_mode = WAL; PRAGMA synchronous = {}; PRAGMA wal_autocheckpoint = {};",
+                  synchronous(durable), limits::wal_pages_max);
   TRY(database.execute(settings));
   const auto has_row = [this](PieceId id, std::span<const uint8_t> data, bool) -> Result<void> {
     const auto piece = decode_piece_record(data);
@@ -267,6 +270,21 @@ Result<void> WorldFile::State::begin_to_save() {
     return {};
   };
   TRY(database.each(world_schema::all_of("pieces"), has_row));
+  if (!TRY(database.has_table("stones"))) return {};
+  const auto has_stone = [this](PieceId id, std::span<const uint8_t>, bool) -> Result<void> {
+    stones.insert(id);
+    return {};
+  };
+  return database.each(world_schema::all_of("stones"), has_stone);
+}
+
+/// What is written is of the present format. With the rows in one transaction: a crash leaves the old file or
+/// the new one.
+Result<void> WorldFile::State::bring_up_to_date() {
+  if (put_moment != nullptr) return {};
+  TRY(database.execute(world_schema::add_stones()));
+  if (format_found < world_schema::world.format)
+    TRY(database.execute(fmt::format("PRAGMA user_version = {}", world_schema::world.format)));
   return prepare();
 }
 
@@ -274,12 +292,14 @@ Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldC
   Database& file = state_->database;
   auto saved = state_->begin_to_save();
   if (saved) saved = file.execute("BEGIN IMMEDIATE");
+  if (saved) saved = state_->bring_up_to_date();
   for (const WorldChunk& chunk : changed)
     if (saved) saved = state_->write(chunk);
   if (saved) saved = state_->write(moment);
   if (saved) saved = file.execute("COMMIT");
   if (!saved) {
     static_cast<void>(file.execute("ROLLBACK"));  // there may be none, or none any more
+    state_->put_moment.reset();                   // begins anew: what was brought up to date is not
     return saved;
   }
   if (file.has_moved())
@@ -287,6 +307,8 @@ Result<void> WorldFile::save(const WorldMoment& moment, const std::vector<WorldC
         fmt::format("{}: {} while the server kept its world there", path(), name_of(StoreFault::moved)));
   state_->pieces.clear();
   for (const PieceRecord& piece : moment.pieces) state_->pieces[piece.id] = piece.traits.kept;
+  state_->stones.clear();
+  for (const SettledStone& stone : moment.stones) state_->stones.insert(stone.id);
   return {};
 }
 
@@ -318,7 +340,7 @@ Result<std::unique_ptr<WorldFile>> WorldFile::opened_anew() {
   return file;
 }
 
-Result<WorldFile::State::Standing> WorldFile::State::standing() {
+Result<WorldStanding> WorldFile::State::standing() {
   const auto row_of = [this](const char* table) -> Result<std::vector<uint8_t>> {
     const auto statement = TRY(database.prepare(world_schema::one_of(table)));
     auto row = database.get(statement, 0);
@@ -330,7 +352,7 @@ Result<WorldFile::State::Standing> WorldFile::State::standing() {
   const auto moment_row = TRY(row_of("moment"));
   const auto header = TRY(decode_world_header(header_row));
   const auto moment = TRY(decode_world_moment(moment_row));
-  return Standing{header.world, moment.tick};
+  return WorldStanding{header.world, moment.tick};
 }
 
 /// A backup that somebody put there has older rows, or another world's.
@@ -356,8 +378,17 @@ const std::string& WorldFile::path() const {
   return state_->database.path();
 }
 
-Result<void> WorldFile::copy_to(const std::string& path) {
-  return state_->database.copy_to(path);
+/// A held moment reads nothing yet; with the first look at the file the moment is fixed.
+Result<void> WorldFile::copy_to(const std::string& path, const std::function<bool()>& go_on) {
+  Database& file = state_->database;
+  if (!go_on) return file.copy_to(path);
+  const auto page_bytes = TRY(file.number("PRAGMA page_size"));
+  const auto pages = static_cast<int64_t>(limits::copy_part_bytes) / page_bytes.value_or(4096);
+  TRY(hold_moment());
+  TRY(file.number("SELECT count(*) FROM moment"));
+  auto copied = file.copy_to(path, {static_cast<int>(std::max<int64_t>(1, pages)), go_on});
+  static_cast<void>(file.execute("COMMIT"));  // there is no transaction where there is no log
+  return copied;
 }
 
 Result<void> WorldFile::compact() {

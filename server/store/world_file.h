@@ -22,6 +22,8 @@ struct WorldRows {
   WorldSnapshot world;
   std::vector<WorldChunk> chunks;  ///< without their bricks, which are the world's
   GroundMasses ground;             ///< of the chunks
+  uint64_t stones_left_out = 0;    ///< rows of stones that are damaged or too many: no error
+  std::string stone_left_out;      ///< the first of them, and why
   uint64_t bytes = 0;              ///< of all rows
 };
 
@@ -79,7 +81,9 @@ class WorldFile {
   Result<std::vector<BrickPatch>> read_bricks(ChunkCoord chunk);
 
   /// Replaces the chunks and pieces that changed, and the moment, in one transaction, on the disk when this
-  /// returns. After an error the file is as it was; where it was moved or removed, that is an error, too.
+  /// returns. After an error the file is as it was; where it was moved or removed, that is an error, too. A
+  /// file of an older format becomes one of the present in that transaction, and a checked copy of it is kept
+  /// before (world_upgrade.h).
   Result<void> save(const WorldMoment& moment, const std::vector<WorldChunk>& changed);
   /// Whether the file is not there any more under its name.
   bool has_moved() const;
@@ -94,8 +98,10 @@ class WorldFile {
   Result<void> merge_log();
   uint64_t bytes_written() const;  ///< in rows, since it was opened
 
-  /// Copies the file, as of one moment, into a new one, which is whole before this returns.
-  Result<void> copy_to(const std::string& path);
+  /// Copies the file, as of one moment, into a new one, which is whole before this returns. `go_on` is
+  /// called after every so many bytes (limits::copy_part_bytes), and may wait; false gives the copy up. Who
+  /// saves by another object goes on meanwhile.
+  Result<void> copy_to(const std::string& path, const std::function<bool()>& go_on = {});
   /// Gives room back that rows left behind.
   Result<void> compact();
 

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include "proto/limits.h"
+#include "server/formats/world_stones.h"
 #include "server/store/readable_rows.h"
 #include "server/store/world_schema.h"
+#include "server/world/limits.h"
 
 namespace scree {
 
@@ -42,6 +44,7 @@ Result<WorldRows> WorldReading::run(bool with_chunks) {
   }
   if (auto done = every("pieces", [&](uint64_t key, auto data) { return piece(key, data); }); !done)
     return tl::unexpected(done.error());
+  TRY(stones());
   if (with_chunks) {
     const auto add_chunk = [&](WorldChunk decoded) {
       auto& bricks = rows_.world.bricks;
@@ -111,6 +114,40 @@ Result<void> WorldReading::every(const std::string& table, const BytesVisitor& v
 Result<void> WorldReading::lose(const std::string& what) {
   if (lost_ == nullptr) return damaged(what);
   lost_->reasons.push_back(what);
+  return {};
+}
+
+/// They are for the eye alone: no stone keeps a world from going on.
+Result<void> WorldReading::stones() {
+  if (!TRY(database_.has_table("stones"))) return {};
+  const auto leave_out = [&](const std::string& what) {
+    if (rows_.stones_left_out++ == 0) rows_.stone_left_out = what;
+  };
+  const auto row = [&](uint64_t key, Bytes data, bool whole) -> Result<void> {
+    rows_.bytes += data.size();
+    const Result<void> taken = whole ? stone(key, data) : fail("it is not what was saved");
+    if (!taken) leave_out(fmt::format("row {} of its stones: {}", key, taken.error().message));
+    return {};
+  };
+  return each_readable(
+      database_, world_schema::all_from("stones"), row,
+      [&](uint64_t first, uint64_t last, const std::string& why) {
+        leave_out(fmt::format("rows {} to {} of its stones cannot be read ({})", first, last, why));
+      });
+}
+
+Result<void> WorldReading::stone(uint64_t key, Bytes data) {
+  std::vector<SettledStone>& stones = rows_.world.moment.stones;
+  if (stones.size() >= limits::kept_stones_max)
+    return fail(fmt::format("more than {} stones (limits.kept_stones_max)", limits::kept_stones_max));
+  auto decoded = TRY(decode_stone(data));
+  if (decoded.id != key) return fail("it is another piece's");
+  const size_t voxels = decoded.volume->window.codes.size();
+  if (stone_voxels_ + voxels > limits::kept_stone_bytes_max)
+    return fail(fmt::format("stones of more than {} voxels (limits.kept_stone_bytes_max)",
+                            limits::kept_stone_bytes_max));
+  stone_voxels_ += voxels;
+  stones.push_back(std::move(decoded));
   return {};
 }
 

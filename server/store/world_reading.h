@@ -32,6 +32,8 @@ class WorldReading {
   /// All rows of a table.
   Result<void> every(const std::string& table, const BytesVisitor& visit);
   Result<void> piece(uint64_t key, Bytes data);
+  Result<void> stones();
+  Result<void> stone(uint64_t key, Bytes data);
   Result<void> lose(const std::string& what);
   tl::unexpected<Error> damaged(const std::string& what) const;
   void begin_anew();
@@ -40,6 +42,7 @@ class WorldReading {
   LostRows* lost_;
   WorldRows rows_;
   size_t voxels_ = 0;
+  size_t stone_voxels_ = 0;
   bool has_moment_ = true;
 };
 

@@ -10,6 +10,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "server/store/free_space.h"
 #include "server/store/limits.h"
 #include "server/store/store_fault.h"
 #include "server/store/unsaved_terrain.h"
@@ -98,6 +99,7 @@ struct WorldSaver::State {
   bool stopping = false;
   RetryPause pause;
   SaverStatus status;
+  Durations times;
 };
 
 /// A connection may hold what is not so any more once its file failed.
@@ -123,9 +125,13 @@ void WorldSaver::State::write(Due due) {
 }
 
 void WorldSaver::State::note(Tick tick, double ms, const Result<void>& saved) {
+  const uint64_t free_bytes = free_bytes_at(file->path());  // asks the disk
   const std::scoped_lock lock(mutex);
   status.bytes_written = file->bytes_written();
   status.save_worst_ms = std::max(status.save_worst_ms, ms);
+  status.disk_free_bytes = free_bytes;
+  times.add(ms);
+  status.save_last_ms = ms;
   status.lacking.clear();
   for (const auto& [chunk, reason] : terrain.lacking()) status.lacking.push_back(chunk);
   if (saved) {
@@ -186,6 +192,7 @@ bool WorldSaver::note(const TickDelta& delta, bool pressed) {
     s.gathered_chunks.insert(chunk_of(state.coord));
   }
   const std::scoped_lock lock(s.mutex);
+  s.status.unsaved_chunks = s.gathered_chunks.size();
   const bool fails = !s.status.health.ok();
   // While it fails, the pauses alone say when.
   if (fails && !s.pause.is_over(steady_now_s())) return false;
@@ -274,7 +281,14 @@ void WorldSaver::State::try_last(const WorldMoment& moment, const ChunkNow& now,
 
 SaverStatus WorldSaver::status() const {
   const std::scoped_lock lock(state_->mutex);
-  return state_->status;
+  SaverStatus status = state_->status;
+  status.save_waits = state_->waiting.has_value();
+  return status;
+}
+
+Durations WorldSaver::times() const {
+  const std::scoped_lock lock(state_->mutex);
+  return state_->times;
 }
 
 }  // namespace scree

@@ -19,6 +19,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/metrics/durations.h"
 #include "server/store/retry_pause.h"
 #include "server/store/world_file.h"
 #include "server/world/tick_delta.h"
@@ -63,7 +64,11 @@ struct SaverStatus {
   uint64_t failures = 0;
   uint64_t bytes_written = 0;  ///< in rows
   double save_worst_ms = 0.0;
+  double save_last_ms = 0.0;  ///< of the last one, whether it failed or not
   StoreHealth health;
+  size_t unsaved_chunks = 0;        ///< that changed, and are in no save yet
+  bool save_waits = false;          ///< one, while another is written
+  uint64_t disk_free_bytes = 0;     ///< where the file lies, after the last save; 0: nobody knows
   std::vector<ChunkCoord> lacking;  ///< chunks whose rows cannot be read, which the next save needs whole
 };
 
@@ -96,6 +101,8 @@ class WorldSaver {
 
   /// From any thread, also after the end.
   SaverStatus status() const;
+  /// How long saves took, failed ones too. Likewise.
+  Durations times() const;
 
  private:
   struct State;

@@ -23,13 +23,18 @@ inline constexpr FileKind world{
     .index = {}};
 
 /// header and moment: one row each, key 0. chunks: the edited ones, by chunk_key(). pieces: those alive, by
-/// id. checksum: XXH3 of the data. All rows are of one tick, the moment's.
+/// id. stones: where pieces merged, by the piece's id; files of older releases lack the table, and who saves
+/// adds it. checksum: XXH3 of the data. All rows are of one tick, the moment's.
 inline std::string create_tables() {
   std::string sql = "PRAGMA application_id = " + std::to_string(world.application_id) + ";" +
                     "PRAGMA user_version = " + std::to_string(world.format) + ";";
-  for (const char* table : {"header", "moment", "chunks", "pieces"})
+  for (const char* table : {"header", "moment", "chunks", "pieces", "stones"})
     sql += fmt::format("CREATE TABLE {}{};", table, world.columns.front());
   return sql;
+}
+
+inline std::string add_stones() {
+  return fmt::format("CREATE TABLE IF NOT EXISTS stones{};", world.columns.front());
 }
 
 inline std::string bound_page_cache() {

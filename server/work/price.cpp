@@ -75,6 +75,9 @@ struct Pricing {
   float operator()(const PlaceRequest& request) const { return edit_price_us(request.shape, field); }
   float operator()(const TransferRequest&) const { return limits::prop_touch_cost_us; }
   float operator()(const RulesRequest&) const { return 0.0F; }  // done at once
+  float operator()(const RestoreRequest& request) const {
+    return restore_price_us(request.bricks == nullptr ? 0 : request.bricks->size());
+  }
   float operator()(const BreakRequest& request) const {
     CHECK(request.seeds <= limits::seeds_max);
     return cut_price_us(cutter, limits::broken_voxels, request.seeds);

@@ -21,6 +21,7 @@ struct BodyFacts {
   bool kept = false;     ///< of a piece: it never becomes terrain until it is released
   uint64_t owner = 0;    ///< party that caused it (command.h); 0: the world itself
   uint64_t tag = 0;      ///< of a prop
+  bool awake = false;    ///< it moves, or may: else it neither moved nor was touched for some seconds
 };
 
 }  // namespace scree

@@ -238,6 +238,12 @@ inline constexpr int buried_samples = 64;
 /// struck the ground hard is in it for a tick or two.
 inline constexpr uint32_t buried_scan_hz = 20;
 
+/// Stones where pieces merged that a world keeps, for the eye alone, and what their volumes take in memory,
+/// bytes: nearly three times as many as a viewer draws at once. Above: those whose pieces were made first go
+/// first; who was there when they merged goes on seeing them.
+inline constexpr size_t kept_stones_max = 4096;
+inline constexpr size_t kept_stone_bytes_max = size_t{64} << 20U;
+
 /// Pieces that freeze in one tick, about 10 us each. Above: in the next.
 inline constexpr size_t freezes_per_tick_max = 64;
 

@@ -9,6 +9,7 @@
 #include "server/world/person_stage.h"
 #include "shared/base/check.h"
 #include "shared/base/plain_number.h"
+#include "shared/person/person_body.h"
 #include "shared/person/walker.h"
 #include "shared/query/limits.h"
 #include "shared/query/query.h"
@@ -16,16 +17,6 @@
 namespace scree {
 
 namespace {
-
-Prop body_of_person(uint64_t session) {
-  Prop prop;
-  constexpr float half_m = 0.5F * Walker::height_m - Walker::radius_m;
-  prop.parts = {{.kind = PropPartKind::capsule, .half_m = glm::vec3(Walker::radius_m, half_m, 0.0F)}};
-  prop.motion = PropMotion::kinematic;
-  prop.mass_kg = limits::person_mass_kg;
-  prop.tag = session;
-  return prop;
-}
 
 tl::unexpected<Refused> not_on_foot() {
   return refuse(Refusal::not_on_foot, "you are not on foot in this world: stand first");
@@ -44,7 +35,7 @@ uint32_t enter_person(World::State& state, glm::vec3 feet_m, uint64_t session, u
   person.body = state.next_piece++;
   person.walker.feet_m = feet_m;
   if (const Player* const player = state.game.player(session)) person.walker.pace = player->pace;
-  auto prop = std::make_shared<const Prop>(body_of_person(session));
+  auto prop = std::make_shared<const Prop>(body_of_person(session, limits::person_mass_kg));
   BodyShape shape = state.enter_prop(person.body, prop, measure_of(*prop), party);
   state.bodies.add(std::move(shape), {.id = person.body, .pose = body_pose(person.walker)});
   tell_of_prop(state, EventKind::prop_added, person.body, delta);

@@ -101,6 +101,7 @@ void PublishedState::apply(const TickDelta& delta) {
   CHECK(alive.size() == delta.pieces.size());
   pieces_ = std::move(alive);
   kept_ = delta.kept;
+  stones_.apply(delta);
   apply_props(delta);
   apply_persons(delta);
   for (const AddedJoint& joint : delta.joints_added) joints_[joint.id] = joint.joint;
@@ -198,6 +199,7 @@ TickDelta PublishedState::without_bricks() const {
     delta.pieces.push_back({id, piece.pose});
   }
   delta.kept = kept_;
+  for (const auto& [id, stone] : stones_.all()) delta.stones.push_back(stone);
   for (const auto& [id, one] : props_) {
     delta.props_spawned.push_back({id, one.prop});
     delta.props.push_back({id, one.pose});

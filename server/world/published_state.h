@@ -21,6 +21,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "server/world/published_stones.h"
 #include "server/world/tick_delta.h"
 
 namespace scree {
@@ -85,6 +86,7 @@ class PublishedState {
   Tick tick() const { return tick_; }
   const std::unordered_map<ChunkCoord, PublishedChunk, CoordHash>& chunks() const { return chunks_; }
   const std::map<PieceId, PublishedPiece>& pieces() const { return pieces_; }
+  const PublishedStones& stones() const { return stones_; }
   /// Those that are kept, ordered; none in a replay.
   const std::vector<PieceId>& kept() const { return kept_; }
   const std::map<PieceId, PublishedProp>& props() const { return props_; }
@@ -135,6 +137,7 @@ class PublishedState {
   std::unordered_set<ChunkCoord, CoordHash> in_;
   size_t bricks_in_ = 0;
   std::map<PieceId, PublishedPiece> pieces_;
+  PublishedStones stones_;
   std::vector<PieceId> kept_;
   std::map<PieceId, PublishedProp> props_;
   PublishedJoints joints_;

@@ -17,7 +17,8 @@ RecordedHeader to_recorded(const WorldConfig& config) {
   std::erase_if(out.settings, [](const SettingValue& value) {
     return value.name == spawn_setting ||
            value == SettingValue{std::string(persons_setting), std::string(name_of(Persons::fly))} ||
-           value == SettingValue{std::string(sight_setting), "false"};
+           value == SettingValue{std::string(sight_setting), "false"} ||
+           value == SettingValue{std::string(water_setting), text_of_water({})};
   });
   out.spawn = config.spawn;
   out.rules = config.rules;

@@ -20,7 +20,9 @@
 #include "server/world/prop_requests.h"
 #include "server/world/refracture_stage.h"
 #include "server/world/region_requests.h"
+#include "server/world/request_cost.h"
 #include "server/world/request_room.h"
+#include "server/world/restore_requests.h"
 #include "server/world/settings.h"
 #include "server/world/settings_change.h"
 #include "server/world/spawn.h"
@@ -29,6 +31,7 @@
 #include "shared/base/limits.h"
 #include "shared/base/overloaded.h"
 #include "shared/base/plain_number.h"
+#include "shared/base/timing.h"
 #include "shared/field/mass.h"
 
 namespace scree {
@@ -161,6 +164,7 @@ struct Checking {
   Checked operator()(const StandRequest& request) const { return check(state, request, session); }
   Checked operator()(const WalkRequest&) const { return {}; }  // take_input() refuses
   Checked operator()(const RulesRequest& request) const { return check(state, request, session); }
+  Checked operator()(const RestoreRequest& request) const { return check(state, request, session); }
   Checked operator()(const auto& of_bodies) const { return check(state, of_bodies); }
 };
 
@@ -380,7 +384,9 @@ void carry_out(World::State& state, TickDelta& delta) {
     }
     const Command command = next->command;
     state.requests.pop(cost);
+    Stopwatch stopwatch;
     answer(state, command, execute(state, command, grant, delta), delta);
+    if (!costs_nothing) delta.costs.push_back(cost_of(command, cost, stopwatch.lap_ms()));
     state.work.spend_on_request(std::max(0.0F, cost - std::exchange(state.cut_later_us, 0.0F)));
   }
   delta.work.requests_waiting = static_cast<uint32_t>(state.requests.size());

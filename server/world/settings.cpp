@@ -104,6 +104,14 @@ std::string print_spawn_choice(const WorldConfig& config) {
   return config.spawn ? text_of(*config.spawn) : std::string(auto_spawn);
 }
 
+Result<void> parse_water_choice(WorldConfig& config, std::string_view value) {
+  config.water = TRY(parse_water(value));
+  return {};
+}
+std::string print_water_choice(const WorldConfig& config) {
+  return text_of_water(config.water);
+}
+
 constexpr std::array<std::string_view, 2> few_pieces{"12", "20"};
 constexpr std::array<std::string_view, 1> little_work{"20"};
 constexpr std::array<std::string_view, 1> some_drag{"5"};
@@ -154,6 +162,9 @@ constexpr std::array table{
     choice<&ServiceLimits::persons>(
         persons_setting,
         "how persons are in the world; walk: with bodies, which the server moves by their input"),
+    text(water_setting,
+         "how high the water stands that is drawn, metres; it does not flow, and carries nothing",
+         {"off or a height within the world, metres", parse_water_choice, print_water_choice}),
     number<&WorldConfig::store_m3>("store-m3", "rock that a person carries; 0: nobody digs",
                                    {0, limits::store_max_m3, "cubic metres"}),
     number<&WorldConfig::dig_m3_per_s>("dig-m3-per-s",
@@ -165,8 +176,8 @@ constexpr std::array table{
 /// tick's length and merges_per_tick_max of a WorldConfig are fixed from the start.
 [[maybe_unused]] auto members(const WorldConfig& world) {
   const auto& [terrain, tick_rate_hz, pieces_max, props_max, joints_max, memory_max_mb, merges_per_tick_max,
-               work_percent, store_m3, dig_m3_per_s, air_drag_percent, methods, service, spawn, ground, rules,
-               palette, material_numbers] = world;
+               work_percent, store_m3, dig_m3_per_s, air_drag_percent, methods, service, spawn, water, ground,
+               rules, palette, material_numbers] = world;
   static_cast<void>(ground);  // names the terrain's
   static_cast<void>(rules);   // fixed from the start, as these three
   static_cast<void>(palette);
@@ -192,9 +203,10 @@ constexpr std::array table{
       static_cast<int>(group_merges), static_cast<int>(cutter),  static_cast<int>(simplifier)};
   const std::array granted{static_cast<double>(sessions_max), requests_per_second, reach_m,
                            static_cast<double>(sight), static_cast<double>(persons)};
-  const std::array texts{&spawn};
-  return std::integral_constant<size_t,
-                                config.size() - fixed + choices.size() + granted.size() + texts.size()>{};
+  constexpr size_t texts = 2;  // spawn, water
+  static_cast<void>(spawn);
+  static_cast<void>(water);
+  return std::integral_constant<size_t, config.size() - fixed + choices.size() + granted.size() + texts>{};
 }
 static_assert(decltype(members(std::declval<const WorldConfig&>()))::value == table.size());
 

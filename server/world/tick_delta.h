@@ -20,6 +20,7 @@
 #include "shared/operation/ledger.h"
 #include "shared/operation/operation.h"
 #include "shared/prop/joint.h"
+#include "shared/recombine/settled_stone.h"
 #include "shared/region/region.h"
 #include "shared/region/region_mass.h"
 
@@ -46,6 +47,12 @@ struct BrickState {
   BrickMaterials materials{};
 };
 
+/// A brick as it was before an operation of the tick wrote it, by the operation's place in `operations`.
+struct ReplacedBrick {
+  size_t operation = 0;
+  BrickPatch was;
+};
+
 /// A chunk's state after the tick.
 struct ChunkState {
   ChunkCoord chunk;
@@ -58,6 +65,12 @@ struct SpawnedPiece {
   std::shared_ptr<const Volume> volume;
 };
 
+/// A stone where a piece merged, for the eye alone (StoneKeeper), and an edited chunk in which it lies.
+struct PlacedStone {
+  SettledStone stone;
+  ChunkCoord chunk;
+};
+
 struct SpawnedProp {
   PieceId id = 0;
   std::shared_ptr<const Prop> prop;
@@ -68,17 +81,30 @@ struct AddedJoint {
   std::shared_ptr<const Joint> joint;
 };
 
+/// What a request that a tick carried out cost, by the model of work and on the clock. Reported only.
+struct RequestCost {
+  uint64_t session = 0, party = 0;  ///< 0: the server's own
+  uint8_t kind = 0;                 ///< index of Request
+  float price_us = 0.0F;
+  float clock_us = 0.0F;
+  glm::vec3 place_m{0.0F};  ///< of what it edits or acts on; the origin where it is of no place
+};
+
 struct TickDelta {
   Tick tick = 0;
   std::vector<AppliedOperation> operations;  ///< in the order in which they were applied
   std::vector<BrickState> bricks;            ///< every brick that the tick changed, ordered
-  std::vector<BrickCoord> reverted;          ///< bricks that are no longer edited, ordered: a replay jumped
+  std::vector<ReplacedBrick>
+      replaced;                      ///< in order of operations; empty unless wanted (World::want_replaced)
+  std::vector<BrickCoord> reverted;  ///< bricks that are no longer edited, ordered: a replay jumped
   /// Every chunk that the tick changed; in a keyframe also those whose bricks are in no memory, and not among
   /// `bricks`. Empty: all chunks are in memory, and their hashes follow from `bricks`.
   std::vector<ChunkState> chunks;
   std::vector<SpawnedPiece> spawned;       ///< pieces made in this tick, ordered; some may be gone again
   std::vector<PieceState> pieces;          ///< every piece alive after the tick, ordered by id
   std::vector<PieceId> kept;               ///< those of them that are kept, ordered; none in a replay
+  std::vector<PlacedStone> stones;         ///< of pieces that merged in this tick, and the rock is there
+  std::vector<PlacedStone> stones_gone;    ///< there are no such stones any more
   std::vector<SpawnedProp> props_spawned;  ///< props added in this tick, ordered; some may be gone again
   std::vector<PieceState> props;           ///< every prop there is after the tick, ordered by id
   std::vector<ContactEvent> contacts;      ///< blows of bodies, the hardest first; none in a replay
@@ -96,6 +122,7 @@ struct TickDelta {
   std::shared_ptr<const std::vector<Player>> players;
   std::vector<Notice> notices;  ///< of the host's rules, in order
   std::vector<Reply> replies;
+  std::vector<RequestCost> costs;  ///< of those that cost anything; none in a replay
   SettingValues settings;      ///< how every setting stands, when one changed (at first: all did); else empty
   uint64_t settings_by = 0;    ///< session that changed them; 0: the server, and in a replay
   std::optional<Spawn> spawn;  ///< where visitors begin, when that is another place than before (SpawnPlace)

@@ -182,6 +182,7 @@ std::shared_ptr<const TickDelta> World::step(std::span<const Command> commands) 
   for (const TickStageRow& row : tick_stages) run_stage(row.stage, s, *delta);
   s.stopwatch.switch_to(TickStage::requests, delta->times);
   s.spawn_place.follow(s.field, s.config.spawn, *delta);
+  s.stones.follow(s.field, *delta);
   return delta;
 }
 
@@ -190,6 +191,9 @@ const WorldConfig& World::config() const {
 }
 void World::want_physics(bool wanted) {
   state_->wants_physics = wanted;
+}
+void World::want_replaced(bool wanted) {
+  state_->wants_replaced = wanted;
 }
 Tick World::tick() const {
   return state_->tick;
@@ -245,6 +249,7 @@ std::optional<BodyFacts> World::body(PieceId id) const {
   const PieceTraits traits = s.traits_of(id);
   facts.kept = traits.kept;
   facts.owner = traits.owner;
+  facts.awake = s.bodies.is_awake(id);
   if (facts.is_piece) facts.mass = piece->second->mass;
   if (!facts.is_piece) facts.tag = prop->second.prop->tag;
   return facts;

@@ -96,6 +96,8 @@ class World {
   MassUnits measure_terrain();
   /// Switches TickDelta::physics, in every ticks_per_physics-th delta, on or off. Changes nothing else.
   void want_physics(bool wanted);
+  /// Switches TickDelta::replaced on or off. Changes nothing else.
+  void want_replaced(bool wanted);
   /// The state between two ticks, without the terrain: it shares what never changes, so that every tick may
   /// be asked for it.
   WorldMoment moment() const;

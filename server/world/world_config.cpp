@@ -64,7 +64,8 @@ bool WorldConfig::operator==(const WorldConfig& other) const {
   const auto tied = [](const WorldConfig& c) {
     return std::tie(c.tick_rate_hz, c.pieces_max, c.props_max, c.joints_max, c.memory_max_mb,
                     c.merges_per_tick_max, c.work_percent, c.store_m3, c.dig_m3_per_s, c.air_drag_percent,
-                    c.methods, c.service, c.spawn, c.ground, c.rules, *c.palette, c.material_numbers);
+                    c.methods, c.service, c.spawn, c.water, c.ground, c.rules, *c.palette,
+                    c.material_numbers);
   };
   return tied(*this) == tied(other) && without_rubble(terrain) == without_rubble(other.terrain);
 }

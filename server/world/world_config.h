@@ -14,6 +14,7 @@
 #include "shared/base/digest.h"
 #include "shared/base/result.h"
 #include "shared/base/spawn.h"
+#include "shared/base/water.h"
 #include "shared/field/terrain.h"
 
 namespace scree {
@@ -38,6 +39,7 @@ struct WorldConfig {
   Methods methods;
   ServiceLimits service;           ///< for the network; the simulation does not read it
   std::optional<Spawn> spawn{};    ///< where visitors begin; nothing: where the ground suggests (SpawnPlace)
+  WaterLevel water{};              ///< for clients, which draw it; the simulation does not read it
   Digest ground{};                 ///< names the file that terrain.heights is from; zeros: of no file
   uint32_t rules = rules::newest;  ///< of service (rules.h); fixed from the start
   /// What the world is made of, to start with; not null. `terrain.rows` are its ground's.

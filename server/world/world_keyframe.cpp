@@ -44,6 +44,7 @@ TickDelta World::outline() {
   delta.ledger = s.ledger;
   delta.materials = s.materials;
   publish_settings(s, delta);
+  delta.stones = s.stones.all();
   delta.spawn = s.spawn_place.find(s.field, s.config.spawn);
   delta.field_hash = s.field.hash();
   delta.state_hash = s.hash();

@@ -39,6 +39,7 @@ WorldMoment World::moment() const {
   m.provenance = s.provenance.value();
   m.materials = s.materials;
   m.game = s.game.value();
+  m.stones = s.stones.value();
   m.field_hash = s.field.hash();
   m.state_hash = s.hash();
   for (const auto& [id, volume] : s.pieces)

@@ -21,8 +21,7 @@ namespace scree {
 
 namespace {
 
-/// Places of a hull or a surface may lie beyond the voxels that they were made from, voxels: the narrow band
-/// and a corner.
+/// A hull or a surface may reach so far beyond its voxels: the narrow band and a corner; voxels.
 constexpr float shape_slack_voxels = 4.0F;
 
 /// Ticks that a world may have counted: so many that no sum overflows.
@@ -50,6 +49,7 @@ class Restoring {
     s_.islands.restore(m_.islands);
     s_.buried = {m_.buried.begin(), m_.buried.end()};
     s_.sunk = {m_.sunk.begin(), m_.sunk.end()};
+    s_.stones.restart(s_.pieces, m_.stones, m_.next_piece, s_.field);
     if (!measure_ && s_.hash() != m_.state_hash) return fail("its hash is not that of its parts");
     s_.check();
     return {};

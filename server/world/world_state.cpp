@@ -65,6 +65,7 @@ Loose left_by(const Operation& operation) {
                         [](const SlideOperation&) { return Loose::specks; },
                         [](const DigOperation&) { return Loose::islands; },
                         [](const PlaceOperation&) { return Loose::islands; },
+                        [](const RestoreOperation&) { return Loose::nothing; },  // its request says where
                     },
                     operation);
 }
@@ -125,7 +126,9 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
                                        const PreparedStamp* prepared, const StoreName* store) {
   const VoxelBox reads = read_box(operation, pieces, config.terrain.voxel_size_m);
   const auto trace = begin_trace(*this, operation, reads, store);
+  if (wants_replaced) field.note_replaced(&replaced);
   Applied applied = apply(operation, field, pieces, prepared);
+  field.note_replaced(nullptr);
   const bool slid = std::holds_alternative<SlideOperation>(operation);
   if (slid && applied.changed.empty()) return applied;  // nothing happened, so there is nothing to tell
   CHECK_DEBUG(std::ranges::adjacent_find(applied.changed, std::ranges::greater_equal{}) ==
@@ -133,15 +136,19 @@ Applied World::State::apply_and_record(const Operation& operation, uint64_t part
   delta.operations.push_back(describe(operation, reads, applied));
   delta.operations.back().stage = stopwatch.stage();
   delta.operations.back().party = party;
+  if (wants_replaced)
+    for (BrickPatch& brick : std::exchange(replaced, {}))
+      delta.replaced.push_back({delta.operations.size() - 1, std::move(brick)});
   changed.insert(applied.changed.begin(), applied.changed.end());
   const Loose loose = left_by(operation);
   party = charged(party);
   if (loose == Loose::islands) loosen(party, applied.changed);
-  if (config.methods.support) add(strained, party, applied.changed);
+  const bool looks_around = !std::holds_alternative<RestoreOperation>(operation);  // its request says where
+  if (config.methods.support && looks_around) add(strained, party, applied.changed);
   if (loose == Loose::specks) add(unswept, party, applied.changed);
   if (!applied.changed.empty()) bodies.terrain_changed(box_of(applied.changed));
   struck.forget(applied.changed);
-  if (config.rules >= rules::slides)
+  if (config.rules >= rules::slides && looks_around)
     for (const BrickCoord brick : applied.changed) slopes[party].insert(slope_of(brick));
   if (applied.terrain_gain > 0 || slid) gained.push_back(box_of(applied.changed));
   ledger.terrain += applied.terrain_gain;

@@ -29,6 +29,7 @@
 #include "server/world/rules.h"
 #include "server/world/spawn_place.h"
 #include "server/world/stages.h"
+#include "server/world/stone_keeper.h"
 #include "server/world/stores.h"
 #include "server/world/struck_places.h"
 #include "server/world/world.h"
@@ -156,12 +157,15 @@ struct World::State {
   StageTurns turns;              ///< empty between stages
   std::vector<PieceId> at_rest;  ///< pieces that become terrain in this tick
   SpawnPlace spawn_place;        ///< where visitors begin
+  StoneKeeper stones;            ///< where pieces merged, for the eye; no state depends on them
   SceneMaker scenes;             ///< for questions; no tick depends on it
   PersonBlows person_blows;      ///< what moves towards persons; no state depends on it
   ContactSums contact_sums;      ///< blows between bodies that go on; no state depends on them
   bool wants_physics = false;    ///< a client wants to see the bodies
-  StageStopwatch stopwatch;      ///< of the tick's stages
-  ThreadCheck thread;            ///< that of step()
+  bool wants_replaced = false;   ///< somebody remembers what bricks were
+  std::vector<BrickPatch> replaced;  ///< by the operation that is applied, where they are wanted
+  StageStopwatch stopwatch;          ///< of the tick's stages
+  ThreadCheck thread;                ///< that of step()
 };
 
 /// Enters where pieces and props are in a tick's delta.

@@ -99,6 +99,8 @@ void Field::write_brick(BrickCoord coord, const Brick& brick, const BrickMateria
     before = said->second;
   else if (!own && below_ != nullptr)
     before = below_->materials(coord);
+  if (replaced_ != nullptr)
+    replaced_->push_back({coord, old != nullptr ? *old : generated_brick(coord), before});
   const BrickMaterials& now = materials == nullptr ? before : *materials;
   uint64_t change = brick_hash(coord, brick, now);
   if (old != nullptr) change -= brick_hash(coord, *old, before);

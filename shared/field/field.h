@@ -21,7 +21,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "shared/field/brick_materials.h"
+#include "shared/field/brick_patch.h"
 #include "shared/field/chunk_residence.h"
 #include "shared/field/generated_cache.h"
 #include "shared/field/ground_layers.h"
@@ -67,6 +67,8 @@ class Field {
   void set_brick(BrickCoord coord, const Brick& brick, const BrickMaterials& materials) {
     write_brick(coord, brick, &materials);
   }
+  /// From now on bricks are noted there as they were before they are written; null: no more.
+  void note_replaced(std::vector<BrickPatch>* to) { replaced_ = to; }
   /// What the brick's voxels say of their materials; ground_own of all where nobody changed any.
   BrickMaterials materials(BrickCoord coord) const;
   /// Changes what they say, and marks the brick as edited. Its codes stay.
@@ -194,6 +196,7 @@ class Field {
   size_t edited_bricks_ = 0;
   uint64_t hash_ = 0;
   ChunkResidence residence_;
+  std::vector<BrickPatch>* replaced_ = nullptr;  ///< not owned
 };
 
 /// A field whose edited bricks lie in a hash map: the client's, and the tests'.

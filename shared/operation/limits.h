@@ -33,4 +33,14 @@ inline constexpr int slide_height_max_voxels = 128;
 inline constexpr int slide_cell_max_voxels = 8;
 inline constexpr int slide_tangent_max = 127;
 
+/// A brick that becomes what it was once.
+inline constexpr float restored_brick_cost_us = 12.0F;
+
+/// Bricks, and pieces, of one restore: half a chunk, less than 40 KiB when nothing compresses. Above:
+/// refused.
+inline constexpr unsigned restored_bricks_max = 32;
+inline constexpr unsigned restored_pieces_max = 64;
+/// Chunks of one request in which terrain may hang loose after a restore. Above: refused.
+inline constexpr unsigned loose_chunks_max = 64;
+
 }  // namespace scree::limits

@@ -15,6 +15,7 @@
 #include "shared/operation/edit_operations.h"
 #include "shared/operation/flows.h"
 #include "shared/operation/prepared_stamp.h"
+#include "shared/operation/restore_operation.h"
 #include "shared/operation/shatter_operation.h"
 #include "shared/operation/slide_operation.h"
 #include "shared/recombine/stamp_materials.h"
@@ -300,6 +301,7 @@ VoxelBox read_box(const Operation& operation, const PieceTable& pieces, float vo
                         [](const SlideOperation& op) { return slide_window(op.box); },
                         [&](const DigOperation& op) { return op.piece != 0 ? VoxelBox{} : around(op.shape); },
                         [&](const PlaceOperation& op) { return around(op.shape); },
+                        [](const RestoreOperation& op) { return restored_box(op); },
                     },
                     operation);
 }
@@ -317,6 +319,7 @@ Applied apply(const Operation& operation, Field& field, PieceTable& pieces, cons
           [&](const SlideOperation& op) { return apply_slide(op, field); },
           [&](const DigOperation& op) { return apply_dig(op, field, pieces); },
           [&](const PlaceOperation& op) { return apply_place(op, field); },
+          [&](const RestoreOperation& op) { return apply_restore(op, field, pieces); },
       },
       operation);
 }

@@ -5,12 +5,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string_view>
 #include <variant>
 #include <vector>
 
+#include "shared/field/brick_patch.h"
 #include "shared/field/field.h"
 #include "shared/field/piece.h"
 #include "shared/field/shape.h"
@@ -158,11 +160,22 @@ struct PlaceOperation {
   bool operator==(const PlaceOperation&) const = default;
 };
 
+/// Bricks of one chunk become what they were once, and pieces go: what that changes is entered as poured, or
+/// as less of it.
+struct RestoreOperation {
+  static constexpr std::string_view plural = "restores";
+  /// In order, each once, limits::restored_bricks_max at most; null: none.
+  std::shared_ptr<const std::vector<BrickPatch>> bricks{};
+  std::vector<PieceId> pieces{};  ///< in order, each once, limits::restored_pieces_max at most
+
+  bool operator==(const RestoreOperation& other) const;
+};
+
 /// The place in this list is an operation's number on the wire and in recordings: new ones come last. Each
 /// says by `plural` how reports call it.
-using Operation =
-    std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation, ShatterOperation,
-                 IslandOperation, PaintOperation, SlideOperation, DigOperation, PlaceOperation>;
+using Operation = std::variant<CarveOperation, FillOperation, StampOperation, DiscardOperation,
+                               ShatterOperation, IslandOperation, PaintOperation, SlideOperation,
+                               DigOperation, PlaceOperation, RestoreOperation>;
 
 /// The pieces that the operation takes out of the table.
 std::vector<PieceId> pieces_ended_by(const Operation& operation);

@@ -22,6 +22,7 @@ std::vector<PieceId> pieces_ended_by(const Operation& operation) {
                         [](const SlideOperation&) { return Ids{}; },
                         [](const DigOperation& op) { return op.piece != 0 ? Ids{op.piece} : Ids{}; },
                         [](const PlaceOperation&) { return Ids{}; },
+                        [](const RestoreOperation& op) { return op.pieces; },
                     },
                     operation);
 }
@@ -38,6 +39,7 @@ size_t pieces_merged_by(const Operation& operation) {
                         [](const SlideOperation&) { return size_t{0}; },
                         [](const DigOperation&) { return size_t{0}; },
                         [](const PlaceOperation&) { return size_t{0}; },
+                        [](const RestoreOperation&) { return size_t{0}; },
                     },
                     operation);
 }
@@ -60,6 +62,7 @@ PieceIds ids_made_by(const Operation& operation) {
                         [](const SlideOperation&) { return PieceIds{}; },
                         [](const DigOperation&) { return PieceIds{}; },
                         [](const PlaceOperation&) { return PieceIds{}; },
+                        [](const RestoreOperation&) { return PieceIds{}; },
                     },
                     operation);
 }
@@ -77,6 +80,7 @@ std::optional<PieceId> parent_of(const Operation& operation) {
                         [](const SlideOperation&) { return Parent(); },
                         [](const DigOperation&) { return Parent(); },
                         [](const PlaceOperation&) { return Parent(); },
+                        [](const RestoreOperation&) { return Parent(); },
                     },
                     operation);
 }

@@ -9,6 +9,7 @@
 #include "shared/base/plain_number.h"
 #include "shared/operation/limits.h"
 #include "shared/operation/operation.h"
+#include "shared/operation/restore_operation.h"
 
 namespace scree {
 
@@ -160,6 +161,9 @@ struct Validator {
   Result<void> operator()(const PlaceOperation& op) const {
     TRY(validate_material(op.material));
     return validate_edit(op.shape, voxel_size_m);
+  }
+  Result<void> operator()(const RestoreOperation& op) const {
+    return validate_restore(op, pieces, voxel_size_m);
   }
   Result<void> operator()(const SlideOperation& op) const {
     TRY(validate_material(op.material));

@@ -39,6 +39,9 @@ struct OperationPricing {
     return dig.piece != 0 ? 0.0F : edit_price_us(dig.shape, field);
   }
   float operator()(const PlaceOperation& place) const { return edit_price_us(place.shape, field); }
+  float operator()(const RestoreOperation& restore) const {
+    return restore_price_us(restore.bricks ? restore.bricks->size() : 0);
+  }
   float operator()(const SlideOperation& slide) const { return slide_price_us(slide.box); }
 };
 
@@ -81,6 +84,10 @@ float lift_price_us(const VoxelBox& box) {
 
 float rest_price_us(float voxels) {
   return limits::lift_cost_us + limits::lift_voxel_cost_us * voxels;
+}
+
+float restore_price_us(size_t bricks) {
+  return limits::edit_cost_us + limits::restored_brick_cost_us * static_cast<float>(bricks);
 }
 
 float slide_price_us(const VoxelBox& box) {

@@ -30,6 +30,8 @@ float lift_price_us(const VoxelBox& box);
 
 /// Finding what a cut leaves of a piece whose window has so many voxels.
 float rest_price_us(float voxels);
+/// Making so many bricks what they were once.
+float restore_price_us(size_t bricks);
 /// Letting rubble slide in that box.
 float slide_price_us(const VoxelBox& box);
 

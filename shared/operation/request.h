@@ -13,6 +13,7 @@
 #include "shared/base/overloaded.h"
 #include "shared/base/setting_value.h"
 #include "shared/base/walking.h"
+#include "shared/field/brick_patch.h"
 #include "shared/field/piece.h"
 #include "shared/field/shape.h"
 #include "shared/fracture/seed_pattern.h"
@@ -250,12 +251,35 @@ struct RulesRequest {
   bool operator==(const RulesRequest&) const = default;
 };
 
+/// Takes back what somebody did, in one chunk; of the server itself (session 0) alone.
+struct RestoreRequest {
+  /// A brick as it is to be, and the hash that it must have until then (brick_hash): one that has another was
+  /// changed since, and stays.
+  struct Brick {
+    BrickPatch then;
+    uint64_t now = 0;
+
+    bool operator==(const Brick& other) const {
+      return then.coord == other.then.coord && then.brick == other.then.brick &&
+             then.materials == other.then.materials && now == other.now;
+    }
+  };
+  std::shared_ptr<const std::vector<Brick>> bricks{};  ///< of one chunk, in order; null: none
+  std::vector<PieceId> pieces{};    ///< that go, in order; those that are gone do not count
+  std::vector<ChunkCoord> loose{};  ///< terrain may hang loose in them, and beside them
+
+  bool operator==(const RestoreRequest& other) const {
+    const bool same = bricks == other.bricks || (bricks && other.bricks && *bricks == *other.bricks);
+    return same && pieces == other.pieces && loose == other.loose;
+  }
+};
+
 using Request =
     std::variant<CarveRequest, FillRequest, PaintRequest, SettingsRequest, LeaveRequest, AddPropRequest,
                  RemovePropRequest, MovePropRequest, PushRequest, BreakRequest, BlastRequest, AddJointRequest,
                  RemoveJointRequest, SetMotorRequest, CutOutRequest, ReleaseRequest, AddPieceRequest,
                  SetRegionRequest, RemoveRegionRequest, StandRequest, WalkRequest, DigRequest, PlaceRequest,
-                 TransferRequest, RulesRequest>;
+                 TransferRequest, RulesRequest, RestoreRequest>;
 
 /// The shape of a request that edits terrain, or in which it does; nothing: it edits none.
 inline std::optional<Shape> shape_of(const Request& request) {

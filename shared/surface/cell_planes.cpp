@@ -53,7 +53,7 @@ uint16_t FaceMap::look(size_t index) {
   return static_cast<uint16_t>(faces_.size());
 }
 
-glm::vec3 direction_about(const FaceMap& faces, size_t cell_index) {
+glm::vec3 CellVertex::direction_about(const FaceMap& faces, size_t cell_index) {
   const WindowSteps& steps = faces.steps();
   const Code* const codes = &faces.window().codes[cell_index];
   std::array<int, 3> sum{};
@@ -66,7 +66,7 @@ glm::vec3 direction_about(const FaceMap& faces, size_t cell_index) {
   return squared > 0.0F ? slope / std::sqrt(squared) : slope;
 }
 
-void CellPlanes::look_beyond(FaceMap& faces, const CellVertex& home) {
+void CellPlanes::look_beyond(FaceMap& faces, CellVertex& home) {
   CHECK_DEBUG(count_ > 0);
   const WindowSteps& steps = faces.steps();
   const Code* const codes = &faces.window().codes[home.index];

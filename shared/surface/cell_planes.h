@@ -66,25 +66,34 @@ class FaceMap {
 /// A cell's vertex before it moves.
 struct CellVertex {
   VoxelCoord cell;
-  size_t index;   ///< of the cell's lowest corner in the window
-  glm::vec3 at;   ///< the vertex, from that corner
-  glm::vec3 out;  ///< the field's direction about the cell (direction_about)
-};
+  size_t index;  ///< of the cell's lowest corner in the window
+  glm::vec3 at;  ///< the vertex, from that corner
 
-/// The field's direction over a cell and the points beyond it, unit; nothing where it has none.
-glm::vec3 direction_about(const FaceMap& faces, size_t cell_index);
+  CellVertex(VoxelCoord home, size_t first, glm::vec3 place) : cell(home), index(first), at(place) {}
+  /// The field's direction over the cell and the points beyond it, unit; nothing where it has none. Computed
+  /// by the first call.
+  glm::vec3 out(const FaceMap& faces) {
+    if (!out_) out_ = direction_about(faces, index);
+    return *out_;
+  }
+
+ private:
+  static glm::vec3 direction_about(const FaceMap& faces, size_t cell_index);
+
+  std::optional<glm::vec3> out_;
+};
 
 /// Known planes about a cell that are near its vertex.
 class CellPlanes {
  public:
   size_t count() const { return count_; }
   /// Adds those of its corners.
-  void look_at_corners(FaceMap& faces, const CellVertex& home) {
+  void look_at_corners(FaceMap& faces, CellVertex& home) {
     for (const WindowSteps::Step& step : faces.steps().corners) add(faces, home, step);
   }
   /// Also those of the 24 points one voxel beyond the corners: an edge may cut off a part of the cell that
   /// holds none of them. Points whose distance the corners' face says lie on that face. Needs a plane.
-  void look_beyond(FaceMap& faces, const CellVertex& home);
+  void look_beyond(FaceMap& faces, CellVertex& home);
   /// Those of faces straight across all of the cell's crossed edges instead, half-way between their ends: so
   /// people build, with steps of a voxel whose planes no point knows. None if a crossing lies elsewhere.
   void look_across(const FaceMap& faces, const CellVertex& home);
@@ -115,12 +124,13 @@ class CellPlanes {
   /// As many as a cell has corners and points beyond them; its edges are fewer.
   static constexpr size_t planes_max = 32;
 
-  void add(FaceMap& faces, const CellVertex& home, const WindowSteps::Step& step) {
+  void add(FaceMap& faces, CellVertex& home, const WindowSteps::Step& step) {
     const PointFace* face = faces.at(home.index + static_cast<size_t>(step.by));
     if (face == nullptr) return;
     const float away = face->distance + glm::dot(face->normal, home.at - step.off);
     // Faces that turn away are the other side of a thin wall.
-    if (std::abs(away) > same_wall_voxels || glm::dot(face->normal, home.out) < other_side_cosine) return;
+    if (std::abs(away) > same_wall_voxels || glm::dot(face->normal, home.out(faces)) < other_side_cosine)
+      return;
     normal_[count_] = face->normal;
     distance_[count_++] = away;
   }

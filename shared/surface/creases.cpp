@@ -10,6 +10,7 @@
 #include "shared/base/check.h"
 #include "shared/field/voxel_vector.h"
 #include "shared/surface/cell_planes.h"
+#include "shared/surface/same_cell.h"
 
 namespace scree {
 namespace {
@@ -18,6 +19,9 @@ namespace {
 constexpr float slope_flat = 0.965F;
 /// Corners that know the face of a cell whose edge lies between them; by chance fewer do.
 constexpr size_t corners_least = 2;
+/// A tip may lie so far from where the values of the field are 0, because between codes they round it: half a
+/// voxel.
+constexpr float off_surface_codes = 21.0F;
 /// A vertex this near to a plane lies on its face.
 constexpr float on_face_voxels = 0.12F;
 /// A point this near to a cell counts as inside.
@@ -42,8 +46,9 @@ std::optional<glm::vec3> on_line_in_cell(glm::vec3 from, glm::vec3 along) {
 
 class Sharpener {
  public:
-  Sharpener(const Window& window, SurfaceMesh& mesh, const std::vector<bool>* fixed)
-      : faces_(window), mesh_(mesh), fixed_(fixed) {
+  Sharpener(const Window& window, SurfaceMesh& mesh, const std::vector<bool>* fixed, const Window* smooth)
+      : faces_(window), mesh_(mesh), fixed_(fixed), smooth_(smooth) {
+    CHECK(smooth == nullptr || smooth->box == window.box);
     CHECK_EQ(mesh.slopes.size(), mesh.vertices.size());
     CHECK(fixed == nullptr || fixed->size() == mesh.vertices.size());
   }
@@ -53,6 +58,8 @@ class Sharpener {
     is_crease_.resize(mesh_.vertices.size());
     for (size_t i = 0; i < mesh_.vertices.size(); ++i) {
       if (fixed_ != nullptr && (*fixed_)[i]) continue;
+      if (smooth_ != nullptr && is_same_cell(faces_.window(), *smooth_, home_of(mesh_.vertices[i]).cell))
+        continue;
       if (mesh_.slopes[i] < slope_flat)
         move(i);
       else
@@ -77,7 +84,7 @@ class Sharpener {
     const size_t index = faces_.window().index(cell.x, cell.y, cell.z);
     const glm::vec3 in_cell(vertex.position[0] % steps, vertex.position[1] % steps,
                             vertex.position[2] % steps);
-    return {cell, index, in_cell / surface_steps_per_voxel, direction_about(faces_, index)};
+    return {cell, index, in_cell / surface_steps_per_voxel};
   }
 
   /// Whether a vertex of `home` may lie in a cell: its own, or one that has no vertex.
@@ -94,16 +101,29 @@ class Sharpener {
     return rock == 0 || rock == cell_corners;
   }
 
+  /// Whether the field says that a place is clearly not on the surface: planes that meet there are of faces
+  /// that end before.
+  bool off_surface(VoxelCoord cell, glm::vec3 in_cell) const {
+    const Window& window = faces_.window();
+    float code = 0.0F;
+    for (int i = 0; i < cell_corners; ++i) {
+      const VoxelCoord corner = cell_corner(i), p = cell + corner;
+      const glm::vec3 share = glm::mix(1.0F - in_cell, in_cell, as_vector(corner));
+      code += share.x * share.y * share.z * static_cast<float>(window.at(p.x, p.y, p.z));
+    }
+    return std::abs(code) > off_surface_codes;
+  }
+
   /// To the edge of its cell, if there is one; else it gets the normal of the face on which it lies.
   void move(size_t index) {
     SurfaceVertex& vertex = mesh_.vertices[index];
-    const CellVertex home = home_of(vertex);
+    CellVertex home = home_of(vertex);
     CellPlanes planes;
     planes.look_at_corners(faces_, home);
     const size_t of_corners = planes.count();
     if (of_corners >= corners_least && !planes.is_edge()) {
       // Beside an edge the field's direction is another than the face's. On a thin wall it is not.
-      if (planes.is_straight(home.out)) return;
+      if (planes.is_straight(home.out(faces_))) return;
       planes.look_beyond(faces_, home);
     }
     if (const auto way = planes.way_to_edge(); way && shift(index, home, *way, planes)) return;
@@ -131,6 +151,7 @@ class Sharpener {
     if (glm::distance(to, in_home) < 2.0F * beside_voxels) to = in_home;
     const VoxelCoord to_cell{floor_to_int(to.x), floor_to_int(to.y), floor_to_int(to.z)};
     if (!may_hold(home.cell + to_cell, home.cell)) return false;
+    if (off_surface(home.cell + to_cell, to - as_vector(to_cell))) return false;
     SurfaceVertex& vertex = mesh_.vertices[index];
     const VoxelCoord off = home.cell - mesh_.origin;
     const std::array<int, 3> from{off.x * steps, off.y * steps, off.z * steps};
@@ -169,14 +190,16 @@ class Sharpener {
   FaceMap faces_;
   SurfaceMesh& mesh_;
   const std::vector<bool>* fixed_;
+  const Window* smooth_;
   std::vector<bool> is_crease_;
   bool any_ = false;
 };
 
 }  // namespace
 
-void sharpen_creases(const Window& window, SurfaceMesh& mesh, const std::vector<bool>* fixed) {
-  Sharpener(window, mesh, fixed).run();
+void sharpen_creases(const Window& window, SurfaceMesh& mesh, const std::vector<bool>* fixed,
+                     const Window* smooth) {
+  Sharpener(window, mesh, fixed, smooth).run();
 }
 
 }  // namespace scree

@@ -23,7 +23,9 @@ inline constexpr int crease_reach = 2;
 ///
 /// A vertex's place depends only on the codes around its cell: meshes that share cells still meet. `fixed`,
 /// if given, are the vertices of a mesh of leaves (leaf_surface.h) that are not of this window's cells: they
-/// stay, and no polygon is split anew.
-void sharpen_creases(const Window& window, SurfaceMesh& mesh, const std::vector<bool>* fixed = nullptr);
+/// stay, and no polygon is split anew. `smooth`, if given, is the same box with rock that has no edges: where
+/// a cell is as there, its vertex stays.
+void sharpen_creases(const Window& window, SurfaceMesh& mesh, const std::vector<bool>* fixed = nullptr,
+                     const Window* smooth = nullptr);
 
 }  // namespace scree

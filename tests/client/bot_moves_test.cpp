@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "client/bot/bot.h"
+#include "client/bot/random_walk.h"
 #include "server/app/live_server.h"
+#include "shared/field/field.h"
 #include "tests/support/person_world.h"
 
 namespace scree {
@@ -35,6 +38,21 @@ TEST(PlacePlan, a_ball_of_rubble_is_larger_than_its_rock_and_takes_nine_tenths_o
   EXPECT_NEAR(ball_radius_m(mass, 128, 0.25F), std::cbrt(0.9 * 0.75 / 3.14159265), 1e-3);
   EXPECT_NEAR(ball_radius_m(mass, 64, 0.25F), std::cbrt(1.8 * 0.75 / 3.14159265), 1e-3);
   EXPECT_EQ(ball_radius_m(0, 79, 0.25F), 0.0F);
+}
+
+TEST(RandomWalk, turns_back_where_it_leaves_its_square) {
+  constexpr float step_m = 0.1F;
+  const WalkSquare square{{20.0F, 0.0F, -8.0F}, 4.0F};
+  RandomWalk walk(50, 60, 3, square), free(50, 60, 3);
+  glm::vec3 feet_m(20.0F, 3.0F, -8.0F), free_m = feet_m;
+  float farthest_m = 0.0F;
+  while (!walk.is_over()) {
+    feet_m += step_m * walk.next(feet_m).go;
+    free_m += step_m * free.next(free_m).go;
+    EXPECT_TRUE((WalkSquare{square.middle_m, square.half_m + 2.0F * step_m}).has(feet_m));
+    farthest_m = std::max(farthest_m, glm::distance(free_m, square.middle_m));
+  }
+  EXPECT_GT(farthest_m, 8.0F) << "without a square it goes far";
 }
 
 class BotMovesTest : public ::testing::Test {
@@ -82,6 +100,19 @@ class BotMovesTest : public ::testing::Test {
   std::vector<std::string> lines_;
 };
 
+/// Height of the highest ground near a place, metres; at most 5.
+float heap_height_m(Field& field, float x_m, float z_m) {
+  constexpr float from_m = 5.0F, around_m = 3.0F, step_m = 0.25F;
+  const float dx = field.source().voxel_size_m;
+  float height_m = -from_m;
+  for (float x = -around_m; x <= around_m; x += step_m)
+    for (float z = -around_m; z <= around_m; z += step_m)
+      if (const auto down =
+              trace(field, glm::vec3(x_m + x, from_m, z_m + z) / dx, {0.0F, -1.0F, 0.0F}, 2.0F * from_m / dx))
+        height_m = std::max(height_m, from_m - *down * dx);
+  return height_m;
+}
+
 /// What is carried is what was dug and not placed, to the unit.
 void expect_balance(const BotReport& report, uint32_t digs, uint32_t places) {
   EXPECT_EQ(report.failure, "");
@@ -109,6 +140,21 @@ TEST_F(BotMovesTest, flying_it_digs_and_puts_down_most_of_it) {
   EXPECT_NEAR(json.at("digs").at("m3").get<double>(), m3_of(report.digs.mass, report), 1e-9);
   EXPECT_EQ(json.at("carried").size(), report.carried.size());
   EXPECT_EQ(json.at("ledger").at("error"), 0);
+}
+
+TEST_F(BotMovesTest, it_puts_down_where_it_is_told_to) {
+  start(flying());
+  BotConfig wanted = config(4, 2);
+  wanted.place_m = {30.0F, 0.0F, -20.0F};
+  wanted.carver.area_m = 1.0F;
+  wanted.check_hash = true;
+  Bot bot(wanted);
+  ASSERT_TRUE(bot.join());
+  while (!bot.finished()) ASSERT_TRUE(bot.step(std::chrono::milliseconds(5)));
+  expect_balance(bot.report(), 4, 2);
+  Field& field = bot.mirror()->field();
+  EXPECT_GT(heap_height_m(field, 30.0F, -20.0F), 0.5F);
+  EXPECT_LT(heap_height_m(field, -30.0F, 20.0F), 0.1F);
 }
 
 TEST_F(BotMovesTest, carves_come_before_digs_and_places) {

@@ -1,5 +1,6 @@
 // A bot and the rules of a game: what it says to them, what it hears and sees, and what its report has of it.
 #include <gtest/gtest.h>
+#include <mutex>
 #include <nlohmann/json.hpp>
 
 #include "client/bot/bot.h"
@@ -26,6 +27,11 @@ class BotRules : public ::testing::Test {
       EXPECT_TRUE(server_->push(rules(Notice{{.kind = AudienceKind::session, .session = session},
                                              ChannelData{data.channel, {text.begin(), text.end()}}})));
     };
+    config.hooks.said = [this](const SaidMessage& line) {
+      const std::scoped_lock lock(said_mutex_);
+      said_.push_back(line.name + ": " + line.text);
+      return true;
+    };
     auto started = LiveServer::start(config);
     ASSERT_TRUE(started) << started.error().message;
     server_ = std::move(*started);
@@ -43,6 +49,8 @@ class BotRules : public ::testing::Test {
     return true;
   }
 
+  std::mutex said_mutex_;  ///< lines come on the network's thread
+  std::vector<std::string> said_;
   std::unique_ptr<LiveServer> server_;
 };
 
@@ -51,7 +59,7 @@ TEST_F(BotRules, it_says_what_it_was_told_and_reports_what_it_hears_and_sees) {
   config.port = server_->port();
   config.carves = 0;
   config.hears_s = 0.01;
-  config.says = {{"shop", {'b', 'u', 'y'}}};
+  config.messages = {{"shop", {'b', 'u', 'y'}}};
   std::vector<std::string> log;
   Bot bot(config, [&](const std::string& line) { log.push_back(line); });
   ASSERT_TRUE(bot.join());
@@ -77,6 +85,23 @@ TEST_F(BotRules, it_says_what_it_was_told_and_reports_what_it_hears_and_sees) {
   EXPECT_TRUE(std::ranges::any_of(log, [](const std::string& line) {
     return line.starts_with("shop: ") && line.ends_with(" said buy");
   }));
+}
+
+TEST_F(BotRules, its_lines_are_said_to_everybody) {
+  BotConfig config;
+  config.port = server_->port();
+  config.carves = 0;
+  config.name = "anna";
+  config.lines = {"good morning", "/claim"};
+  config.hears_s = 60.0;
+  Bot bot(config);
+  ASSERT_TRUE(bot.join());
+  const auto said = [this] {
+    const std::scoped_lock lock(said_mutex_);
+    return said_;
+  };
+  ASSERT_TRUE(go_on_until(bot, [&] { return said().size() == 2; }));
+  EXPECT_EQ(said(), (std::vector<std::string>{"anna: good morning", "anna: /claim"}));
 }
 
 TEST_F(BotRules, messages_beyond_those_of_a_report_are_counted_and_odd_bytes_harmless) {
@@ -108,14 +133,15 @@ TEST(BotRulesOptions, messages_are_pairs_of_a_channel_and_a_text) {
   const auto options = parsed({"--message", "shop", "buy 1", "--message", "shop", "", "--hear", "2.5"});
   const auto* const bot = std::get_if<BotOptions>(&options);
   ASSERT_NE(bot, nullptr);
-  ASSERT_EQ(bot->bot.says.size(), 2U);
-  EXPECT_EQ(bot->bot.says[0], (ChannelData{"shop", {'b', 'u', 'y', ' ', '1'}}));
-  EXPECT_TRUE(bot->bot.says[1].bytes.empty());
+  ASSERT_EQ(bot->bot.messages.size(), 2U);
+  EXPECT_EQ(bot->bot.messages[0], (ChannelData{"shop", {'b', 'u', 'y', ' ', '1'}}));
+  EXPECT_TRUE(bot->bot.messages[1].bytes.empty());
   EXPECT_EQ(bot->bot.hears_s, 2.5);
   testing::internal::CaptureStderr();
   EXPECT_EQ(std::get<int>(parsed({"--message", "shop"})), 2);
   EXPECT_EQ(std::get<int>(parsed({"--message", std::string(40, 'x'), "text"})), 2);
   EXPECT_EQ(std::get<int>(parsed({"--message", "shop", std::string(5000, 'x')})), 2);
+  EXPECT_EQ(std::get<int>(parsed({"--say", std::string(201, 'x')})), 2);
   EXPECT_NE(testing::internal::GetCapturedStderr().find("--message"), std::string::npos);
 }
 

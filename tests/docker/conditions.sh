@@ -16,7 +16,10 @@ if ! bwrap --ro-bind / / --unshare-user --unshare-net true 2>/dev/null; then
   exit 77
 fi
 
-# What the files promise, or this would not be about them.
+# What the files promise, or this would not be about them. The image's programs are those of the component server.
+grep -q '^RUN ./scree package server web$' "$dockerfile" || fail "$dockerfile makes no packages of server and web"
+programs=$(sed -nE 's/^scree_install_programs\(server (.*)\)$/\1/p' "$here/../../cmake/ScreeInstall.cmake")
+[[ $programs == *scree-server* && $programs == *scree-admin* ]] || fail "the component server has only: $programs"
 for line in 'read_only: true' 'cap_drop: \[ALL\]' 'no-new-privileges:true' 'worlds:/worlds' 'mem_limit: '; do
   grep -Eq "^ +.*$line" "$compose" || fail "$compose does not say $line"
 done
@@ -37,9 +40,7 @@ work=$(mktemp --directory)
 group=
 trap 'rm -rf "$work"; [[ -z $group ]] || rmdir "$group" || true' EXIT
 mkdir -p "$work"/{local/bin,local/share/scree/web,tools,worlds}
-while read -r program; do
-  cp "$bin/$program" "$work/local/bin/"
-done < <(grep -oE 'build/release/bin/scree-[a-z]+' "$dockerfile" | sed 's#.*/##' | sort -u)
+for program in $programs; do cp "$bin/$program" "$work/local/bin/"; done
 cp "$bin/scree-bot" "$here/inside.sh" "$work/tools"
 if [[ -e $page/index.html ]]; then
   cp -r "$page/." "$work/local/share/scree/web"

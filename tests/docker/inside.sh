@@ -50,7 +50,9 @@ done
 grep -q 'an admin token was made' server.log || fail "the first start says nothing of its token"
 token=$(head -n 1 "$SCREE_ADMIN_TOKEN_FILE")
 ((${#token} >= 16)) || fail "the token has ${#token} characters"
-curl -sf "http://127.0.0.1:$SCREE_PORT/" | grep -qi '<title>' || fail "there is no page"
+# In whole: a grep that has found it closes the pipe, which curl may take for a fault.
+curl -sf "http://127.0.0.1:$SCREE_PORT/" >page.html || fail "there is no page"
+grep -qi '<title>' page.html || fail "what is served is no page"
 curl -sf "http://127.0.0.1:$SCREE_PORT/readyz" >/dev/null || fail "the server is not ready"
 
 status=0

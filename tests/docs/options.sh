@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The commands that pages name in a line, or show but cannot run in a test, have only options that their program's --help
-# knows; and so have the options and variables that pages name by themselves.
+# knows; and so have the options and variables that pages name by themselves, and the names of the C interface.
 # usage: options.sh SOURCE_FOLDER PROGRAM_FOLDER PAGE…
 set -euo pipefail
 readonly source=$1 bin=$2
@@ -78,10 +78,11 @@ known() {
 }
 
 commands=$("$source/scree" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | tr '\n' ' ')
-all=$(names_in "$(cat "$source/CMakeLists.txt" "$source/.ci/run")")
+# The last one has the fields of the journal.
+all=$(names_in "$(cat "$source/CMakeLists.txt" "$source/.ci/run" "$source/client/library/include/scree/client.h" "$source/server/log/journal.cpp")")
 for name in server viewer bot replay world scene import export place admin token bench 'bench studies' 'replay render' 'replay control' \
   'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' 'admin ban' \
-  'admin kick' 'admin set' 'admin health' 'admin list-bodies' 'admin ask' 'admin region add' 'rules check' 'rules test' 'rules types' 'token new' 'token show' setup build test fuzz demo web; do
+  'admin kick' 'admin set' 'admin health' 'admin slow' 'admin top' 'admin history' 'admin undo' 'admin restore' 'admin list-bodies' 'admin ask' 'admin region add' 'rules check' 'rules test' 'rules types' 'token new' 'token show' setup build test fuzz demo web; do
   # shellcheck disable=SC2086  # two words
   help_of $name
   all+=$help

@@ -110,7 +110,7 @@ on_command() {
     'run: exits with '*) wanted=${mark##* } ;;
   esac
   printf '%s\n' "$command"
-  if [[ $command == './scree server'* && $command != *' --version' && $command != *' --help' ]]; then
+  if [[ $command == './scree server'* && $command != './scree server config '* && $command != *' --version' && $command != *' --help' ]]; then
     start_server "$command"
   elif [[ $mark == 'run: together' ]]; then
     run_beside "$command"

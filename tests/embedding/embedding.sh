@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Embeds Scree in projects outside the tree, as README.md and docs/embedding.md show it, with their own CMakeLists.txt:
 # the simulation as a subdirectory, configured without the libraries that it does not need; the same from a build tree,
-# built and run; and a server with its host's own rules from a build tree, built and run with a bot.
+# and as installed, built and run; and a server with its host's own rules from a build tree, built and run with a bot.
 # usage: embedding.sh SOURCE_FOLDER BUILD_FOLDER CMAKE COMPILER
 set -euo pipefail
 readonly source=$1 build=$2 cmake=$3 compiler=$4
@@ -56,6 +56,15 @@ done
 for line in '20 pieces' 'terrain -8158, dust 8158' 'mass error 0'; do
   grep -qxF "$line" "$folder/readme.said" || { echo "the README's program should print, as the README says: $line" >&2; exit 1; }
 done
+
+# The same from an installed tree, which names neither the sources nor the build.
+for component in dev cpp; do "$cmake" --install "$build" --prefix "$folder/usr" --component "$component" >"$folder/install.log"; done
+! grep -rlE "$source|$build" "$folder/usr" --include='*.cmake' | grep . || { echo 'an installed file names the build folder' >&2; exit 1; }
+project installed docs/embedding.md 1 README.md 1
+sed -i "s| PATHS $build NO_DEFAULT_PATH||" "$folder/installed/CMakeLists.txt"
+configure installed -DCMAKE_PREFIX_PATH="$folder/usr"
+"$cmake" --build "$folder/installed/built"
+"$folder/installed/built/host" | diff - "$folder/readme.said" || { echo 'the installed libraries should compute the same' >&2; exit 1; }
 
 project rules docs/embedding.md 2 docs/embedding.md 2
 configure rules

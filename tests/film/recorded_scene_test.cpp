@@ -45,6 +45,16 @@ TEST_F(FilmScene, changes_are_all_those_since_the_last_moment) {
   EXPECT_TRUE(scene->go_to(11.5)->bricks.empty());
 }
 
+TEST_F(FilmScene, changes_have_the_stones_of_pieces_that_merged) {
+  const auto scene = scene_at(0.0);
+  const auto changes = scene->go_to(150.0);
+  ASSERT_TRUE(changes.has_value());
+  size_t merged = 0;
+  for (Tick tick = 1; tick <= 150; ++tick) merged += recorded(tick).stones.size();
+  ASSERT_GT(merged, 0U);
+  EXPECT_EQ(changes->stones.size(), merged);
+}
+
 TEST_F(FilmScene, pieces_are_between_their_places_of_two_ticks) {
   const auto scene = scene_at(12.0);
   ASSERT_TRUE(scene->go_to(12.25).has_value());
@@ -104,6 +114,60 @@ TEST_F(FilmProps, come_are_between_their_places_of_two_ticks_and_go) {
   ASSERT_TRUE(went.has_value());
   EXPECT_EQ(went->props_removed.size(), 1U);
   EXPECT_TRUE(scene.scene().props.empty());
+}
+
+/// Somebody who stands from tick 3 on, walks, and leaves in tick 60.
+class FilmPersons : public RecordingTest {
+ protected:
+  void SetUp() override {
+    RecordingTest::SetUp();
+    WorldConfig config = small_world();
+    config.service.persons = Persons::walk;
+    World world(config);
+    for (Tick tick = 1; tick <= 70; ++tick) {
+      std::vector<Command> commands;
+      const auto number = static_cast<uint32_t>(tick);
+      if (tick == 3) commands = {{7, number, StandRequest{glm::vec3(0.0F)}}};
+      if (tick > 3 && tick < 60) commands = {{7, number, WalkRequest{{.go = {1.0F, 0.0F, 0.0F}}}}};
+      if (tick == 60) commands = {{7, number, StandRequest{{}, true}}};
+      deltas.push_back(world.step(commands));
+      commands_by_tick.push_back(commands);
+    }
+    record(config);
+  }
+};
+
+TEST_F(FilmPersons, on_foot_are_figures_between_their_places_of_two_ticks) {
+  auto opened = RecordedScene::open(path, 0.0, {});
+  ASSERT_TRUE(opened.has_value()) << opened.error().message;
+  RecordedScene& scene = **opened;
+  ASSERT_TRUE(scene.go_to(2.0).has_value());
+  EXPECT_TRUE(scene.figures().all().empty());
+  ASSERT_TRUE(scene.go_to(40.25).has_value());
+  EXPECT_TRUE(scene.scene().props.empty()) << "a body is no post";
+  ASSERT_EQ(scene.figures().all().size(), 1U);
+  const Figures::Figure& figure = scene.figures().all().at(7);
+  EXPECT_TRUE(figure.on_foot);
+  EXPECT_GT(figure.speed_m_s, 1.0F);
+  const float from_m = deltas[39]->persons.front().walker.feet_m.x;
+  const float to_m = deltas[40]->persons.front().walker.feet_m.x;
+  ASSERT_GT(to_m, from_m + 0.01F);
+  EXPECT_NEAR(figure.eye_m.x, from_m + 0.25F * (to_m - from_m), 0.002F);
+  EXPECT_GT(scene.figures().limbs({0.0F, 9.0F, 0.0F}, {}, true).size(), 6U);
+  ASSERT_TRUE(scene.go_to(65.0).has_value());
+  EXPECT_TRUE(scene.figures().all().empty());
+}
+
+TEST_F(FilmPersons, walk_alike_whichever_moments_were_shown_before) {
+  const auto at = [&](std::initializer_list<double> ticks) {
+    auto scene = RecordedScene::open(path, 0.0, {});
+    for (const double tick : ticks) EXPECT_TRUE((*scene)->go_to(tick).has_value());
+    return (*scene)->figures().all().at(7);
+  };
+  const Figures::Figure once = at({50.5}), often = at({10.5, 30.0, 49.9, 50.5});
+  EXPECT_EQ(once.eye_m, often.eye_m);
+  EXPECT_EQ(once.walked_m, often.walked_m);
+  EXPECT_EQ(once.speed_m_s, often.speed_m_s);
 }
 
 TEST_F(FilmScene, a_moment_is_the_same_whichever_were_shown_before) {

@@ -303,7 +303,7 @@ TEST(FlushQueue, a_session_waits_once_and_is_sent_all_that_is_queued) {
   sessions.links[1]->drain_arrived();
   const SharedBytes bytes = share(ResetMessage{});
   for (const Tick tick : {1, 2}) {
-    queue.add(session, tick);
+    queue.add(session, tick, steady_now_s());
     session->queue(bytes);
   }
   sessions.pump(1);
@@ -315,6 +315,7 @@ TEST(FlushQueue, a_session_waits_once_and_is_sent_all_that_is_queued) {
   sessions.pump(1);
   EXPECT_EQ(sessions.links[1]->drain_arrived().size(), 2 * bytes->size());
   EXPECT_FALSE(session->wait_for_flush()) << "it does not wait any more";
+  EXPECT_EQ(queue.frame_age().count(), 1U) << "by its first message, which has waited longest";
 }
 
 TEST(FlushQueue, a_session_that_waited_for_so_many_ticks_is_sent_its_messages_though_more_wait) {
@@ -325,9 +326,9 @@ TEST(FlushQueue, a_session_that_waited_for_so_many_ticks_is_sent_its_messages_th
   const auto early = sessions.join(1, "10.0.0.1"), late = sessions.join(2, "10.0.0.1");
   for (const uint64_t id : {1, 2}) sessions.links[id]->drain_arrived();
   const SharedBytes bytes = share(ResetMessage{});
-  queue.add(early, 1);
+  queue.add(early, 1, steady_now_s());
   early->queue(bytes);
-  queue.add(late, limits::ticks_per_flush_max);
+  queue.add(late, limits::ticks_per_flush_max, steady_now_s());
   late->queue(bytes);
   queue.send_turn(limits::ticks_per_flush_max, true);
   for (const uint64_t id : {1, 2}) sessions.pump(id);

@@ -115,7 +115,8 @@ TEST_F(BodyCommands, answers_name_materials_and_say_kilograms) {
 TEST_F(BodyCommands, a_body_that_has_just_come_has_no_wild_speed) {
   for (int i = 0; i < 12; ++i) {
     run("add-prop box 1 1 1 --at 1000 " + std::to_string(20 + 2 * i) + " 1000");
-    for (const nlohmann::json& body : json("list-bodies")["bodies"])
+    const nlohmann::json told = json("list-bodies");
+    for (const nlohmann::json& body : told["bodies"])
       EXPECT_LT(body["speed_m_s"].get<double>(), 100.0) << body;
   }
 }

@@ -48,7 +48,7 @@ TEST(Codec, every_client_message_round_trips) {
 }
 
 TEST(Codec, an_operation_of_no_kind_is_refused) {
-  const std::vector<uint8_t> head{7, 6};
+  const std::vector<uint8_t> head{7, 7};
   const Result<Operation> got = decode_operation(head);
   ASSERT_FALSE(got);
   EXPECT_TRUE(holds(got.error().message, "kind of an operation with a material")) << got.error().message;
@@ -195,6 +195,8 @@ TEST(Codec, values_beyond_their_range_are_refused_by_name) {
   PieceMessage piece{1, samples::volume(), {}};
   piece.pose.y = std::numeric_limits<int32_t>::min();
   EXPECT_TRUE(holds(server_refusal(piece), "position"));
+  EXPECT_TRUE(holds(server_refusal(StoneMessage{piece, 1}), "position"));
+  EXPECT_TRUE(holds(server_refusal(StoneMessage{{1, samples::volume(), {}}, 0}), "nothing is rock"));
   FrameMessage frame;
   for (const StampOperation& stamp : {StampOperation{1, {}, -stamp_shift_max - 1},
                                       StampOperation{1, {}, -stamp_shift_max - 1, StampMethod::sphere},

@@ -8,12 +8,12 @@
 #include <gtest/gtest.h>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "proto/messages.h"
 #include "proto/transforms.h"
 #include "shared/base/overloaded.h"
 #include "shared/field/field.h"
+#include "tests/proto/admin_words.h"
 
 namespace scree {
 
@@ -100,6 +100,7 @@ inline Lines describe(const HelloMessage& m) {
               fmt::format("eye {}, radius {} m, kernels: {}{}", words(m.eye_m), m.interest_radius_m,
                           m.lacks_kernels ? "none" : "has them", m.meets ? ", meets others" : "")};
   if (m.administers) lines.emplace_back("administers alone");
+  if (m.stones) lines.emplace_back("wants stones");
   if (m.world != 0 || !m.ticket.empty())
     lines.push_back(fmt::format("comes back: world 0x{:016x}, ticket {}", m.world, words_of_bytes(m.ticket)));
   return lines;
@@ -146,51 +147,9 @@ inline Lines describe(const RepairMessage& m) {
 inline Lines describe(const AckMessage& m) {
   return {fmt::format("ack: tick {}", m.tick)};
 }
-inline std::string words(const std::optional<PlacesWithin>& box) {
-  return box ? fmt::format("{} to {}", words(box->lo_m), words(box->hi_m)) : "everywhere";
-}
-inline Lines words(const AdminRequest& act) {
-  return std::visit(
-      Overloaded{[](const SettingsRequest& request) {
-                   Lines lines;
-                   for (const SettingValue& setting : request.settings)
-                     lines.push_back(fmt::format("setting: {} = {}", setting.name, setting.value));
-                   return lines;
-                 },
-                 [](const ListSessionsRequest&) { return Lines{"list sessions"}; },
-                 [](const KickRequest& kick) {
-                   return Lines{fmt::format("kick: session {}, reason '{}'", kick.session, kick.reason)};
-                 },
-                 [](const BanRequest& ban) {
-                   return Lines{fmt::format("ban: session {}, address '{}', {} minutes, reason '{}'",
-                                            ban.session, ban.address, ban.minutes, ban.reason)};
-                 },
-                 [](const ListBansRequest&) { return Lines{"list bans"}; },
-                 [](const ListBodiesRequest& list) {
-                   return Lines{
-                       fmt::format("list bodies: {}, ids {}", words(list.within),
-                                   list.ids.empty() ? "all" : fmt::format("{}", fmt::join(list.ids, " ")))};
-                 },
-                 [](const ListJointsRequest& list) {
-                   return Lines{fmt::format("list joints: {}", words(list.within))};
-                 },
-                 [](const ListStoresRequest&) { return Lines{"list stores"}; },
-                 [](const ListRegionMassesRequest& list) { return Lines{"list masses of " + list.region}; },
-                 [](const ControlRulesRequest& c) {
-                   return Lines{fmt::format("rules: {} '{}', '{}'", name_of(c.control), c.rules, c.line)};
-                 },
-                 [](const ControlReplayRequest& control) {
-                   return Lines{fmt::format("control replay: {}, speed {}, {} {}", name_of(control.play),
-                                            control.speed, name_of(control.move), control.value)};
-                 },
-                 [](const LiftBanRequest& lift) {
-                   return Lines{fmt::format("lift ban: address '{}'", lift.address)};
-                 }},
-      act);
-}
 inline Lines describe(const AdminMessage& m) {
   Lines lines{fmt::format("admin: request {}, token '{}'", m.request, m.token)};
-  append(lines, words(m.act));
+  append(lines, admin_words(m.act));
   return lines;
 }
 inline Lines describe(const CursorMessage& m) {

@@ -124,6 +124,11 @@ inline Lines describe(const JointsMessage& m) {
   return lines;
 }
 
+inline Lines describe(const StoneMessage& m) {
+  Lines lines{fmt::format("stone: {} {}, lies 0x{:08x}", m.id, words(m.pose), m.lies)};
+  append(lines, words(m.volume));
+  return lines;
+}
 inline Lines describe(const KeptPiecesMessage& m) {
   return {fmt::format("kept pieces: {}", fmt::join(m.kept, " ")),
           fmt::format("released: {}", fmt::join(m.released, " "))};
@@ -171,6 +176,8 @@ inline Lines describe(const AdminListMessage& m) {
         "region {}, party {}: {} of material {}: pieces {}, dust {}, carried {}, back {}, away {}",
         mass.origin.region, mass.origin.party, mass.cut, row_number(mass.material), mass.pieces, mass.dust,
         mass.carried, mass.back, mass.away));
+  for (const SlowTickRow& row : m.slow_ticks) append(lines, words(row));
+  for (const PartyRow& row : m.parties) lines.push_back(words(row));
   if (m.left_out > 0) lines.push_back(fmt::format("{} more are left out", m.left_out));
   if (!m.text.empty()) lines.push_back(fmt::format("text: {}", m.text));
   return lines;

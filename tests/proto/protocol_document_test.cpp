@@ -189,6 +189,7 @@ std::map<std::string, double> stated_limits_of_rules() {
           {"channel_data_bytes_max", limits::channel_data_bytes_max},
           {"signs_wait_s", limits::signs_wait_s},
           {"console_line_bytes_max", limits::console_line_bytes_max},
+          {"slow_rows_max", limits::slow_rows_max},
           {"admin_text_bytes_max", limits::admin_text_bytes_max}};
 }
 
@@ -249,6 +250,7 @@ std::map<std::string, double> stated_limits() {
           {"bytes_out_all", limits::bytes_out_all},
           {"chunk_bytes_per_tick", limits::chunk_bytes_per_tick},
           {"piece_bytes_per_tick", limits::piece_bytes_per_tick},
+          {"stone_bytes_per_tick", limits::stone_bytes_per_tick},
           {"ground_bytes_per_tick", limits::ground_bytes_per_tick},
           {"patch_bricks_per_tick", limits::patch_bricks_per_tick},
           {"patch_bricks_max", limits::patch_bricks_max},

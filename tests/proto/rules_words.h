@@ -45,6 +45,10 @@ inline Lines describe(const CuesMessage& m) {
 inline Lines describe(const ChannelMessage& m) {
   return {words(static_cast<const ChannelData&>(m))};
 }
+inline Lines describe(const RestoreMessage& m) {
+  return {fmt::format("restore: request {}, {} bricks, {} pieces, {} loose chunks", m.request,
+                      m.bricks == nullptr ? 0 : m.bricks->size(), m.pieces.size(), m.loose.size())};
+}
 inline Lines describe(const RulesMessage& m) {
   return {fmt::format("rules: request {}, {}", m.request, text_of(m.act))};
 }

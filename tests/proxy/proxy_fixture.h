@@ -49,8 +49,8 @@ class ProxyTest : public NetServerTest {
     });
   }
 
-  /// The n-th block of docs/host.md in this language, for this test's server and places.
-  std::string documented(const std::string& language, size_t number = 0) const {
+  /// The n-th block of docs/host.md in this language, for this test's places.
+  static std::string block(const std::string& language, size_t number) {
     std::ifstream file(std::string(SCREE_SOURCE_DIR) + "/docs/host.md");
     std::string text(std::istreambuf_iterator<char>(file), {});
     const std::string fence = "```" + language + "\n";
@@ -61,9 +61,12 @@ class ProxyTest : public NetServerTest {
     at += fence.size();
     text = text.substr(at, text.find("```", at) - at);
     const std::string place = proxy_address + ":" + std::to_string(proxy_port);
-    text = std::regex_replace(text, std::regex("listen 80;"), "listen " + place + ";");
-    text = std::regex_replace(text, std::regex("bind :[0-9]+"), "bind " + place);
-    return std::regex_replace(text, std::regex("127\\.0\\.0\\.1:4177"),
+    text = std::regex_replace(text, std::regex("listen [0-9]+"), "listen " + place);
+    return std::regex_replace(text, std::regex("bind :[0-9]+"), "bind " + place);
+  }
+  /// The same for this test's server.
+  std::string documented(const std::string& language, size_t number = 0) const {
+    return std::regex_replace(block(language, number), std::regex("127\\.0\\.0\\.1:4177"),
                               "127.0.0.1:" + std::to_string(server->port()));
   }
 

@@ -4,7 +4,7 @@
 #include "client/render/levels/block_windows.h"
 #include "client/render/levels/level_bricks.h"
 #include "client/render/levels/surface_looks.h"
-#include "client/render/pieces/piece_mesh.h"
+#include "client/render/meshing/piece_mesh.h"
 #include "client/render/scene/ground_tint.h"
 #include "content/builtin_palette.h"
 #include "shared/operation/operation.h"

@@ -1,5 +1,5 @@
 // Which meshes are shown together, and when: without OpenGL.
-#include "client/render/mesh/mesh_scheduler.h"
+#include "client/render/meshing/mesh_scheduler.h"
 
 #include <chrono>
 #include <future>

@@ -1,5 +1,5 @@
 // Nodes of all levels, meshed one by one: do they make one surface?
-#include "client/render/mesh/node_mesh.h"
+#include "client/render/meshing/node_mesh.h"
 
 #include <gtest/gtest.h>
 #include <map>

@@ -40,8 +40,25 @@ TEST(PlaneBrickTest, an_edge_is_marked_along_its_cells) {
   EXPECT_GE(marked(*planes), 8) << "one cell a layer";
 }
 
-/// There were teeth: each cell of an arch had an edge of its own.
-TEST(PlaneBrickTest, a_ball_of_small_radius_has_no_edges) {
+TEST(PlaneBrickTest, the_eighths_with_edges_are_known) {
+  const auto edge_at = [](float x, float y) {
+    return planes_of(brick_window([=](glm::vec3 p) {
+                       return box_distance(p - glm::vec3(x - 10.0F, y - 10.0F, 0.0F),
+                                           glm::vec3(10.0F, 10.0F, 40.0F));
+                     }),
+                     {});
+  };
+  const auto near = edge_at(1.7F, 1.7F), across = edge_at(6.3F, 1.7F);
+  ASSERT_TRUE(near != nullptr && across != nullptr);
+  EXPECT_EQ(edge_eighths(*near), 0b11U) << "in the near half along x and y, in both along z";
+  EXPECT_EQ(edge_eighths(*across), 0b11'0000U);
+}
+
+/// There were teeth: each cell of an arch had an edge of its own. A pipe is one, too.
+TEST(PlaneBrickTest, round_rock_of_small_radius_has_no_edges) {
+  const Window pipe =
+      brick_window([](glm::vec3 p) { return glm::length(glm::vec2(p.x - 4.2F, p.y + 2.3F)) - 6.5F; });
+  EXPECT_EQ(planes_of(pipe, {}), nullptr);
   const Window ball =
       brick_window([](glm::vec3 p) { return glm::length(p - glm::vec3(4.2F, -3.7F, 4.4F)) - 7.0F; });
   EXPECT_EQ(planes_of(ball, {}), nullptr);

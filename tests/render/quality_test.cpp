@@ -38,6 +38,29 @@ TEST_P(QualityTest, depths_are_those_of_full_resolution_by_every_preset) {
   EXPECT_EQ(fine->metres, coarse->metres);
 }
 
+/// 0 to 255.
+double brightness(const Image& image) {
+  double sum = 0.0;
+  for (const uint8_t value : image.rgb) sum += value;
+  return sum / static_cast<double>(std::max<size_t>(image.rgb.size(), 1));
+}
+
+TEST_P(QualityTest, no_sun_shines_into_a_cellar_by_any_preset) {
+  const glm::vec3 middle_m(0.0F, ground_height_m(field_.source(), 0.0F, 0.0F) - 7.0F, 0.0F);
+  PieceTable pieces;
+  apply(DigOperation{sphere(middle_m, 3.0F)}, field_, pieces);
+  // It looks where the sun would shine.
+  camera_.eye_m = middle_m;
+  camera_.pitch = -0.6F;
+  camera_.yaw = 0.8F;
+  finish();
+  const double fine = brightness(draw());
+  for (const Quality quality : {Quality::low, Quality::medium}) {
+    renderer_->set_fineness(traits_of(quality).fineness);
+    EXPECT_LT(brightness(draw()), 1.2 * fine + 2.0) << name_of(quality);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, QualityTest, testing::Values("mesh", "raymarch"),
                          [](const auto& info) { return std::string(info.param); });
 

@@ -147,16 +147,38 @@ TEST_F(RaymarchPiece, a_merge_takes_one_frame_and_keeps_its_looks) {
   EXPECT_EQ(differing_pixels(after, draw_afresh(), 0), 0U);
 }
 
-TEST_F(RaymarchPiece, its_room_in_the_atlas_is_used_again) {
+TEST_F(RaymarchPiece, any_number_is_one_draw) {
+  finish();
+  const size_t of_ground = (draw(), method_->stats().draws);
+  cut();
+  const size_t of_one = (draw(), method_->stats().draws);
+  EXPECT_GT(of_one, of_ground);
+  for (int i = 1; i <= 20; ++i) {
+    Pose beside = home_;
+    beside.position_m.x += 0.02F * static_cast<float>(i);
+    pieces_[piece + static_cast<PieceId>(i)] = {table_.at(piece), beside};
+  }
+  method_->update(Scene{field_, pieces_}, camera_);
+  draw();
+  EXPECT_EQ(method_->stats().pieces, 21U);
+  EXPECT_EQ(method_->stats().draws, of_one);
+}
+
+TEST_F(RaymarchPiece, its_room_is_used_again) {
   finish();
   cut();
-  // Often enough to fill it many times over.
-  for (int i = 0; i < 2000; ++i) {
+  const auto bytes = [&] {
+    const MemoryCounts counts = method_->stats().memory;
+    return std::ranges::find(counts, "pieces", &MemoryCount::category)->gpu_bytes;
+  };
+  const size_t once = bytes();
+  for (int i = 0; i < 200; ++i) {
     pieces_.clear();
     method_->update(Scene{field_, pieces_}, camera_);
     pieces_[piece] = {table_.at(piece), home_};
     method_->update(Scene{field_, pieces_}, camera_);
   }
+  EXPECT_EQ(bytes(), once);
   EXPECT_EQ(differing_pixels(draw(), draw_afresh(), 0), 0U);
 }
 

@@ -1,5 +1,5 @@
 // The octrees that terrain is meshed by: fine about the eye, and at rest when the eye is.
-#include "client/render/mesh/surface_forest.h"
+#include "client/render/meshing/surface_forest.h"
 
 #include <gtest/gtest.h>
 

@@ -85,6 +85,34 @@ TEST(Rules, what_falls_is_told_with_who_caused_it) {
   EXPECT_EQ(kept(game, "first/felled"), R"(["anna",true])") << game.all_logged();
 }
 
+/// Persons without access tokens share a party with others of their address. Its number is the session of one
+/// who may have left.
+TEST(Rules, who_is_of_a_party_with_others_is_told_apart_by_who_asked_last) {
+  RulesWorld game(R"(
+    on.start(function()
+      world.fill{ shape = "box", at = vec(0, 3, 0), half = vec(0.5, 3, 0.5), material = "rock" }
+      world.fill{ shape = "box", at = vec(20, 3, 0), half = vec(0.5, 3, 0.5), material = "rock" }
+    end)
+    on.carve(function(e) store.set("carved", e.by and e.by:name()) end)
+    on.fall(function(e) store.set("felled", e.by and e.by:name()) end))");
+  const uint64_t anna = game.join("anna"), ben = game.join("ben");
+  game.steps(2);
+  const auto fell = [&](uint64_t session, float x_m) {
+    CarveRequest carve = ruled_carve(1.5F, 1.0F);
+    carve.shape.a.x = carve.impact_m.x = x_m;
+    Command command{session, 1, carve};
+    command.party = 9000;
+    game.step({command});
+    game.steps(60);
+  };
+  fell(anna, 0.0F);
+  EXPECT_EQ(kept(game, "first/carved"), R"("anna")") << game.all_logged();
+  EXPECT_EQ(kept(game, "first/felled"), R"("anna")") << game.all_logged();
+  fell(ben, 20.0F);
+  EXPECT_EQ(kept(game, "first/carved"), R"("ben")") << game.all_logged();
+  EXPECT_EQ(kept(game, "first/felled"), R"("ben")") << game.all_logged();
+}
+
 TEST(Rules, replies_come_to_the_function_that_waits) {
   RulesWorld game(R"(
     on.start(function()

@@ -5,6 +5,7 @@
 
 #include "server/rules/api.h"
 #include "tests/support/test_folder.h"
+#include "tools/rules/check_folder.h"
 #include "tools/rules/test_world.h"
 #include "tools/rules/written_file.h"
 
@@ -70,6 +71,17 @@ TEST_F(RulesExamples, of_every_function_runs) {
 TEST_F(RulesExamples, of_every_event_runs) {
   for (const ApiEvent& event : api_events())
     EXPECT_EQ(run(std::string(event.example), ticks_for_events), "") << event.example;
+}
+
+TEST_F(RulesExamples, are_without_fault_for_the_check) {
+  std::string init;
+  for (const ApiFunction& row : all_api()) init += "do\n" + std::string(row.example) + "\nend\n";
+  for (const ApiEvent& event : api_events()) init += std::string(event.example) + "\n";
+  ASSERT_TRUE(write_new_file((folder_ / "all") + "/init.lua", "on.start(function()\n" + init + "end)\n",
+                             Existing::refused));
+  const auto faults = check_folder(folder_ / "all");
+  ASSERT_TRUE(faults) << faults.error().message;
+  for (const FolderFault& fault : *faults) ADD_FAILURE() << fault.line << ": " << fault.words;
 }
 
 /// The blocks of Lua in a page.

@@ -93,6 +93,35 @@ TEST_F(RulesTools, check_finds_what_the_sandbox_leaves_out) {
   EXPECT_NE(faults[0].words.find("'os'"), std::string::npos) << faults[0].words;
 }
 
+TEST_F(RulesTools, check_finds_misspelt_fields_and_methods) {
+  const auto faults = faults_of(
+      folder_with("on.carve(function(e)\n  world.carve{ at = e.at, raduis = 2 }\n"
+                  "  world.build({ { at = vec(0, 1, 0), raduis = 2 } }, { at = e.at })\n"
+                  "  log(e.plase)\n  e.by:stnad(e.at)\n  local own = {}\n"
+                  "  function own:dance() return self end\n  own:dance()\nend)\n"
+                  "regions.set{ name = \"a\", at = { x = 1, yy = 2, z = 3 }, [\"half\"] = vec(1, 1, 1) }\n"));
+  ASSERT_GE(faults.size(), 5U);
+  for (size_t i = 0; i < 5; ++i) EXPECT_EQ(faults[i].file, "init.lua");
+  EXPECT_EQ(faults[0].line, 2);
+  EXPECT_NE(faults[0].words.find("carve has no field 'raduis': there are "), std::string::npos);
+  EXPECT_EQ(faults[1].line, 3);
+  EXPECT_EQ(faults[2].line, 4);
+  EXPECT_NE(faults[2].words.find("on.carve gives no 'plase'"), std::string::npos) << faults[2].words;
+  EXPECT_EQ(faults[3].line, 5);
+  EXPECT_NE(faults[3].words.find("no method 'stnad'"), std::string::npos) << faults[3].words;
+  EXPECT_EQ(faults[4].line, 10);
+  EXPECT_NE(faults[4].words.find("'yy'"), std::string::npos) << faults[4].words;
+}
+
+TEST_F(RulesTools, check_lets_pass_what_a_handler_puts_into_its_event_or_calls_anew) {
+  const auto faults =
+      faults_of(folder_with("on.carve(function(e)\n  e.mine = 1\n  log(e.mine)\nend)\n"
+                            "on.merge(function(e)\n  local e = { mine = e }\n  log(e.mine)\nend)\n"
+                            "log((\"%d\"):rep(2):upper())\n"
+                            "on.join(function(e) world.carve(e) end)\n"));
+  EXPECT_TRUE(faults.empty()) << faults[0].words;
+}
+
 TEST_F(RulesTools, check_finds_wrong_syntax_once) {
   const auto faults = faults_of(folder_with("on.start(function()\n  local = 3\nend)\n"));
   ASSERT_EQ(faults.size(), 1U);
@@ -125,6 +154,17 @@ TEST_F(RulesTools, check_says_what_it_found_by_status_and_as_json) {
   EXPECT_EQ(rules("check " + (folder_ / "none")).first, 2);
   write(folder + "/init.lua", "on.start(function() end)\n");
   EXPECT_EQ(rules("check " + folder).first, 0);
+}
+
+TEST_F(RulesTools, a_test_that_passes_says_what_it_printed_where_that_is_asked_for) {
+  const std::string folder = folder_with("on.start(function() log(\"begun\") end)\n");
+  write(folder + "/tests/one.lua", "test(\"a\", function(t) t:step(1) print(\"here\") end)\n");
+  const auto [status, said] = rules("test " + folder);
+  EXPECT_EQ(status, 0) << said;
+  EXPECT_EQ(said.find("said:"), std::string::npos) << said;
+  const std::string all = rules("test --log " + folder).second;
+  EXPECT_NE(all.find("begun"), std::string::npos) << all;
+  EXPECT_NE(all.find("here"), std::string::npos) << all;
 }
 
 TEST_F(RulesTools, a_test_that_fails_is_told_with_its_line) {

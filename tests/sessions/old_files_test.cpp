@@ -11,6 +11,7 @@
 #include "server/formats/world_codec.h"
 #include "server/replay/replay_source.h"
 #include "server/replay/verify.h"
+#include "server/store/world_upgrade.h"
 #include "tests/support/run_program.h"
 #include "tests/support/test_folder.h"
 
@@ -84,6 +85,16 @@ const std::vector<OldFiles>& old_files() {
        0xDF0232E5B71A991B,
        0x11BDC6786466E983,
        true,
+       true},
+      {"format_5",
+       "hills",
+       "scree-server 0.2.0",
+       "3789ee47b86fbddc90db3458edcca89ed71a599d2959dd6b7cded9ace17916bc",
+       {"hills.scree", "hills_cut.scree"},
+       179,
+       0xE7FF139BBA81A193,
+       0x026F4F8376C84037,
+       true,
        true}};
   return all;
 }
@@ -130,6 +141,14 @@ TEST_P(OldFilesTest, its_world_is_whole_and_a_server_goes_on_with_it) {
   EXPECT_GT(said(program, "info " + world()).at("tick"), GetParam().tick);
   EXPECT_EQ(said(program, "info " + world()).at("format"), world_format)
       << "what saves it brings it up to date";
+  const std::string before = name_of_older(world());
+  EXPECT_EQ(fs::exists(before), info.at("format") != world_format);
+  if (fs::exists(before)) {
+    const auto kept = said(program, "info " + before);
+    EXPECT_EQ(kept.at("format"), info.at("format"));
+    EXPECT_EQ(kept.at("state_hash"), info.at("state_hash"));
+    EXPECT_EQ(said(program, "check " + before).value("whole", false), true);
+  }
   if (!GetParam().verifies) return;
   const auto report = said(SCREE_REPLAY_PROGRAM, "verify " + recording);
   EXPECT_EQ(report.at("agrees"), true) << "the recording goes on, too";

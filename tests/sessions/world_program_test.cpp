@@ -27,7 +27,7 @@ class WorldProgramTest : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* name : {"hills.ground", "hills.world", "hills.scree", "hills_cut.scree"})
-      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_4" / name, folder / name);
+      fs::copy_file(fs::path(SCREE_SOURCE_DIR) / "tests/data/format_5" / name, folder / name);
     ::setenv("XDG_DATA_HOME", (folder / "data").c_str(), 1);
   }
   void TearDown() override { ::unsetenv("XDG_DATA_HOME"); }
@@ -68,7 +68,7 @@ TEST_F(WorldProgramTest, recordings_of_this_version_play_verify_and_compare) {
   EXPECT_TRUE(jumped.has_value()) << jumped.error().message;
   const auto [differs, text] = run_program(program + " diff " + recording + " " + cut);
   EXPECT_EQ(differs, 1) << text;
-  EXPECT_NE(text.find("has the ticks 1 to 119, the other 61 to 119"), std::string::npos) << text;
+  EXPECT_NE(text.find("has the ticks 1 to 179, the other 61 to 179"), std::string::npos) << text;
   EXPECT_EQ(run_program(program + " diff " + cut + " " + cut).first, 0);
   EXPECT_EQ(run_program(program + " diff " + cut + " " + world).first, 2) << "no recording";
   EXPECT_EQ(run_program(program + " cut " + recording + " " + cut).first, 1) << "it exists";

@@ -143,7 +143,7 @@ TEST_F(RecordingRingTest, a_ring_that_is_too_small_keeps_some_seconds_and_says_s
   EXPECT_EQ(ring.first_to_stay(800, 80'000'000)->tick, 200U);
   EXPECT_EQ(ring.first_to_stay(800, 56'000'000), nullptr) << "an eighth is the log's";
   const auto over = [&](uint64_t file, uint64_t log, uint64_t used) {
-    return ring.over_limit({file, log, {}}, used);
+    return ring.over_limit({.file_bytes = file, .log_bytes = log, .over_limit = {}}, used);
   };
   EXPECT_EQ(over(56'000'000, 8'000'000, 56'000'000), "");
   EXPECT_EQ(over(64'000'000, 8'000'000, 50'000'000), "") << "pages that are used again";

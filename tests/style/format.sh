@@ -3,7 +3,7 @@
 # usage: tests/style/format.sh [--fix]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
-readonly folders=(shared proto crypto transport auth ground content import export film server client tests bench)
+readonly folders=(shared proto crypto transport auth ground content tools server client python tests bench examples)
 
 mode=(--dry-run -Werror)
 if [[ ${1:-} == --fix ]]; then mode=(-i); fi

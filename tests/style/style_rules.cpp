@@ -59,6 +59,7 @@ std::vector<Layer> shared_layers() {
       {"shared/person/", {"shared/query/"}},
       {"proto/", {"shared/operation/", "shared/query/", "shared/person/"}},
       {"crypto/", {"shared/base/"}},
+      {"auth/", {"proto/", "crypto/"}},
       {"ground/", {"proto/", "crypto/", "content/"}},
       {"content/model/", {"shared/prop/"}},
       {"content/files/", {"content/", "content/model/", "proto/", "crypto/"}},
@@ -66,13 +67,11 @@ std::vector<Layer> shared_layers() {
   };
 }
 
-/// The layers of the programs and of the tests.
-std::vector<Layer> other_layers() {
+/// The layers of the server.
+std::vector<Layer> server_layers() {
   return {
-      {"tools/import/", {"ground/", "content/files/"}},
-      {"tools/export/", {"tools/import/", "server/app/", "client/session/"}},
-      {"transport/", {"crypto/"}},
-      {"auth/", {"proto/", "crypto/"}},
+      {"server/log/", {"shared/base/"}},
+      {"server/metrics/", {"shared/base/"}},
       {"server/command/", {"shared/operation/"}},
       {"server/provenance/", {"shared/operation/"}},
       {"server/formats/", {"proto/", "server/command/", "server/provenance/"}},
@@ -86,25 +85,40 @@ std::vector<Layer> other_layers() {
       {"server/doors/", {"server/command/", "auth/"}},
       {"server/publish/", {"server/world/", "crypto/"}},
       {"server/web/", {"server/command/", "transport/"}},
-      {"server/net/", {"server/doors/", "server/publish/", "server/web/"}},
-      {"server/store/", {"proto/", "server/world/"}},
+      {"server/net/", {"server/doors/", "server/publish/", "server/web/", "server/log/", "server/metrics/"}},
+      {"server/store/", {"proto/", "server/world/", "server/log/", "server/metrics/"}},
       {"server/replay/", {"server/store/"}},
-      {"server/host/", {"server/world/"}},
+      {"server/host/", {"server/world/", "server/metrics/"}},
+      {"server/history/", {"server/store/", "auth/"}},
+      {"server/flight/", {"server/store/"}},
       {"server/rules/sandbox/", {"shared/base/"}},
       {"server/rules/api/", {"server/rules/"}},
       {"server/rules/", {"server/host/", "server/store/", "server/rules/sandbox/"}},
-      {"server/app/", {"server/net/", "server/replay/", "server/rules/", "ground/", "content/files/"}},
+      {"server/app/",
+       {"server/net/", "server/replay/", "server/rules/", "server/history/", "server/flight/", "ground/",
+        "content/files/"}},
+  };
+}
+
+/// The layers of the other programs and of the tests.
+std::vector<Layer> other_layers() {
+  return {
+      {"tools/import/", {"ground/", "content/files/"}},
+      {"tools/export/", {"tools/import/", "server/app/", "client/session/"}},
+      {"transport/", {"crypto/"}},
       {"client/mirror/", {"proto/"}},
       {"client/connection/", {"client/mirror/", "transport/"}},
       {"client/cache/", {"client/connection/"}},
       {"client/session/", {"client/cache/"}},
       {"client/bot/", {"client/session/"}},
+      {"client/library/", {"client/session/", "client/render/meshing/"}},
       {"client/admin/", {"client/cache/"}},
       {"client/render/scene/", {"client/mirror/"}},
       {"client/render/gl/", {"client/render/scene/"}},
       {"client/render/levels/", {"client/render/scene/"}},
       {"client/render/bricks/", {"client/render/gl/", "client/render/levels/"}},
-      {"client/render/pieces/", {"client/render/bricks/"}},
+      {"client/render/meshing/", {"client/render/levels/"}},
+      {"client/render/pieces/", {"client/render/bricks/", "client/render/meshing/"}},
       {"client/render/details/", {"client/render/gl/", "client/render/levels/"}},
       {"client/render/mesh/", {"client/render/pieces/"}},
       {"client/render/raymarch/", {"client/render/pieces/"}},
@@ -112,9 +126,10 @@ std::vector<Layer> other_layers() {
       {"client/render/", {"client/mirror/"}},
       {"client/viewer/base/", {"client/render/"}},
       {"client/viewer/input/", {"client/viewer/base/"}},
-      {"client/viewer/session/", {"client/viewer/input/", "client/session/"}},
+      {"client/viewer/session/", {"client/viewer/input/", "client/viewer/figures/", "client/session/"}},
       {"client/viewer/pictures/", {"client/viewer/base/"}},
       {"client/viewer/signs/", {"client/viewer/base/"}},
+      {"client/viewer/figures/", {"client/viewer/base/"}},
       {"client/viewer/events/", {"client/viewer/base/"}},
       {"client/viewer/synthesis/", {"client/viewer/events/"}},
       {"client/viewer/sound/", {"client/viewer/synthesis/"}},
@@ -123,13 +138,14 @@ std::vector<Layer> other_layers() {
         "content/model/"}},
       {"client/viewer/window/", {"client/viewer/viewing/"}},
       {"client/viewer/", {"client/viewer/window/"}},
-      {"client/web/", {"client/viewer/viewing/"}},
+      {"client/web/", {"client/viewer/viewing/", "client/library/"}},
       {"tools/film/process/", {"shared/base/"}},
       {"tools/rules/", {"tools/film/process/", "server/app/"}},
       {"tools/film/",
        {"tools/film/process/", "server/app/", "client/viewer/pictures/", "client/viewer/signs/",
-        "client/viewer/synthesis/"}},
-      {"tests/", {"bench/", "studies/", "tools/film/", "tools/place/", "tools/rules/", "cmake/"}},
+        "client/viewer/figures/", "client/viewer/synthesis/"}},
+      {"python/", {"server/replay/", "client/library/"}},
+      {"tests/", {"python/", "bench/", "studies/", "tools/film/", "tools/place/", "tools/rules/", "cmake/"}},
   };
 }
 
@@ -137,6 +153,7 @@ std::vector<Layer> other_layers() {
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> table = [] {
     std::vector<Layer> all = shared_layers();
+    std::ranges::move(server_layers(), std::back_inserter(all));
     std::ranges::move(other_layers(), std::back_inserter(all));
     std::ranges::move(bench_layers(), std::back_inserter(all));
     return all;
@@ -176,7 +193,11 @@ const std::vector<Library>& libraries() {
       {"Boost.Beast", std::regex("boost/beast.*"), {"server/web/"}},
       {"Wslay", std::regex("wslay/.*"), {"transport/"}},
       {"utf8proc", std::regex("utf8proc\\.h"), {"server/net/"}},
+      {"spdlog", std::regex("spdlog/.*"), {"server/log/", "client/bot/", "studies/scale/", "tests/"}},
+      {"prometheus-cpp", std::regex("prometheus/.*"), {"server/metrics/"}},
+      {"libsystemd", std::regex("systemd/.*"), {"server/app/", "server/log/"}},
       {"Lua", std::regex("(lua|lauxlib|lualib).*\\.h(pp)?"), {"server/rules/", "tests/rules/"}},
+      {"pybind11", std::regex("pybind11/.*"), {"python/"}},
       {"RE2", std::regex("re2/.*"), {"server/rules/sandbox/"}},
       {"cmark-gfm", std::regex("cmark.*"), {"studies/report/"}},
       {"GDAL", std::regex("(gdal|ogr|cpl)_?.*\\.h"), {"tools/import/", "tools/export/gdal/"}},

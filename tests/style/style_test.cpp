@@ -17,9 +17,9 @@
 namespace scree::style {
 namespace {
 
-constexpr std::array source_folders = {"shared/", "proto/",   "crypto/", "transport/", "auth/",
-                                       "ground/", "content/", "server/", "client/",    "tools/",
-                                       "tests/",  "bench/",   "studies/"};
+constexpr std::array source_folders = {"shared/", "proto/",   "crypto/",  "transport/", "auth/",
+                                       "ground/", "content/", "server/",  "client/",    "tools/",
+                                       "tests/",  "bench/",   "studies/", "python/"};
 
 bool is_code(const std::string& path) {
   return path.ends_with(".h") || path.ends_with(".cpp");

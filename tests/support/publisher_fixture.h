@@ -52,6 +52,7 @@ class TrustingClient {
   std::vector<AnswerMessage> answers;
   std::vector<GroundMessage> grounds;
   std::vector<TileMessage> tiles;
+  std::vector<StoneMessage> stones;
   std::vector<PlaybackMessage> playbacks;
   MarksMessage marks;
   RecordedCursorsMessage recorded_cursors;
@@ -159,6 +160,7 @@ class TrustingClient {
   void apply(const PaletteChangedMessage&) {}
   void apply(const JointsMessage&) {}
   void apply(const KeptPiecesMessage&) {}
+  void apply(const StoneMessage& message) { stones.push_back(message); }
   void apply(const RegionsMessage&) {}
   void apply(const SignsMessage&) {}
   void apply(const CuesMessage&) {}

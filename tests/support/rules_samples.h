@@ -48,6 +48,16 @@ inline std::vector<ClientMessage> rules_client_messages() {
           act(Notice{red, NoticeLine{"the tower falls"}}, 6),
           act(Notice{{}, cue(CueKind::rattle)}, 7),
           act(Notice{red, channel_data()}, 8),
+          RestoreMessage{{.bricks = std::make_shared<const std::vector<RestoreRequest::Brick>>(1),
+                          .pieces = {5, 4000000000U},
+                          .loose = {{1, -2, 3}, {-100, 0, 100}}},
+                         9},
+          AdminMessage{22, "", HistoryRequest{glm::vec3(1.0F, 2.0F, 3.0F), 4.0F, "Ann", 1200, true}},
+          AdminMessage{23, "", HistoryRequest{}},
+          AdminMessage{24, "",
+                       UndoRequest{UndoMode::keep_others, "session:7", 1200, 5400, glm::vec3(-1.0F),
+                                   glm::vec3(2.0F), true, 12}},
+          AdminMessage{25, "", UndoRequest{}},
           AdminMessage{20, "", ControlRulesRequest{RulesControl::console, "demolition", "return 1 + 1"}},
           AdminMessage{21, "", ControlRulesRequest{}}};
 }

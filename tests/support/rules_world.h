@@ -67,6 +67,9 @@ class RulesWorld {
 
   /// A tick with these commands, and what the recording would have of it.
   std::shared_ptr<const TickDelta> step(std::vector<Command> commands = {}) {
+    // As of persons who share an address with somebody who has left.
+    for (Command& command : commands)
+      if (command.session != 0 && command.party == 0) command.party = 1000 + command.session;
     TickCommands tick(std::move(commands));
     rules->before(*world, tick);
     refused = tick.refused();

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 
 #include "tests/support/test_folder.h"
 
@@ -11,7 +12,8 @@ namespace scree {
 
 class WebFolder {
  public:
-  WebFolder() {
+  /// Each page of a test has another name.
+  explicit WebFolder(std::string name = "page") : name_(std::move(name)) {
     write("index.html", "<!doctype html><title>page</title>");
     write("status.html", "<!doctype html><title>status</title>");
     write("client.0123abcd.wasm", std::string("\0asm", 4));
@@ -19,7 +21,7 @@ class WebFolder {
     write("main.js", "let a = 1;");
     write("parts/style.css", "body {}");
   }
-  std::string path() const { return folder_ / "page/"; }
+  std::string path() const { return folder_ / (name_ + "/"); }
   /// A place outside of it.
   std::string beside(const std::string& name) const { return folder_ / name; }
   void write(const std::string& name, const std::string& text) const {
@@ -29,6 +31,7 @@ class WebFolder {
   }
 
  private:
+  const std::string name_;
   TestFolder folder_;
 };
 

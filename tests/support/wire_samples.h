@@ -8,6 +8,7 @@
 #include "proto/motion_codec.h"
 #include "proto/transforms.h"
 #include "shared/base/random.h"
+#include "tests/support/flight_samples.h"
 #include "tests/support/materials.h"
 #include "tests/support/query_samples.h"
 #include "tests/support/rules_samples.h"
@@ -92,7 +93,11 @@ inline FrameMessage frame() {
       SlideOperation{{{-12, 8, 400}, {12, 40, 436}}, material::soil, 46, 3},
       DigOperation{sphere({1.0F, -2.0F, 3.0F}, 1.5F)},
       DigOperation{box({4.0F, -1.0F, 2.0F}, {3.0F, 1.0F, 2.0F}), 77794},
-      PlaceOperation{capsule({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, 0.5F), material::ice}};
+      PlaceOperation{capsule({0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, 0.5F), material::ice},
+      RestoreOperation{std::make_shared<const std::vector<BrickPatch>>(std::vector<BrickPatch>{
+                           {{4, 0, 7}, noisy_brick(3)}, {{5, 0, 7}, noisy_brick(4), all_of(material::soil)}}),
+                       {77795, 77796}},
+      RestoreOperation{nullptr, {77797}}};
   frame.patches = {{{-5, 0, 7}, noisy_brick(1)}, {{-4, 0, 7}, noisy_brick(2), all_of(material::soil)}};
   frame.dropped_chunks = {{1, -2, 3}, {-100, 0, 100}};
   frame.removed_pieces = {9, 4000000000U, 12};
@@ -276,6 +281,7 @@ inline std::vector<ServerMessage> server_messages_but_stores() {
           {{"10.0.0.1", 90, "too loud"}}},
       body_list(),
       KeptPiecesMessage{{31, 34}, {2}},
+      StoneMessage{{36, volume(), {-1, 2, -3, 4}}, 0x00800001U},
       PersonPlacesMessage{600, std::vector<PersonBody>{{3, 31}, {1ULL << 40U, 34}},
                           OwnPerson{70, {{1.0F, 2.0F, -3.0F}, {0.5F, -9.0F, 0.0F}, 0.0078125F, true, 2}}},
       UnknownMessage{}};
@@ -367,13 +373,13 @@ inline std::vector<ClientMessage> client_messages_but_stores() {
 /// The last one is unknown.
 inline std::vector<ServerMessage> server_messages() {
   std::vector<ServerMessage> messages = server_messages_but_stores();
-  for (const auto& more : {store_server_messages(), rules_server_messages()})
+  for (const auto& more : {store_server_messages(), rules_server_messages(), flight_server_messages()})
     messages.insert(messages.end() - 1, more.begin(), more.end());
   return messages;
 }
 inline std::vector<ClientMessage> client_messages() {
   std::vector<ClientMessage> messages = client_messages_but_stores();
-  for (const auto& more : {store_client_messages(), rules_client_messages()})
+  for (const auto& more : {store_client_messages(), rules_client_messages(), flight_client_messages()})
     messages.insert(messages.end() - 1, more.begin(), more.end());
   return messages;
 }

@@ -42,6 +42,24 @@ std::vector<Particle> particles_of(const Cue& cue) {
   return dust.at(5.2, {});
 }
 
+TEST(Cues, of_digs_places_and_fills_are_heard_and_seen_for_no_piece_tells_of_them) {
+  const Shape ball = sphere({0.0F, 1.0F, -4.0F}, 1.5F);
+  for (const Operation& edit :
+       {Operation(DigOperation{ball}), Operation(PlaceOperation{ball, material::soil}),
+        Operation(FillOperation{ball})}) {
+    std::vector<Cue> cues;
+    add_cues_of(edit, cues);
+    ASSERT_EQ(cues.size(), 2U);
+    EXPECT_GT(loudness_of(cues[0]), 0.1);
+    EXPECT_GT(particles_of(cues[1]).size(), 3U);
+    EXPECT_EQ(cues[0].place_m, ball.a);
+  }
+  std::vector<Cue> none;
+  add_cues_of(CarveOperation{ball, SeedPattern::uniform, 1, 5, {}, 1}, none);
+  add_cues_of(DigOperation{.shape = {}, .piece = 7}, none);
+  EXPECT_TRUE(none.empty());
+}
+
 TEST(Cues, sounds_are_heard_alone_and_puffs_are_seen_alone) {
   for (const CueKind kind : all_kinds<CueKind>) {
     const bool sounds = row_of(kind).sounds;

@@ -225,6 +225,36 @@ TEST(Hud, of_more_lines_than_there_is_room_for_the_last_ones_are_shown) {
   }
 }
 
+/// The strip of messages after some frames.
+glm::vec2 messages_size(const HudFacts& facts, const std::vector<std::string>& lines = {}) {
+  HudScreen screen({1280.0F, 720.0F});
+  Hud hud;
+  for (int i = 0; i < 6; ++i) {
+    screen.begin(true, hud.text_px(1.0F));
+    hud.begin(true);
+    hud.messages(facts, lines);
+    screen.end();
+  }
+  return hud.panels().rectangles()[index_of(PanelPlace::bottom)].size;
+}
+
+TEST(Hud, a_long_refusal_is_broken_and_leaves_the_width_to_the_picture) {
+  const glm::vec2 size = messages_size(crowded_facts());
+  EXPECT_LT(size.x, 0.45F * 1280.0F);
+  EXPECT_LT(size.y, 0.15F * 720.0F);
+}
+
+TEST(Hud, who_is_in_the_world_sees_past_the_making_of_more_of_it) {
+  HudFacts facts;
+  facts.preparing = {"mesh", 100, 20, false};
+  const glm::vec2 at_first = messages_size(facts);
+  facts.preparing->goes_on = true;
+  const glm::vec2 later = messages_size(facts);
+  EXPECT_GT(at_first.x, 300.0F) << "it has words";
+  EXPECT_GT(later.x, 0.0F);
+  EXPECT_LT(later.x * later.y, 0.25F * at_first.x * at_first.y);
+}
+
 TEST(Hud, a_panel_that_went_leaves_no_room_behind) {
   WholeHud hud({1280.0F, 720.0F});
   for (int i = 0; i < 6; ++i) hud.frame(crowded_facts(), 1.0F, true);

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "client/viewer/base/limits.h"
+#include "client/viewer/figures/figures.h"
 #include "client/viewer/input/text_line.h"
 #include "client/viewer/session/conversation.h"
-#include "client/viewer/session/figures.h"
 
 namespace scree {
 namespace {

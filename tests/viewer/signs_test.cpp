@@ -5,6 +5,7 @@
 
 #include "client/viewer/signs/limits.h"
 #include "client/viewer/signs/shown_signs.h"
+#include "client/viewer/signs/sign_drawing.h"
 #include "client/viewer/signs/sign_painter.h"
 
 namespace scree {
@@ -171,6 +172,65 @@ TEST(SignPictures, rows_lie_at_the_top_and_a_marker_at_its_place) {
   Sign place = marker("here", {0.0F, 0.0F, -10.0F});
   place.colour = {60, 255, 60};
   EXPECT_GT(count_colour(painted({place}), {60, 255, 60}, {0.45F, 0.45F}, {0.55F, 0.55F}), 30);
+}
+
+/// Where the words lie, and the diamonds and arrows.
+std::vector<TakenRoom> rooms_of(const std::vector<SignPart>& parts, const LetterSizes& letters) {
+  std::vector<TakenRoom> rooms;
+  for (const SignPart& part : parts) {
+    if (const auto* const words = std::get_if<SignWords>(&part))
+      rooms.push_back({words->at, words->at + glm::vec2(letters.width(words->words), letters.height)});
+    if (const auto* const triangle = std::get_if<SignTriangle>(&part)) {
+      const auto& [a, b, c] = triangle->corners;
+      rooms.push_back({glm::min(a, glm::min(b, c)), glm::max(a, glm::max(b, c))});
+    }
+  }
+  return rooms;
+}
+
+TEST(SignDrawing, a_markers_words_and_arrow_lie_beside_rows_and_panels) {
+  const LetterSizes letters{[](const std::string& words) { return 7.0F * static_cast<float>(words.size()); },
+                            13.0F};
+  const glm::vec2 size(1280.0F, 720.0F);
+  const TakenRoom tools{{400.0F, 650.0F}, {880.0F, 712.0F}}, figures{{8.0F, 8.0F}, {300.0F, 120.0F}};
+  std::vector<ShownSign> rows;
+  for (const char* name : {"a", "b", "c"})
+    rows.push_back({line(name, "Order: 20 m³ of iron to the gate, please"), "Order: 20 m³ of iron, please"});
+  const std::vector<TakenRoom> of_rows = rooms_of(draw_signs(rows, size, letters), letters);
+  const auto marked = [&](MarkerPlace place) {
+    std::vector<ShownSign> shown = rows;
+    shown.push_back({marker("gate", {}), "the gate", place});
+    // Markers are drawn first.
+    std::vector<TakenRoom> rooms = rooms_of(draw_signs(shown, size, letters, {tools, figures}), letters);
+    rooms.resize(rooms.size() - of_rows.size());
+    return rooms;
+  };
+  std::vector<TakenRoom> taken = of_rows;
+  taken.insert(taken.end(), {tools, figures});
+  const auto expect_beside = [&](const TakenRoom& room, glm::vec2 at) {
+    for (const TakenRoom& one : taken)
+      EXPECT_FALSE(room.from.x < one.to.x && one.from.x < room.to.x && room.from.y < one.to.y &&
+                   one.from.y < room.to.y)
+          << at.x << ", " << at.y << ": " << room.from.y << " to " << room.to.y;
+    EXPECT_TRUE(room.from.x >= 0.0F && room.to.x <= size.x && room.from.y >= 0.0F && room.to.y <= size.y);
+  };
+  for (const float x : {0.04F, 0.2F, 0.5F, 0.6F, 0.95F}) {
+    // At the edge: all of it.
+    for (const auto& [y, way] : {std::pair(0.06F, -1.0F), std::pair(0.94F, 1.0F)})
+      for (const TakenRoom& room : marked({.at = {x, y}, .way = glm::vec2(0.0F, way)}))
+        expect_beside(room, {x, y});
+    // In the picture: a place is where it is, its words beside it.
+    for (const float y : {0.02F, 0.12F, 0.5F, 0.88F, 0.97F})
+      // Where it lies beneath something, it may have no words.
+      for (const TakenRoom& room : marked({.at = {x, y}}))
+        if (room.to.x - room.from.x > 50.0F) expect_beside(room, {x, y});
+  }
+  const auto has_words = [&](glm::vec2 at) {
+    return std::ranges::any_of(marked({.at = at}),
+                               [](const TakenRoom& room) { return room.to.x - room.from.x > 50.0F; });
+  };
+  for (const glm::vec2 at : {glm::vec2(0.5F, 0.5F), glm::vec2(0.95F, 0.88F), glm::vec2(0.5F, 0.88F)})
+    EXPECT_TRUE(has_words(at)) << at.x << ", " << at.y;
 }
 
 TEST(SignPictures, any_words_and_any_size_are_harmless) {

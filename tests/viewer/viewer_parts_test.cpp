@@ -29,8 +29,11 @@ TEST(Screenshots, orders_are_understood_or_refused_by_name) {
   EXPECT_EQ(parse_screenshot("a.png@joined")->file, "a.png");
   EXPECT_EQ(parse_screenshot("a.png@settled")->when, ScreenshotOrder::When::settled);
   EXPECT_EQ(parse_screenshot("a.png@pieces>=40")->pieces, 40U);
+  EXPECT_EQ(parse_screenshot("a.png@after=12")->seconds, 12U);
+  EXPECT_EQ(parse_screenshot("a.png@after=12")->description(), "a.png@after=12");
   for (const char* bad : {"", "@joined", "a.png@", "a.png@soon", "a.png@pieces>=", "a.png@pieces>=0",
-                          "a.png@pieces>=4x", "a.png@pieces>=-4", "a.jpg", "a", "a.png.jpg@joined"})
+                          "a.png@pieces>=4x", "a.png@after=0", "a.png@after=", "a.png@after=99999999999",
+                          "a.png@pieces>=-4", "a.jpg", "a", "a.png.jpg@joined"})
     EXPECT_FALSE(parse_screenshot(bad)) << bad;
 }
 
@@ -63,6 +66,20 @@ TEST(Screenshots, each_waits_for_its_own_moment) {
   moment.now_s += limits::settled_s + 0.01;
   EXPECT_EQ(queue.pop_due(moment).at(0).file, "3.png");
   EXPECT_TRUE(queue.empty());
+}
+
+TEST(Screenshots, one_is_taken_so_many_seconds_after_the_terrain_has_come) {
+  ScreenshotQueue queue({*parse_screenshot("1.png@after=12")});
+  Moment moment;
+  moment.now_s = 100.0;
+  EXPECT_TRUE(queue.pop_due(moment).empty());
+  moment.joined = true;
+  moment.now_s = 120.0;
+  EXPECT_TRUE(queue.pop_due(moment).empty());
+  moment.now_s = 131.9;
+  EXPECT_TRUE(queue.pop_due(moment).empty());
+  moment.now_s = 132.0;
+  EXPECT_EQ(queue.pop_due(moment).at(0).file, "1.png");
 }
 
 TEST(Options, are_understood) {

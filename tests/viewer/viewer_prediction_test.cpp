@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "client/cache/join_server.h"
-#include "client/viewer/base/limits.h"
+#include "client/session/limits.h"
 #include "client/viewer/session/viewer_session.h"
 #include "server/app/live_server.h"
 #include "tests/support/patience.h"

@@ -36,6 +36,7 @@ FrameDrawer::FrameDrawer(const DrawChoice& drawn, std::unique_ptr<EglContext> co
 Result<void> FrameDrawer::prepare(RecordedScene& scene, const MirrorChanges& changes, const Camera& camera,
                                   const Stopped& stopped) {
   const Scene shown = scene.scene();
+  TRY(renderer_->set_water(scene.water()));
   TRY(renderer_->set_props(shown.props));
   TRY(methods_.follow(changes, shown, camera));
   if (std::exchange(field_, &shown.field) != &shown.field) renderer_->forget_details();
@@ -57,7 +58,11 @@ Result<Image> FrameDrawer::draw(RecordedScene& scene, const MirrorChanges& chang
                                 const Stopped& stopped) {
   TRY(prepare(scene, changes, camera, stopped));
   const Scene shown = scene.scene();
-  renderer_->set_contacts(contacts_of({shown.field, methods_.pieces(), shown.props}, camera.eye_m));
+  std::vector<Contact> contacts = contacts_of({shown.field, methods_.pieces(), shown.props}, camera.eye_m);
+  scene.figures().add_to(contacts);
+  renderer_->set_contacts(std::move(contacts));
+  renderer_->set_limbs(scene.figures().limbs(camera.eye_m, {}, true));
+  renderer_->set_wind_time(scene.seconds());
   if (drawn_.particles) renderer_->set_particles(scene.particles(camera.eye_m));
   LineList lines;
   add_joints(lines, scene.joints(), scene.scene(), camera.eye_m);

@@ -1,6 +1,6 @@
-// A recording's world at any moment, to be drawn: the terrain after the last whole tick, pieces and
-// props between that tick and the next one, and the dust that they raised. What is shown at a moment does not
-// depend on which moments were shown before. Nothing is simulated. One thread at a time.
+// A recording's world at any moment, to be drawn: the terrain after the last whole tick, pieces, props and
+// persons on foot between that tick and the next one, and the dust that they raised. What is shown at a
+// moment does not depend on which moments were shown before. Nothing is simulated. One thread at a time.
 #pragma once
 
 #include <memory>
@@ -13,6 +13,7 @@
 #include "client/render/scene/particle.h"
 #include "client/viewer/events/dust.h"
 #include "client/viewer/events/piece_event_detector.h"
+#include "client/viewer/figures/figures.h"
 #include "client/viewer/signs/shown_signs.h"
 #include "server/replay/replay_source.h"
 
@@ -42,6 +43,9 @@ class RecordedScene {
   const SceneJoints& joints() const { return joints_; }
   /// The recording's, as it starts. Not null.
   const std::shared_ptr<const Palette>& palette() const { return source_->header().world.palette; }
+  WaterLevel water() const { return water_; }
+  /// From the recording's first moment.
+  double seconds() const { return seconds_of(moment_); }
   /// What pieces did since the moment before, in order.
   const std::vector<TickEvents>& events() const { return events_; }
   /// A game's signs that all saw, and the moment by which they are shown.
@@ -49,6 +53,8 @@ class RecordedScene {
   SignMoment sign_moment() const {
     return {moment_, static_cast<double>(source_->header().world.tick_rate_hz)};
   }
+  /// The persons on foot; their bodies are no props here.
+  const Figures& figures() const { return shown_figures_; }
   /// In the air; the farthest from the eye first.
   std::vector<Particle> particles(glm::vec3 eye_m) { return dust_.at(seconds_of(moment_), eye_m); }
 
@@ -62,6 +68,8 @@ class RecordedScene {
   void update_pieces(MirrorChanges& changes);
   void update_props(MirrorChanges& changes);
   void move_pieces(float part);
+  Result<void> follow_persons();
+  void step_figures(Figures& figures, double tick) const;
   /// Where what was there after the last tick is at that part of the way to the next one.
   static Pose on_the_way(const PieceState& from, const std::vector<PieceState>& to, float part);
 
@@ -70,7 +78,13 @@ class RecordedScene {
   std::map<PieceId, std::shared_ptr<const Volume>> volumes_;  ///< of the pieces alive
   ScenePieces pieces_;
   SceneProps props_;
+  std::map<PieceId, uint64_t> persons_;  ///< the sessions of those on foot, by body
+  std::map<uint64_t, Pose> bodies_;      ///< where these are at the moment, by session
+  std::vector<PlayerCursor> cursors_;    ///< after the last whole tick
+  PersonColours colours_;
+  Figures figures_, shown_figures_;  ///< after the last whole tick, and at the moment
   SceneJoints joints_;
+  WaterLevel water_;
   std::vector<Sign> signs_;
   PieceEventDetector piece_events_;
   Dust dust_;

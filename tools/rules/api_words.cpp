@@ -70,6 +70,11 @@ std::vector<std::string> types_of(std::string_view text) {
   return {parts.begin(), parts.end()};
 }
 
+std::string whole_name(const ApiFunction& row) {
+  return std::string(row.table) + (row.table.empty() || row.table.ends_with(':') ? "" : ".") +
+         std::string(row.name);
+}
+
 std::string name_of(const WordedField& field) {
   return field.name + (field.optional ? "?" : "");
 }

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "server/rules/api.h"
+
 namespace scree {
 
 struct WordedField {
@@ -22,6 +24,8 @@ std::vector<WordedField> fields_of_type(std::string_view text);
 /// The parts of "table<string, number>, number".
 std::vector<std::string> types_of(std::string_view text);
 
+/// "world.ray", "person:name", "log".
+std::string whole_name(const ApiFunction& row);
 /// "mask?" of a field that may be left out.
 std::string name_of(const WordedField& field);
 /// The text with each line but the first begun by `indent`.

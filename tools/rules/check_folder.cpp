@@ -8,6 +8,7 @@
 
 #include "server/rules/mod.h"
 #include "tools/film/process/program_run.h"
+#include "tools/rules/field_check.h"
 #include "tools/rules/known_names.h"
 #include "tools/rules/written_file.h"
 
@@ -64,9 +65,7 @@ class ScratchFolder {
   std::string path_;
 };
 
-Result<std::vector<FolderFault>> luacheck(const std::string& folder) {
-  const ScratchFolder scratch;
-  if (scratch.path().empty()) return fail("there is no folder for temporary files: set TMPDIR");
+Result<std::vector<FolderFault>> luacheck(const std::string& folder, const ScratchFolder& scratch) {
   const std::string config = scratch.path() + "/luacheckrc";
   TRY(write_new_file(config, TRY(luacheck_configuration()), Existing::refused));
   const ProgramEnd end = TRY(run_to_end(
@@ -81,6 +80,35 @@ Result<std::vector<FolderFault>> luacheck(const std::string& folder) {
     else if (!line.empty())
       faults.push_back(fault_of_line(line));
   return faults;
+}
+
+/// The folder's files, but those for editors: "init.lua", "tests/first.lua".
+std::vector<std::string> lua_files(const std::string& folder) {
+  std::vector<std::string> files;
+  std::error_code error;
+  for (auto at = fs::recursive_directory_iterator(folder, error); at != fs::recursive_directory_iterator();
+       at.increment(error)) {
+    if (error) break;
+    if (at->is_directory(error) && at->path().filename() == "types") at.disable_recursion_pending();
+    if (at->path().extension() == ".lua" && at->is_regular_file(error))
+      files.push_back(at->path().lexically_relative(folder).string());
+  }
+  return files;
+}
+
+/// Misspelt fields and methods.
+Result<void> add_field_faults(const std::string& folder, const ScratchFolder& scratch,
+                              std::vector<FolderFault>& faults) {
+  const std::string script = scratch.path() + "/fields.lua";
+  TRY(write_new_file(script, field_check_script(), Existing::refused));
+  std::vector<std::string> command{"lua5.1", script};
+  for (const std::string& file : lua_files(folder)) command.push_back(file);
+  const ProgramEnd end =
+      TRY(run_to_end(command, "which finds misspelt fields: install the package lua-check", folder));
+  if (end.status != 0) return fail("the check of fields failed: " + end.output);
+  std::istringstream lines(end.output);
+  for (std::string line; std::getline(lines, line);) faults.push_back(fault_of_line(line));
+  return {};
 }
 
 /// What is wrong as the files load, where that is not said yet.
@@ -105,7 +133,10 @@ Result<std::vector<FolderFault>> check_folder(const std::string& folder) {
   if (!fs::is_directory(folder, error)) return fail(folder + " is no folder");
   if (!fs::is_regular_file(fs::path(folder) / "init.lua", error))
     return fail(folder + " has no init.lua: scree rules new NAME makes a folder that runs");
-  std::vector<FolderFault> faults = TRY(luacheck(folder));
+  const ScratchFolder scratch;
+  if (scratch.path().empty()) return fail("there is no folder for temporary files: set TMPDIR");
+  std::vector<FolderFault> faults = TRY(luacheck(folder, scratch));
+  TRY(add_field_faults(folder, scratch, faults));
   add_load_fault(folder, faults);
   std::ranges::sort(
       faults, {}, [](const FolderFault& one) { return std::tie(one.file, one.line, one.column, one.words); });

@@ -1,5 +1,5 @@
-// What is wrong with a folder of rules before it runs: syntax, unknown names, and what its files do as they
-// load.
+// What is wrong with a folder of rules before it runs: syntax, unknown names and fields, and what its files
+// do as they load.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 #include "tools/rules/test_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -13,27 +14,28 @@ namespace {
 
 constexpr size_t log_lines_shown = 10;
 
-void print_outcome(const TestOutcome& outcome) {
-  if (outcome.failure.empty()) {
+void print_outcome(const TestOutcome& outcome, bool all_lines) {
+  const bool passed = outcome.failure.empty();
+  if (passed)
     fmt::print("  ok      {} ({} ticks, {:.2f} s)\n", outcome.name, outcome.ticks, outcome.seconds);
-  } else {
+  else
     fmt::print("  FAILED  {}\n          {}\n", outcome.name.empty() ? outcome.file : outcome.name,
                indented(outcome.failure, "          "));
-    const size_t lines = outcome.log.size();
-    for (size_t i = lines > log_lines_shown ? lines - log_lines_shown : 0; i < lines; ++i)
-      fmt::print("          said: {}\n", indented(outcome.log[i], "          "));
-  }
+  const size_t lines = outcome.log.size();
+  const size_t shown = all_lines ? lines : passed ? 0 : std::min(lines, log_lines_shown);
+  for (size_t i = lines - shown; i < lines; ++i)
+    fmt::print("          said: {}\n", indented(outcome.log[i], "          "));
   std::fflush(stdout);
 }
 
-nlohmann::ordered_json json_of(const TestOutcome& outcome) {
+nlohmann::ordered_json json_of(const TestOutcome& outcome, bool with_log) {
   nlohmann::ordered_json json{{"file", outcome.file},
                               {"name", outcome.name},
                               {"passed", outcome.failure.empty()},
                               {"ticks", outcome.ticks},
                               {"seconds", outcome.seconds}};
   if (!outcome.failure.empty()) json["failure"] = outcome.failure;
-  if (!outcome.failure.empty()) json["log"] = outcome.log;
+  if (with_log || !outcome.failure.empty()) json["log"] = outcome.log;
   return json;
 }
 
@@ -47,9 +49,9 @@ Result<bool> run_rules_tests(const RulesTestOptions& options) {
     run_test_file(options.folder, file, options.filter, [&](const TestOutcome& outcome) {
       ++(outcome.failure.empty() ? passed : failed);
       if (options.json)
-        tests.push_back(json_of(outcome));
+        tests.push_back(json_of(outcome, options.log));
       else
-        print_outcome(outcome);
+        print_outcome(outcome, options.log);
     });
   }
   if (options.json)

@@ -11,6 +11,7 @@ namespace scree {
 struct RulesTestOptions {
   std::string folder;
   std::string filter;  ///< tests whose names contain it
+  bool log = false;    ///< what is said in tests that pass, too
   bool json = false;   ///< one object at the end; else lines as they come
 };
 

@@ -82,11 +82,6 @@ std::string tables_text() {
   return text + "\n";
 }
 
-std::string whole_name(const ApiFunction& row) {
-  return std::string(row.table) + (row.table.empty() || row.table.ends_with(':') ? "" : ".") +
-         std::string(row.name);
-}
-
 std::string events_text() {
   std::string text;
   for (const ApiEvent& event : api_events()) {

@@ -12,9 +12,9 @@ readonly root bin=${SCREE_PROGRAMS:-$root/build/release/bin}
 readonly start_s_max=60 session_s_max=600
 # Where the bot carves, metres: between the cliff and the arch, all of it before the spawn. A scene has places of its own.
 area_m=10 stage_m=(9 4) world=(--terrain canyon --spawn 30,9,19,63,-7)
-# Pieces in flight that make the second picture: about two carves' worth, which three carves a second reach. In a scene
-# rock may be thin.
-blast_pieces=100
+# When the second picture is due, and the last. First by pieces in flight: about two carves' worth, which three carves a
+# second reach. In a scene rock may be thin.
+middle='pieces>=100' last=settled
 
 # In a game (games/NAME): what the first bot does besides, and the options of each further one.
 first_bot=() bots=()
@@ -68,7 +68,7 @@ parse() {
   [[ -z $scene || -z $game ]] || die "--scene and --game exclude each other"
   [[ $carves =~ ^[1-9][0-9]{0,5}$ ]] || die "--carves: write a number from 1 to 999999"
   # Of few carves, or slow ones, not so many pieces are ever in flight.
-  if ((carves < 3)) || [[ $rate =~ ^[01](\.|$) ]]; then blast_pieces=30; fi
+  if ((carves < 3)) || [[ $rate =~ ^[01](\.|$) ]]; then middle='pieces>=30'; fi
 }
 
 # Ends what is still running, and only that.
@@ -105,29 +105,33 @@ wait_for_exit() {
 make_scene() {
   local file="$out/scene.world"
   "$bin/scree-scene" make "$scene" "$file" >"$out/scene.json" || die "there is no world of the scene '$scene'"
-  world=(--world "$file") blast_pieces=20 area_m=3
+  world=(--world "$file") middle='pieces>=20' area_m=3
   mapfile -t stage_m < <(jq -r '.centre[]' "$out/scene.json")
 }
 
 # set_game: its world, where it is looked at from, and what bots do in it: the first one's carves are the demo's.
 set_game() {
-  world=(--terrain flat --game "$game") blast_pieces=20
+  world=(--terrain flat --game "$game") middle='pieces>=20'
   case $game in
     demolition)
       world+=(--spawn 0,22,34,0,-25) stage_m=(24 0) area_m=3 first_bot=(--radius 1.4 --name anna --message team red)
       bots=("--name ben --message team blue --centre -24 0 --area 3 --carves $carves --rate $rate --radius 1.4 --seed $((seed + 1))")
       ;;
     floor)
-      world+=(--persons walk --spawn 0,9,15,0,-35) carves=0 blast_pieces=5 first_bot=(--walk 30 --name anna)
-      bots=("--name ben --carves 0 --walk 30 --seed $((seed + 1))" "--name carl --carves 0 --walk 30 --seed $((seed + 2))")
+      world+=(--persons walk --spawn 0,9,15,0,-35) carves=0 middle='pieces>=5' first_bot=(--walk 24 --walk-in 0 0 5.5 --name anna)
+      bots=("--name ben --carves 0 --walk 24 --walk-in 0 0 5.5 --seed $((seed + 1))" "--name carl --carves 0 --walk 24 --walk-in 0 0 5.5 --seed $((seed + 2))")
       ;;
     quarry)
-      world+=(--spawn 0,16,34,0,-25) carves=0 blast_pieces=0 stage_m=(0 22) area_m=4 first_bot=(--digs 12 --name anna)
-      bots=("--name ben --carves 0 --digs 12 --centre -18 -10 --area 4 --rate $rate" "--name carl --carves 0 --digs 12 --centre 18 -10 --area 4 --rate $rate")
+      world+=(--spawn 0,16,34,0,-25) carves=0 rate=0.25 middle='after=18' last='after=30' stage_m=(0 22) area_m=3
+      local moves='--digs 3 --places 3 --place-centre 0 0 --radius 1.6'
+      # shellcheck disable=SC2206  # options are words
+      first_bot=($moves --name anna)
+      bots=("--name ben --centre -18 -10" "--name carl --centre 18 -10" "--name dora --centre 0 -24")
+      bots=("${bots[@]/%/ $moves --carves 0 --area $area_m --rate $rate}")
       ;;
     plots)
-      world+=(--spawn 0,16,28,0,-25) stage_m=(0 0) area_m=5 first_bot=(--name anna --message plots claim)
-      bots=("--name ben --message plots claim --centre -16 -16 --area 5 --carves $carves --rate $rate --seed $((seed + 1))")
+      world+=(--spawn 0,16,28,0,-25) stage_m=(0 0) area_m=5 first_bot=(--name anna --say /claim)
+      bots=("--name ben --say /claim --centre -16 -16 --area 5 --carves $carves --rate $rate --seed $((seed + 1))")
       ;;
     *) die "there is no game '$game': choose demolition, floor, plots or quarry" ;;
   esac
@@ -186,8 +190,8 @@ draw_pictures() {
   say "no display: drawing before.png, blast.png and settled.png offscreen"
   "$bin/scree-viewer" --host 127.0.0.1 --port "$port" --offscreen --size "$size" \
     --timeout "$session_s_max" \
-    --screenshot "$out/before.png@joined" --screenshot "$out/blast.png@pieces>=$blast_pieces" \
-    --screenshot "$out/settled.png@settled" >"$out/viewer.log" 2>&1 &
+    --screenshot "$out/before.png@joined" --screenshot "$out/blast.png@$middle" \
+    --screenshot "$out/settled.png@$last" >"$out/viewer.log" 2>&1 &
   viewer_pid=$!
   wait_until "$session_s_max" "$viewer_pid" "the first picture" "$out/viewer.log" test -s "$out/before.png"
   start_bot "$session_s_max"

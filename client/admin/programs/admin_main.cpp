@@ -332,6 +332,8 @@ int main(int argc, char** argv) {
   scree::add_region_commands(app, of_world);
   scree::add_store_commands(app, of_world);
   scree::add_rules_commands(app, of_world);
+  scree::add_history_commands(app, of_world);
+  scree::add_flight_commands(app, of_world);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");

@@ -45,10 +45,10 @@ uint32_t store_planes(const PlaneBrick* planes, const ClipEntry& old, CornerAtla
   }
   if (old.has_planes_slot()) {
     atlas.replace(ClipEntry::slot_of(old.planes), *planes);
-    return old.planes;
+    return ClipEntry::packed(edge_eighths(*planes), ClipEntry::slot_of(old.planes));
   }
   const std::optional<AtlasSlot> slot = atlas.add(*planes);
-  return slot ? ClipEntry::packed(ClipEntry::planes_stored, *slot) : 0;
+  return slot ? ClipEntry::packed(edge_eighths(*planes), *slot) : 0;
 }
 
 struct ClipLevel::Inbox {

@@ -27,10 +27,10 @@ struct ClipEntry {
   /// How all of a stored brick looks, shown | bare << 8; or looks_mixed << 24 and a slot of the looks'
   /// atlas.
   uint32_t looks = 0;
-  uint32_t planes = 0;  ///< planes_stored << 24 and a slot of the planes' atlas, where faces meet; else 0
+  /// Where faces meet, edge_eighths() << 24 and a slot of the planes' atlas; else 0.
+  uint32_t planes = 0;
 
   static constexpr uint32_t looks_mixed = 1;
-  static constexpr uint32_t planes_stored = 1;
 
   /// The kind of `before`: nothing was edited, so it is the field itself; or all air, or all rock, or a
   /// brick.

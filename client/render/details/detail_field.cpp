@@ -132,14 +132,16 @@ void DetailField::follow(const Field& field, std::span<const BrickCoord> changed
   light(field, sun);
 }
 
-void DetailField::add_to(DetailLists& lists, const Frustum& frustum, glm::vec3 eye_m, bool shadows) const {
+void DetailField::add_to(DetailLists& lists, const Frustum& frustum, glm::vec3 eye_m,
+                         const Wanted& wanted) const {
   for (const auto& [chunk, patch] : patches_) {
     if (patch.placed.empty() || !frustum.touches(patch.middle_m, patch.radius_m)) continue;
     const float near_m = glm::distance(patch.middle_m, eye_m) - patch.radius_m;
     for (const PlacedDetail& one : patch.placed) {
       if (one.detail.seen() * range_m_ <= near_m) break;
-      if (shadows && one.kind == DetailKind::grass) continue;
-      if (one.stands) lists.at(static_cast<size_t>(one.kind)).push_back(one.detail);
+      if (wanted.shadows && one.kind == DetailKind::grass) continue;
+      if (one.stands && one.detail.place_m.y >= wanted.floor_m)
+        lists.at(static_cast<size_t>(one.kind)).push_back(one.detail);
     }
   }
 }

@@ -9,6 +9,7 @@
 
 #include "client/render/details/scatter.h"
 #include "client/render/scene/camera.h"
+#include "shared/base/limits.h"
 
 namespace scree {
 
@@ -23,8 +24,12 @@ class DetailField {
   /// Whether all that can be told within the range is there, as it is lit now.
   bool settled() const { return scattered_ && to_light_ == 0 && !is_light_old_; }
 
-  /// Appends what is to be seen from there; of what casts shadows that are seen, what is no grass.
-  void add_to(DetailLists& lists, const Frustum& frustum, glm::vec3 eye_m, bool shadows) const;
+  struct Wanted {
+    bool shadows = false;                          ///< what casts shadows that are seen: no grass
+    float floor_m = -limits::world_half_height_m;  ///< what stands lower is left out
+  };
+  /// Appends what is to be seen from there.
+  void add_to(DetailLists& lists, const Frustum& frustum, glm::vec3 eye_m, const Wanted& wanted) const;
 
   /// As far as anything is seen, metres.
   float range_m() const { return range_m_; }

@@ -14,7 +14,8 @@ Result<void> Details::follow(const Field& field, std::span<const BrickCoord> cha
 void Details::draw(const DrawPass& pass) {
   if (!drawer_ || field_.count() == 0) return;
   for (std::vector<Detail>& list : lists_) list.clear();
-  field_.add_to(lists_, Frustum(pass.view_projection), pass.eye_m, pass.kind == DrawPass::Kind::shadow);
+  field_.add_to(lists_, Frustum(pass.view_projection), pass.eye_m,
+                {.shadows = pass.kind == DrawPass::Kind::shadow, .floor_m = floor_m_});
   drawer_->draw(lists_, field_.range_m(), pass);
 }
 

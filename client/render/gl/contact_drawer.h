@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "client/render/gl/depth_copy.h"
 #include "client/render/gl/gl.h"
 #include "client/render/scene/contact.h"
 #include "shared/base/result.h"
@@ -15,22 +16,15 @@ class ContactDrawer {
   /// Fails when a shader does.
   static Result<ContactDrawer> create();
 
-  /// Into a canvas (canvas.h) of that size: its depths, averaged if it has many samples, are copied first.
-  /// Two commands, but none without contacts.
-  void draw(std::span<const Contact> contacts, const DrawPass& pass, unsigned framebuffer, int width,
-            int height);
+  /// `depths`: of all that was drawn. One command, but none without contacts.
+  void draw(std::span<const Contact> contacts, const DrawPass& pass, const DepthCopy& depths);
 
  private:
   explicit ContactDrawer(gl::Program&& program);
-  void copy_depths(unsigned framebuffer, int width, int height);
 
   gl::Program program_;
   gl::VertexArray array_;
   gl::Buffer contacts_;
-  gl::Texture depth_;
-  gl::Framebuffer copy_;
-  int width_ = 0;
-  int height_ = 0;
 };
 
 }  // namespace scree

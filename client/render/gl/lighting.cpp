@@ -14,6 +14,7 @@ void set_lighting(const gl::Program& program, const DrawPass& pass, int shadow_u
   program.set("u_cap_tint", pass.lighting.tints.cap);
   program.set("u_shadow_matrix", pass.lighting.shadow_matrix);
   program.set("u_shadow_map", shadow_unit);
+  program.set("u_shadow_samples", pass.lighting.shadow_samples);
   glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(shadow_unit));
   glBindTexture(GL_TEXTURE_2D, pass.lighting.shadow_map);
   program.set("u_materials", MaterialTable::unit);

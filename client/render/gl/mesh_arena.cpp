@@ -8,6 +8,8 @@
 namespace scree {
 namespace {
 
+constexpr GLuint label_attribute = 5;
+
 /// As a draw call takes them.
 const void* offset_of(size_t index) {
   return reinterpret_cast<const void*>(index * sizeof(uint32_t));
@@ -41,7 +43,7 @@ size_t MeshArena::put(Row& row, const void* data, size_t count, size_t bytes_eac
   return first;
 }
 
-MeshArena::Slot MeshArena::add(const SurfaceMesh& mesh, VoxelCoord origin) {
+MeshArena::Slot MeshArena::add(const SurfaceMesh& mesh, VoxelCoord origin, uint16_t label) {
   CHECK(!mesh.empty());
   const VoxelCoord moved = mesh.origin - origin;
   const std::array<int, 3> steps{moved.x * surface_steps, moved.y * surface_steps, moved.z * surface_steps};
@@ -56,6 +58,10 @@ MeshArena::Slot MeshArena::add(const SurfaceMesh& mesh, VoxelCoord origin) {
   slot.vertices = vertices.size();
   slot.indices = mesh.indices.size();
   slot.first_vertex = put(vertices_, vertices.data(), slot.vertices, sizeof(SurfaceVertex));
+  if (labelled_) {
+    const std::vector<uint16_t> labels(slot.vertices, label);
+    CHECK(put(labels_, labels.data(), slot.vertices, sizeof(uint16_t)) == slot.first_vertex);
+  }
   std::vector<uint32_t> indices = mesh.indices;
   for (uint32_t& index : indices) index += static_cast<uint32_t>(slot.first_vertex);
   slot.first_index = put(indices_, indices.data(), slot.indices, sizeof(uint32_t));
@@ -64,6 +70,7 @@ MeshArena::Slot MeshArena::add(const SurfaceMesh& mesh, VoxelCoord origin) {
 
 void MeshArena::remove(const Slot& slot) {
   vertices_.ranges.give(slot.first_vertex, slot.vertices);
+  if (labelled_) labels_.ranges.give(slot.first_vertex, slot.vertices);
   indices_.ranges.give(slot.first_index, slot.indices);
 }
 
@@ -72,6 +79,11 @@ size_t MeshArena::draw(std::span<const Slot> slots) {
   glBindVertexArray(array_.name());
   glBindBuffer(GL_ARRAY_BUFFER, vertices_.buffer.name());
   describe_surface_vertices();
+  if (labelled_) {
+    glBindBuffer(GL_ARRAY_BUFFER, labels_.buffer.name());
+    glVertexAttribPointer(label_attribute, 1, GL_UNSIGNED_SHORT, GL_FALSE, sizeof(uint16_t), nullptr);
+    glEnableVertexAttribArray(label_attribute);
+  }
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_.buffer.name());
   counts_.clear();
   offsets_.clear();
@@ -91,7 +103,7 @@ size_t MeshArena::draw(std::span<const Slot> slots) {
 
 size_t MeshArena::bytes() const {
   return vertices_.ranges.allocated() * sizeof(SurfaceVertex) +
-         indices_.ranges.allocated() * sizeof(uint32_t);
+         labels_.ranges.allocated() * sizeof(uint16_t) + indices_.ranges.allocated() * sizeof(uint32_t);
 }
 
 }  // namespace scree

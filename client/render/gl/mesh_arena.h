@@ -24,8 +24,11 @@ class MeshArena {
     size_t triangles() const { return indices / 3; }
   };
 
+  /// With labels, vertices say which mesh they are of (surface.vert's a_piece).
+  explicit MeshArena(bool labelled = false) : labelled_(labelled) {}
+
   /// Not an empty mesh. Its positions will count from `origin`, from which they must fit 16 bits.
-  Slot add(const SurfaceMesh& mesh, VoxelCoord origin);
+  Slot add(const SurfaceMesh& mesh, VoxelCoord origin, uint16_t label = 0);
   void remove(const Slot& slot);
   /// In their order. Returns the number of GL draw calls: one, but one a mesh with OpenGL ES.
   size_t draw(std::span<const Slot> slots);
@@ -44,8 +47,10 @@ class MeshArena {
 
   size_t put(Row& row, const void* data, size_t count, size_t bytes_each);
 
+  bool labelled_;
   gl::VertexArray array_;
   Row vertices_{GL_ARRAY_BUFFER};
+  Row labels_{GL_ARRAY_BUFFER};  ///< of the vertices, one each, at the same places
   Row indices_{GL_ELEMENT_ARRAY_BUFFER};
   std::vector<GLsizei> counts_;  ///< of the last draw; kept for its memory, as the next
   std::vector<const void*> offsets_;

@@ -88,7 +88,7 @@ class GridMethod final : public DrawMethod {
 
  private:
   void draw_terrain(const DrawPass& pass, const Frustum& frustum);
-  void draw_pieces(const DrawPass& pass, const Frustum& frustum);
+  void draw_pieces(const DrawPass& pass);
   size_t terrain_triangles() const;
 
   WorkPool& pool_;
@@ -121,10 +121,7 @@ void GridMethod::update(const Scene& scene, const Camera& camera) {
   world_->update(scene.field, bricks_, camera.eye_m);
   bricks_.clear();
   // At once, like the terrain: a piece is never seen beside the rock that it was or has become.
-  pieces_.erase_all_but(scene.pieces);
-  for (const auto& [id, piece] : scene.pieces)
-    if (!pieces_.holds(id)) pieces_.show(mesh_piece(gather_piece(scene.field, id, piece)), world_->voxel_m());
-  pieces_.move(scene.pieces);
+  pieces_.show_all(scene.field, scene.pieces);
 }
 
 float GridMethod::reach_m() const {
@@ -135,9 +132,8 @@ float GridMethod::reach_m() const {
 void GridMethod::draw(const DrawPass& pass) {
   if (!world_) return;
   pass_ = {};
-  const Frustum frustum(pass.view_projection);
-  draw_terrain(pass, frustum);
-  draw_pieces(pass, frustum);
+  draw_terrain(pass, Frustum(pass.view_projection));
+  draw_pieces(pass);
 }
 
 void GridMethod::draw_terrain(const DrawPass& pass, const Frustum& frustum) {
@@ -150,7 +146,6 @@ void GridMethod::draw_terrain(const DrawPass& pass, const Frustum& frustum) {
   world_->use(program, pass.eye_m);
   set_lighting(program, pass, grid_shadow_unit);
   program.set("u_view_projection", pass.view_projection);
-  glUniform4f(program.uniform("u_rotation"), 0.0F, 0.0F, 0.0F, 1.0F);
   program.set("u_loose", 0.0F);
   program.set("u_lines", lines_unit);
   program.set("u_cases", cases_unit);
@@ -167,14 +162,14 @@ void GridMethod::draw_terrain(const DrawPass& pass, const Frustum& frustum) {
   ++pass_.draws;
 }
 
-void GridMethod::draw_pieces(const DrawPass& pass, const Frustum& frustum) {
+void GridMethod::draw_pieces(const DrawPass& pass) {
   const bool shadow = pass.kind == DrawPass::Kind::shadow;
   const SurfaceProgram& program = shadow ? programs_.piece_shadow : programs_.piece.of(surfaces(false, pass));
   program.program.use();
   program.program.set("u_view_projection", pass.view_projection);
   if (!shadow) set_lighting(program.program, pass, grid_shadow_unit);
   program.program.set("u_lift", shadow ? 0.0F : limits::stone_lift_voxels * world_->voxel_m());
-  pieces_.draw(program, frustum, world_->voxel_m(), pass_);
+  pieces_.draw(program, pass, world_->voxel_m(), pass_);
   glBindVertexArray(0);
 }
 

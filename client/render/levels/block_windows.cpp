@@ -10,6 +10,7 @@
 #include "shared/base/vector_clones.h"
 #include "shared/surface/creases.h"
 #include "shared/surface/marching_cubes.h"
+#include "shared/surface/same_cell.h"
 
 namespace scree {
 namespace {
@@ -26,21 +27,6 @@ constexpr int looks_reach = 2;
 SCREE_INLINE VoxelCoord cell_at(const VoxelBox& box, glm::vec3 p) {
   const auto along = [](float v, int lo, int hi) { return std::clamp(floor_to_int(v), lo, hi - 2); };
   return {along(p.x, box.lo.x, box.hi.x), along(p.y, box.lo.y, box.hi.y), along(p.z, box.lo.z, box.hi.z)};
-}
-
-/// Whether two windows of one box have the same codes around that cell.
-bool are_same(const Window& a, const Window& b, VoxelCoord c) {
-  const size_t first = a.index(c.x, c.y, c.z);
-  const auto stride_y = static_cast<size_t>(a.box.size().z);
-  const size_t stride_x = stride_y * static_cast<size_t>(a.box.size().y);
-  const auto two = [](const Window& window, size_t at) {
-    uint16_t codes;
-    std::memcpy(&codes, &window.codes[at], sizeof codes);
-    return codes;
-  };
-  for (const size_t at : {first, first + stride_y, first + stride_x, first + stride_x + stride_y})
-    if (two(a, at) != two(b, at)) return false;
-  return true;
 }
 
 /// In codes.
@@ -131,8 +117,15 @@ SurfaceMesh BlockWindows::mesh(FaceEdges edges, const CellMask* mask, const Shee
   const Window* then = before ? &*before : nullptr;
   SurfaceMesh made = place == nullptr ? surface_nets(now, owned, then, mask)
                                       : surface_nets_placed(now, owned, then, mask, *place);
-  if (edges == FaceEdges::sharp) sharpen_creases(now, made);
+  if (edges == FaceEdges::sharp) sharpen(made);
   return finished(std::move(made));
+}
+
+void BlockWindows::sharpen(SurfaceMesh& mesh, const std::vector<bool>* fixed) const {
+  if (!smooth_ground)
+    sharpen_creases(now, mesh, fixed);
+  else if (before)
+    sharpen_creases(now, mesh, fixed, &*before);
 }
 
 SurfaceMesh BlockWindows::mesh_by_cubes(const CellMask* mask) const {
@@ -152,7 +145,7 @@ int BlockWindows::worn(const SurfaceVertex& vertex, glm::vec3 p) const {
   if (std::abs(here) >= worn_all) return here;
   const glm::vec3 normal(vertex.normal[0], vertex.normal[1], vertex.normal[2]);
   const glm::vec3 above = p + normal * (probe_voxels / 127.0F);
-  if (are_same(now, *before, cell_at(now.box, above))) return here;
+  if (is_same_cell(now, *before, cell_at(now.box, above))) return here;
   const int gone = static_cast<int>(trilinear(now, above) - trilinear(*before, above)) - turned_begins;
   return gone > std::abs(here) ? -gone : here;
 }
@@ -161,7 +154,7 @@ void BlockWindows::set_looks(SurfaceMesh& mesh) const {
   // Where nothing was edited, a vertex has no part in a cut that passes by, however far off the surface it
   // is.
   scree::set_looks(mesh, now, looks, [&](const SurfaceVertex&, glm::vec3 p) {
-    return before && !are_same(now, *before, cell_at(now.box, p)) && trilinear(*before, p) < cut_begins;
+    return before && !is_same_cell(now, *before, cell_at(now.box, p)) && trilinear(*before, p) < cut_begins;
   });
 }
 
@@ -178,7 +171,7 @@ std::optional<BlockWindows> gather_windows(const Field& field, const VoxelBox& o
   const VoxelBox box = owned.grown(surface_nets_apron);
   Survey seen = survey(field, box);
   if (seen.air || seen.rock) return std::nullopt;
-  BlockWindows windows{owned, Window(box), std::nullopt, {}};
+  BlockWindows windows{owned, Window(box), std::nullopt, {}, has_smooth_ground(field.source())};
   if (seen.edited || stores_materials(field, box)) windows.looks = gather_looks(field, field, 0, box);
   if (seen.edited) windows.before.emplace(box);
   for_each_chunk(box, [&](ChunkCoord chunk) {

@@ -15,10 +15,13 @@ struct BlockWindows {
   Window now;
   std::optional<Window> before;  ///< as generated; absent where nothing was ever edited
   LookWindow looks{};
+  bool smooth_ground = false;  ///< rock as generated has no edges (has_smooth_ground())
 
   /// The mesh of the cells in the mask alone, if there is one, with vertices at those places
   /// (surface_nets.h).
   SurfaceMesh mesh(FaceEdges edges, const CellMask* mask = nullptr, const SheetPlace* place = nullptr) const;
+  /// Moves a mesh of this window to the edges of its faces (creases.h).
+  void sharpen(SurfaceMesh& mesh, const std::vector<bool>* fixed = nullptr) const;
   /// The same by marching_cubes.h.
   SurfaceMesh mesh_by_cubes(const CellMask* mask) const;
   /// Whether all looks as the ground does that nobody touched.

@@ -206,7 +206,8 @@ LevelBrick LevelBricks::read(const Field& field, BrickCoord brick) {
   const Field& ground = generator(field);
   if (read.kind == LevelBrick::Kind::stored && (edited || stores_materials(ground, window.box)))
     read.looks = looks_of(looks_around(field, brick, around, edited), window, first_voxel(brick));
-  if (read.kind == LevelBrick::Kind::stored && level_ == 0 && edges_ == FaceEdges::sharp)
+  const bool has_edges = !has_smooth_ground(field.source()) || field.is_edited(brick);
+  if (read.kind == LevelBrick::Kind::stored && level_ == 0 && edges_ == FaceEdges::sharp && has_edges)
     read.planes = planes_of(around, first_voxel(brick));
   if (!before || before->codes == window.codes) return read;
   read.before = as_brick(*before);

@@ -134,14 +134,22 @@ struct Corners {
   /// corners alone may lie on round rock.
   bool show_faces() const {
     float least = 1.0F;
+    std::array<unsigned, 8> same{};
     for (size_t i = 0; i < 8; ++i)
       for (size_t j = i + 1; j < 8; ++j) {
         if (!known[i] || !known[j]) continue;
         const float cosine = glm::dot(normal[i], normal[j]);
         if (cosine < one_face_cosine && cosine > face_edge_cosine) return false;
         least = std::min(least, cosine);
+        if (cosine < one_face_cosine) continue;
+        same[i] |= 1U << j;
+        same[j] |= 1U << i;
       }
     if (least > face_edge_cosine) return false;
+    // No corner is of two faces that others tell apart.
+    for (size_t i = 0; i < 8; ++i)
+      for (size_t j = i + 1; j < 8; ++j)
+        if (known[i] && known[j] && (same[i] >> j & 1U) == 0 && (same[i] & same[j]) != 0) return false;
     return least < clear_edge_cosine || std::ranges::count(known, true) >= corners_of_small_angle;
   }
   /// Whether a ray that takes the planes in place of the corner's distance stays on its side.
@@ -186,7 +194,25 @@ bool mark_edges(PlaneBrick& planes) {
   return any;
 }
 
+/// As client/shaders/bricks.glsl tells the marks.
+bool is_marked(const FacePlane& lowest) {
+  int square = 0;
+  for (const int8_t n : lowest.normal) square += n * n;
+  constexpr int least = 22 * 22, most = 113 * 113;
+  return square > least && square < most;
+}
+
 }  // namespace
+
+uint32_t edge_eighths(const PlaneBrick& planes) {
+  uint32_t eighths = 0;
+  for (uint32_t x = 0; x < brick_size; ++x)
+    for (uint32_t y = 0; y < brick_size; ++y)
+      for (uint32_t z = 0; z < brick_size; ++z)
+        if (is_marked(planes[(x * corner_brick_side + y) * corner_brick_side + z]))
+          eighths |= 1U << (x / 4 * 4 + y / 4 * 2 + z / 4);
+  return eighths;
+}
 
 std::unique_ptr<PlaneBrick> planes_of(const Window& window, VoxelCoord first) {
   constexpr int samples_along = corner_brick_side;

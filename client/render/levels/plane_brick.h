@@ -28,4 +28,7 @@ inline constexpr int plane_brick_reach = face_plane_reach + 1;
 /// 8 grown by plane_brick_reach.
 std::unique_ptr<PlaneBrick> planes_of(const Window& window, VoxelCoord first);
 
+/// In which eighths of it cells are marked as edges: bit 4x + 2y + z, each 1 in the farther half.
+uint32_t edge_eighths(const PlaneBrick& planes);
+
 }  // namespace scree

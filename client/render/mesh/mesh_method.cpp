@@ -9,7 +9,7 @@
 #include "client/render/gl/lighting.h"
 #include "client/render/gl/mesh_arena.h"
 #include "client/render/levels/surface_looks.h"
-#include "client/render/mesh/mesh_scheduler.h"
+#include "client/render/meshing/mesh_scheduler.h"
 #include "client/render/pieces/piece_views.h"
 #include "client/render/scene/limits.h"
 
@@ -122,12 +122,12 @@ void MeshMethod::erase(const SurfaceNode& node) {
 void MeshMethod::draw(const DrawPass& pass) {
   const bool shadow = pass.kind == DrawPass::Kind::shadow;
   pass_ = {};
-  const Frustum frustum(pass.view_projection);
-  find_visible(frustum, pass.eye_m);
+  find_visible(Frustum(pass.view_projection), pass.eye_m);
   if (!shadow) draw_terrain(use(pass, true), true, false);
   const SurfaceProgram& program = use(pass, false);
   draw_terrain(program, false, shadow);
-  pieces_.draw(program, frustum, voxel_m_, pass_);
+  // Last, for the ground hides most of a stone that merged: small triangles cost the most to shade.
+  pieces_.draw(program, pass, voxel_m_, pass_);
   glBindVertexArray(0);
 }
 
@@ -144,9 +144,6 @@ const SurfaceProgram& MeshMethod::use(const DrawPass& pass, bool ground) {
 
 /// The groups in sight that are mere ground, or those that are not, or all.
 void MeshMethod::draw_terrain(const SurfaceProgram& program, bool ground, bool all) {
-  glUniform3f(program.centre_m, 0.0F, 0.0F, 0.0F);
-  glUniform3f(program.place_m, 0.0F, 0.0F, 0.0F);
-  glUniform4f(program.rotation, 0.0F, 0.0F, 0.0F, 1.0F);
   glUniform1f(program.loose, 0.0F);
   glUniform1f(program.voxel_m, voxel_m_);
   for (size_t i = 0; i < batch_of_.size(); ++i) {

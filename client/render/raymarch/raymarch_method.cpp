@@ -16,71 +16,72 @@
 #include "client/render/gl/lighting.h"
 #include "client/render/gl/shader_sources.h"
 #include "client/render/gl/surface_variants.h"
-#include "client/render/pieces/piece_volumes.h"
+#include "client/render/pieces/piece_views.h"
 #include "client/render/raymarch/march_targets.h"
 #include "client/render/scene/limits.h"
 
 namespace scree {
 namespace {
 
-/// Texture units: 0 and 1 are BrickWorld's, 2 the tiles' or the pieces' entries.
+/// Texture units: 0 and 1 are BrickWorld's, 2 the tiles', the rays' ends or the pieces' places.
 constexpr int raymarch_shadow_unit = 3;
+constexpr int places_unit = 4;
 
 struct RaymarchPrograms {
   gl::Program cone;
-  SurfaceVariants<gl::Program> march;
-  SurfaceVariants<gl::Program> piece;
-  gl::Program piece_shadow;
+  gl::Program march;
+  SurfaceVariants<gl::Program> shade;
+  SurfaceProgram piece;
+  SurfaceVariants<gl::Program> shade_pieces;  ///< where some are in sight
+  SurfaceProgram piece_shadow;
   gl::Program composite;
 };
 
-/// Links a program of shaders/ files.
-Result<gl::Program> link(std::string_view name, std::initializer_list<std::string_view> vertex,
-                         std::initializer_list<std::string_view> fragment, FaceEdges edges,
-                         std::string_view define = {}) {
-  const auto sources = [](std::initializer_list<std::string_view> files) {
-    std::vector<std::string_view> texts;
-    for (const std::string_view file : files) texts.push_back(shader_source(file));
-    return texts;
-  };
-  std::vector<std::string_view> fragments = sources(fragment);
-  fragments.insert(fragments.begin(), {define, edges == FaceEdges::sharp ? "#define EDGES 1\n" : ""});
-  return gl::Program::link(name, sources(vertex), fragments);
+std::string_view define_of(FaceEdges edges) {
+  return edges == FaceEdges::sharp ? "#define EDGES 1\n" : "";
 }
 
-template <FaceEdges edges>
-Result<gl::Program> link_march(Surfaces surfaces) {
-  return link("raymarch", {"raymarch.vert"},
-              {"bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl", "haze.glsl",
-               "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "raymarch.frag"},
-              edges, define_of(surfaces));
+/// Links a program of shaders/ files that covers the screen.
+Result<gl::Program> link(std::string_view name, std::string_view vertex,
+                         std::initializer_list<std::string_view> fragment, FaceEdges edges) {
+  std::vector<std::string_view> parts{define_of(edges)};
+  for (const std::string_view file : fragment) parts.push_back(shader_source(file));
+  return gl::Program::link(name, std::array{shader_source(vertex)}, parts);
 }
 
-template <FaceEdges edges>
-Result<gl::Program> link_piece(Surfaces surfaces) {
-  return link(
-      "piece", {"rotation.glsl", "bricks.glsl", "piece.vert"},
-      {"rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl", "clouds.glsl",
-       "haze.glsl", "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl", "piece.glsl", "piece.frag"},
-      edges, define_of(surfaces));
+template <FaceEdges edges, bool pieces>
+Result<gl::Program> link_shade(Surfaces surfaces) {
+  std::vector<std::string_view> parts{define_of(surfaces), define_of(edges),
+                                      pieces ? "#define PIECES 1\n" : ""};
+  for (const std::string_view file :
+       {"pieces.glsl", "rotation.glsl", "bricks.glsl", "march.glsl", "atmosphere.glsl", "noise.glsl",
+        "clouds.glsl", "haze.glsl", "stones.glsl", "material.glsl", "rock.glsl", "shadow.glsl",
+        "raymarch_shade.frag"})
+    parts.push_back(shader_source(file));
+  return gl::Program::link("raymarch_shade", std::array{shader_source("raymarch.vert")}, parts);
 }
 
 template <FaceEdges edges>
 Result<RaymarchPrograms> link_raymarch_programs() {
   Result<gl::Program> cone =
-      link("raymarch_cone", {"raymarch.vert"}, {"bricks.glsl", "march.glsl", "raymarch_cone.frag"}, edges);
+      link("raymarch_cone", "raymarch.vert", {"bricks.glsl", "march.glsl", "raymarch_cone.frag"}, edges);
   if (!cone) return fail(cone.error().message);
-  auto march = SurfaceVariants<gl::Program>::make(link_march<edges>);
+  Result<gl::Program> march =
+      link("raymarch", "raymarch.vert", {"bricks.glsl", "march.glsl", "raymarch.frag"}, edges);
   if (!march) return fail(march.error().message);
-  auto piece = SurfaceVariants<gl::Program>::make(link_piece<edges>);
+  auto shade = SurfaceVariants<gl::Program>::make(link_shade<edges, false>);
+  if (!shade) return fail(shade.error().message);
+  Result<SurfaceProgram> piece =
+      link_surface_program("piece", std::array{shader_source("shape.glsl"), shader_source("piece.frag")});
   if (!piece) return fail(piece.error().message);
-  Result<gl::Program> shadow =
-      link("piece_shadow", {"rotation.glsl", "bricks.glsl", "piece.vert"},
-           {"rotation.glsl", "bricks.glsl", "piece.glsl", "piece_shadow.frag"}, FaceEdges::rounded);
-  if (!shadow) return fail(shadow.error().message);
-  Result<gl::Program> composite = link("composite", {"screen.vert"}, {"composite.frag"}, edges);
+  auto shade_pieces = SurfaceVariants<gl::Program>::make(link_shade<edges, true>);
+  if (!shade_pieces) return fail(shade_pieces.error().message);
+  Result<SurfaceProgram> piece_shadow = link_surface_shadow();
+  if (!piece_shadow) return fail(piece_shadow.error().message);
+  Result<gl::Program> composite = link("composite", "screen.vert", {"composite.frag"}, edges);
   if (!composite) return fail(composite.error().message);
-  return RaymarchPrograms{std::move(*cone), std::move(*march), std::move(*piece), std::move(*shadow),
+  return RaymarchPrograms{std::move(*cone),     std::move(*march),        std::move(*shade),
+                          std::move(*piece),    std::move(*shade_pieces), std::move(*piece_shadow),
                           std::move(*composite)};
 }
 
@@ -97,11 +98,7 @@ float pixel_at_one_metre(const glm::mat4& inverse, int height) {
 class RaymarchMethod final : public DrawMethod {
  public:
   RaymarchMethod(WorkPool& pool, float view_radius_m, FaceEdges edges, RaymarchPrograms&& programs)
-      : pool_(pool),
-        view_radius_m_(view_radius_m),
-        edges_(edges),
-        programs_(std::move(programs)),
-        pieces_(edges) {}
+      : pool_(pool), view_radius_m_(view_radius_m), edges_(edges), programs_(std::move(programs)) {}
 
   void changed(const MirrorChanges& changes) override {
     bricks_.insert(bricks_.end(), changes.bricks.begin(), changes.bricks.end());
@@ -115,9 +112,14 @@ class RaymarchMethod final : public DrawMethod {
 
  private:
   void draw_cones(const DrawPass& pass, const glm::mat4& inverse, float pixel);
-  void draw_pixels(const DrawPass& pass, const glm::mat4& inverse, float pixel);
+  void march(const DrawPass& pass, const glm::mat4& inverse, float pixel);
   void draw_pieces(const DrawPass& pass);
+  void shade(const DrawPass& pass, const glm::mat4& inverse);
   void composite(glm::ivec2 size);
+  void cover_screen() const {
+    glBindVertexArray(nothing_.name());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
 
   WorkPool& pool_;
   float view_radius_m_;
@@ -126,7 +128,8 @@ class RaymarchMethod final : public DrawMethod {
   MarchTargets targets_;
   gl::VertexArray nothing_;  ///< core profiles draw with an array bound only
   std::optional<BrickWorld> world_;
-  PieceVolumes pieces_;
+  PieceViews pieces_;
+  DrawStats pass_;                  ///< of the pieces
   std::vector<BrickCoord> bricks_;  ///< changed since the last update
 };
 
@@ -134,11 +137,13 @@ void RaymarchMethod::update(const Scene& scene, const Camera& camera) {
   if (!world_) world_.emplace(pool_, scene.field.source(), view_radius_m_, edges_);
   world_->update(scene.field, bricks_, camera.eye_m);
   bricks_.clear();
-  pieces_.update(scene.field, scene.pieces, world_->atlas());
+  // At once, like the terrain: a piece is never seen beside the rock that it was or has become.
+  pieces_.show_all(scene.field, scene.pieces);
 }
 
 void RaymarchMethod::draw(const DrawPass& pass) {
   if (!world_) return;
+  pass_ = {};
   if (pass.kind == DrawPass::Kind::shadow) return draw_pieces(pass);
   GLint framebuffer = 0;
   std::array<GLint, 4> viewport{};
@@ -149,11 +154,10 @@ void RaymarchMethod::draw(const DrawPass& pass) {
   targets_.resize(glm::max(glm::ivec2(marched), glm::ivec2(1)));
   const glm::mat4 inverse = glm::inverse(pass.view_projection);
   const float pixel = pixel_at_one_metre(inverse, targets_.size().y);
-  glBindVertexArray(nothing_.name());
   draw_cones(pass, inverse, pixel);
-  draw_pixels(pass, inverse, pixel);
   draw_pieces(pass);
-  glBindVertexArray(nothing_.name());
+  march(pass, inverse, pixel);
+  shade(pass, inverse);
   glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(framebuffer));
   glViewport(viewport[0], viewport[1], viewport[2], viewport[3]);
   composite(size);
@@ -170,51 +174,78 @@ void RaymarchMethod::draw_cones(const DrawPass& pass, const glm::mat4& inverse, 
   glUniform2f(program.uniform("u_span"), span.x, span.y);
   // To a tile's corner, and a little more.
   program.set("u_cone", pixel * static_cast<float>(MarchTargets::tile) * 0.5F * 1.5F);
+  program.set("u_pixel", pixel);
   targets_.draw_tiles();
   glDisable(GL_DEPTH_TEST);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  cover_screen();
   glEnable(GL_DEPTH_TEST);
 }
 
-void RaymarchMethod::draw_pixels(const DrawPass& pass, const glm::mat4& inverse, float pixel) {
+void RaymarchMethod::march(const DrawPass& pass, const glm::mat4& inverse, float pixel) {
   const GpuTimers::Part part(pass.timers, "march");
-  const gl::Program& program = programs_.march.of(surfaces(world_->is_untouched(), pass));
+  const gl::Program& program = programs_.march;
+  program.use();
+  world_->use(program, pass.eye_m);
+  program.set("u_inverse_view_projection", inverse);
+  program.set("u_eye", pass.eye_m);
+  program.set("u_pixel", pixel);
+  program.set("u_tile", MarchTargets::tile);
+  program.set("u_are_pieces", pass_.draws > 0 ? 1 : 0);
+  program.set("u_tiles", 2);
+  program.set("u_pieces_depth", 3);
+  glUniform2f(program.uniform("u_span"), 1.0F, 1.0F);
+  glActiveTexture(GL_TEXTURE3);
+  glBindTexture(GL_TEXTURE_2D, targets_.depth_texture());
+  glActiveTexture(GL_TEXTURE2);
+  glBindTexture(GL_TEXTURE_2D, targets_.tile_texture());
+  glActiveTexture(GL_TEXTURE0);
+  targets_.draw_hits();
+  cover_screen();
+}
+
+void RaymarchMethod::draw_pieces(const DrawPass& pass) {
+  const GpuTimers::Part part(pass.timers, "pieces");
+  const bool shadow = pass.kind == DrawPass::Kind::shadow;
+  if (!shadow) {
+    targets_.draw_pieces();
+    const std::array<GLuint, 4> nothing_met{};
+    glClearBufferuiv(GL_COLOR, 0, nothing_met.data());
+    glClear(GL_DEPTH_BUFFER_BIT);
+  }
+  if (pieces_.count() == 0) return;
+  const SurfaceProgram& surface = shadow ? programs_.piece_shadow : programs_.piece;
+  surface.program.use();
+  surface.program.set("u_view_projection", pass.view_projection);
+  surface.program.set("u_eye", pass.eye_m);
+  surface.program.set("u_lift", shadow ? 0.0F : limits::stone_lift_voxels * world_->voxel_m());
+  pieces_.draw(surface, pass, world_->voxel_m(), pass_);
+}
+
+void RaymarchMethod::shade(const DrawPass& pass, const glm::mat4& inverse) {
+  const GpuTimers::Part part(pass.timers, "shade");
+  const gl::Program& program = pass_.draws > 0 ? programs_.shade_pieces.of(surfaces(false, pass))
+                                               : programs_.shade.of(surfaces(world_->is_untouched(), pass));
   program.use();
   world_->use(program, pass.eye_m);
   program.set("u_inverse_view_projection", inverse);
   program.set("u_view_projection", pass.view_projection);
-  set_lighting(program, pass, raymarch_shadow_unit);
-  program.set("u_bodies", pieces_.count() > 0 || pass.lighting.props_cast ? 1 : 0);
-  program.set("u_pixel", pixel);
-  program.set("u_tile", MarchTargets::tile);
-  program.set("u_tiles", 2);
   glUniform2f(program.uniform("u_span"), 1.0F, 1.0F);
+  set_lighting(program, pass, raymarch_shadow_unit);
+  const bool bodies = pieces_.count() > 0 || pass.lighting.props_cast;
+  program.set("u_bodies", bodies ? 1 : 0);
+  if (!bodies) program.set("u_shadow_samples", 0);
+  program.set("u_lift", limits::stone_lift_voxels * world_->voxel_m());
+  program.set("u_hits", 2);
+  program.set("u_pieces", places_unit);
+  glActiveTexture(GL_TEXTURE0 + places_unit);
+  glBindTexture(GL_TEXTURE_2D, pieces_.places_texture());
   glActiveTexture(GL_TEXTURE2);
-  glBindTexture(GL_TEXTURE_2D, targets_.tile_texture());
+  glBindTexture(GL_TEXTURE_2D, targets_.hits_texture());
   glActiveTexture(GL_TEXTURE0);
   targets_.draw_pixels();
   glDepthFunc(GL_ALWAYS);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  cover_screen();
   glDepthFunc(GL_LESS);
-}
-
-void RaymarchMethod::draw_pieces(const DrawPass& pass) {
-  if (pieces_.count() == 0) return;
-  const bool shadow = pass.kind == DrawPass::Kind::shadow;
-  const gl::Program& program = shadow ? programs_.piece_shadow : programs_.piece.of(surfaces(false, pass));
-  const GpuTimers::Part part(pass.timers, "pieces");
-  program.use();
-  world_->use(program, pass.eye_m);
-  set_lighting(program, pass, raymarch_shadow_unit);
-  program.set("u_view_projection", pass.view_projection);
-  const glm::vec3 from = shadow ? pass.lighting.sun : pass.eye_m;
-  glUniform4f(program.uniform("u_viewpoint"), from.x, from.y, from.z, shadow ? 0.0F : 1.0F);
-  program.set("u_piece_entries", 2);
-  if (!shadow) program.set("u_lift", limits::stone_lift_voxels * world_->voxel_m());
-  glActiveTexture(GL_TEXTURE2);
-  glBindTexture(GL_TEXTURE_2D, pieces_.entry_texture());
-  glActiveTexture(GL_TEXTURE0);
-  pieces_.draw();
 }
 
 void RaymarchMethod::composite(glm::ivec2 size) {
@@ -231,21 +262,21 @@ void RaymarchMethod::composite(glm::ivec2 size) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, targets_.colour_texture());
   glDepthFunc(GL_ALWAYS);
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  cover_screen();
   glDepthFunc(GL_LESS);
 }
 
 DrawStats RaymarchMethod::stats() const {
   DrawStats stats;
-  stats.draws = pieces_.count() > 0 ? 4 : 3;
-  stats.triangles = 3 + 12 * pieces_.count();
+  stats.draws = 4 + pass_.draws;
+  stats.triangles = 4 + pass_.triangles;
   stats.pieces = pieces_.count();
   if (world_) {
     stats.memory = world_->memory();
     stats.resident = world_->atlas().bricks();
   }
   stats.memory.push_back({"targets", 0, targets_.bytes()});
-  stats.memory.push_back({"pieces", pieces_.cpu_bytes(), pieces_.gpu_bytes()});
+  stats.memory.push_back({"pieces", 0, pieces_.gpu_bytes()});
   stats.waiting = bricks_.size() + (world_ ? world_->waiting() : 0);
   return stats;
 }

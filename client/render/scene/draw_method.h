@@ -55,6 +55,7 @@ struct Lighting {
   float fog_m = 100.0F;             ///< distance at which the fog hides nearly everything
   glm::mat4 shadow_matrix{1.0F};    ///< from the world to the shadow map's coordinates, 0..1
   unsigned shadow_map = 0;          ///< GL texture of depths, with comparison
+  int shadow_samples = 0;           ///< of it for a pixel: 9 or 1; 0: nothing casts a shadow
   bool props_cast = false;          ///< the shadow map has props
   unsigned materials = 0;           ///< GL texture of the palette's looks (client/render/gl/material_table.h)
   unsigned images = 0;              ///< GL texture of their images, a layer each; 0: there are none

@@ -91,6 +91,8 @@ inline constexpr float stone_lift_voxels = 0.9F;
 
 /// Stones that stay where pieces merged: about thirty strikes' worth. The farthest end first.
 inline constexpr size_t settled_stones_max = 1500;
+/// Voxels of their volumes, all together, which a hostile server could fill memory with; likewise.
+inline constexpr size_t settled_voxels_max = size_t{1} << 26;
 
 /// Pieces that darken what they lie on: as many as a blast makes, and margin. The nearest are taken.
 inline constexpr size_t contacts_max = 1024;

@@ -14,6 +14,8 @@ namespace scree {
 struct Fineness {
   float render_scale = 1.0F;  ///< pixels that are drawn, along a side, for one that is shown
   int shadow_map_side = limits::shadow_map_side;  ///< texels; 0: nothing casts a shadow
+  int shadow_samples = 9;                         ///< of it for a pixel, 9 or 1
+  int shadow_frames = 1;                          ///< for which the map is drawn; pictures draw their own
   int samples = 4;                                ///< a pixel, of polygons' edges; 0: its middle alone
   bool contacts = true;                           ///< loose pieces darken what they lie on
   float details_m = 40.0F;                        ///< as far as grass and stones lie about; 0: none do
@@ -35,7 +37,9 @@ constexpr QualityRow row_of(Quality quality) {
       return {.name = "low",
               .view_radius_m = 32.0F,
               .fineness = {.render_scale = 0.5F,
-                           .shadow_map_side = 0,
+                           .shadow_map_side = 512,
+                           .shadow_samples = 1,
+                           .shadow_frames = 4,
                            .samples = 0,
                            .contacts = false,
                            .details_m = 0.0F}};

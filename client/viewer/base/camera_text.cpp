@@ -34,9 +34,9 @@ Result<Camera> camera_of(const Spawn& spawn) {
 }
 
 std::string camera_text(const Camera& camera) {
-  // A yaw that went round several times is told as one turn.
+  // A yaw that went round several times is told as one within half a turn.
   const double degrees = static_cast<double>(glm::degrees(camera.yaw));
-  const double yaw = degrees - 360.0 * static_cast<double>(static_cast<long>(degrees / 360.0));
+  const double yaw = std::remainder(degrees, 360.0);
   char text[128];
   std::snprintf(text, sizeof text, "%.2f,%.2f,%.2f,%.1f,%.1f", static_cast<double>(camera.eye_m.x),
                 static_cast<double>(camera.eye_m.y), static_cast<double>(camera.eye_m.z), yaw,

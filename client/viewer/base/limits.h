@@ -8,14 +8,6 @@
 
 namespace scree::limits {
 
-/// Seconds until the next attempt to reach a server that is gone. After so many first ones that led to
-/// nothing, as long as a server takes to start anew, twice as many each time; at most the third number. A
-/// connection that lasted for the fourth one was worth something.
-inline constexpr double reconnect_min_s = 1.0;
-inline constexpr uint32_t reconnect_first = 15;
-inline constexpr double reconnect_max_s = 60.0;
-inline constexpr double reconnect_worth_s = 10.0;
-
 /// Seconds between two reports of the camera's place.
 inline constexpr double report_interval_s = 0.25;
 
@@ -79,5 +71,9 @@ inline constexpr double replay_move_s = 2.0;
 
 /// Seconds between two updates of the HUD's costly counts.
 inline constexpr double count_interval_s = 0.5;
+
+/// Radius of interest where the quality decides how far is drawn finely, metres; at least. Servers allow
+/// edits up to 64 m away, as a rule, and who edits has to learn what became of it.
+inline constexpr float interest_least_m = 80.0F;
 
 }  // namespace scree::limits

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "shared/base/overloaded.h"
+#include "shared/game/limits.h"
+
 namespace scree {
 namespace {
 
@@ -29,7 +32,31 @@ PieceEventKind kind_of(CueKind kind) {
   return PieceEventKind::thud;
 }
 
+/// What a spade or a load of rubble of that size does, joules a cubic metre, about.
+constexpr float work_j_m3 = 4000.0F;
+
+void add_cues(CueKind sound, const Shape& shape, Material material, std::vector<Cue>& cues) {
+  const float size_m = std::min(1.6F * reach_of(shape), limits::cue_size_max_m);
+  const float energy_j = work_j_m3 * size_m * size_m * size_m;
+  for (const CueKind kind : {sound, CueKind::dust})
+    cues.push_back({kind, centre_of(shape), size_m, energy_j, material});
+}
+
 }  // namespace
+
+void add_cues_of(const Operation& operation, std::vector<Cue>& cues) {
+  std::visit(Overloaded{[&](const DigOperation& dig) {
+                          if (dig.piece == 0) add_cues(CueKind::rattle, dig.shape, material::rock, cues);
+                        },
+                        [&](const PlaceOperation& place) {
+                          add_cues(CueKind::thud, place.shape, place.material, cues);
+                        },
+                        [&](const FillOperation& fill) {
+                          add_cues(CueKind::thud, fill.shape, fill.material.value_or(material::rock), cues);
+                        },
+                        [](const auto&) {}},
+             operation);
+}
 
 PieceEvent event_of(const Cue& cue, const Palette& palette) {
   const MaterialRow& row = palette.row_or_first(cue.material);

@@ -1,11 +1,27 @@
 #include "client/viewer/pictures/screenshots.h"
 
 #include <charconv>
+#include <fmt/format.h>
 #include <utility>
 
 #include "client/viewer/base/limits.h"
 
 namespace scree {
+
+namespace {
+
+constexpr std::string_view pieces_prefix = "pieces>=", seconds_prefix = "after=";
+
+/// Reads the whole number from 1 on that follows `prefix`. Returns whether the text is nothing else.
+template <typename T>
+bool read_after(std::string_view text, std::string_view prefix, T& number) {
+  if (!text.starts_with(prefix)) return false;
+  text.remove_prefix(prefix.size());
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size() && number > 0;
+}
+
+}  // namespace
 
 std::string ScreenshotOrder::description() const {
   switch (when) {
@@ -13,14 +29,15 @@ std::string ScreenshotOrder::description() const {
       return file + "@joined";
     case When::settled:
       return file + "@settled";
+    case When::seconds:
+      return fmt::format("{}@{}{}", file, seconds_prefix, seconds);
     case When::pieces:
       break;
   }
-  return file + "@pieces>=" + std::to_string(pieces);
+  return fmt::format("{}@{}{}", file, pieces_prefix, pieces);
 }
 
 Result<ScreenshotOrder> parse_screenshot(std::string_view text) {
-  constexpr std::string_view pieces_prefix = "pieces>=";
   const size_t at = text.rfind('@');
   ScreenshotOrder order;
   order.file = text.substr(0, at);
@@ -34,19 +51,23 @@ Result<ScreenshotOrder> parse_screenshot(std::string_view text) {
     order.when = ScreenshotOrder::When::settled;
     return order;
   }
-  if (when.starts_with(pieces_prefix)) {
+  if (read_after(when, pieces_prefix, order.pieces)) {
     order.when = ScreenshotOrder::When::pieces;
-    const std::string_view number = when.substr(pieces_prefix.size());
-    const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), order.pieces);
-    if (error == std::errc{} && end == number.data() + number.size() && order.pieces > 0) return order;
+    return order;
   }
-  return fail("--screenshot: '" + std::string(when) + "' is not a moment; use joined, pieces>=N or settled");
+  if (read_after(when, seconds_prefix, order.seconds)) {
+    order.when = ScreenshotOrder::When::seconds;
+    return order;
+  }
+  return fail("--screenshot: '" + std::string(when) +
+              "' is not a moment; use joined, after=N, pieces>=N or settled");
 }
 
 ScreenshotQueue::ScreenshotQueue(std::vector<ScreenshotOrder> orders)
     : orders_(std::move(orders)), reached_s_(orders_.size()) {}
 
 std::vector<ScreenshotOrder> ScreenshotQueue::pop_due(const Moment& moment) {
+  if (moment.joined && !joined_at_s_) joined_at_s_ = moment.now_s;
   if (moment.alive || !moment.carved) {
     calm_since_s_.reset();
   } else if (!calm_since_s_) {
@@ -71,6 +92,8 @@ std::vector<ScreenshotOrder> ScreenshotQueue::pop_due(const Moment& moment) {
 
 bool ScreenshotQueue::due(const ScreenshotOrder& order, const Moment& moment) const {
   if (order.when == ScreenshotOrder::When::joined) return moment.joined;
+  if (order.when == ScreenshotOrder::When::seconds)
+    return moment.joined && moment.now_s - *joined_at_s_ >= order.seconds;
   if (order.when != ScreenshotOrder::When::settled || !moment.joined || !moment.current) return false;
   return calm_since_s_ && moment.now_s - *calm_since_s_ >= limits::settled_s;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,16 +13,17 @@
 namespace scree {
 
 struct ScreenshotOrder {
-  enum class When { joined, pieces, settled };
+  enum class When { joined, pieces, seconds, settled };
   std::string file;
   When when = When::joined;
-  size_t pieces = 0;  ///< at least so many, for When::pieces
+  size_t pieces = 0;     ///< at least so many, for When::pieces
+  uint32_t seconds = 0;  ///< after it has joined, for When::seconds
 
   /// "blast.png@pieces>=40": for people.
   std::string description() const;
 };
 
-/// FILE, FILE@joined, FILE@pieces>=N or FILE@settled.
+/// FILE, FILE@joined, FILE@after=N, FILE@pieces>=N or FILE@settled.
 Result<ScreenshotOrder> parse_screenshot(std::string_view text);
 
 /// The state of the viewer at some moment (seconds of any clock).
@@ -49,6 +51,7 @@ class ScreenshotQueue {
 
   std::vector<ScreenshotOrder> orders_;
   std::vector<std::optional<double>> reached_s_;  ///< per order: when its number of pieces was first shown
+  std::optional<double> joined_at_s_;             ///< first
   std::optional<double> calm_since_s_;            ///< no piece alive since then
 };
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "client/render/scene/camera.h"
-#include "client/viewer/session/figures.h"
+#include "client/viewer/figures/figures.h"
 
 namespace scree {
 

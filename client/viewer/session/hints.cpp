@@ -16,7 +16,7 @@ struct Hint {
 
 /// What is best here comes first.
 constexpr std::array hints{
-    Hint{ToolUse::carve, 4, "3: carve. Strike an arch, a pillar or a tower at its foot, and it topples"},
+    Hint{ToolUse::carve, 4, "3: carve. Strike an arch, a pillar or a tower at its feet, and it topples"},
     Hint{std::nullopt, 0, "J: rewind, and see it fall again from any side"},
     Hint{ToolUse::place, 1, "2: place what you carry, where you look"},
 };

@@ -23,6 +23,8 @@ SolidGround ground_of_scene(const Scene& scene, glm::vec3 about_m);
 class OnFoot {
  public:
   bool walks() const { return walker_.has_value(); }
+  /// Only while it walks.
+  glm::vec3 feet_m() const { return walker_->feet_m(); }
   /// Begins to walk where the camera is, or flies on from there.
   void change(const Camera& camera);
   /// Flies, as in another world, until change().

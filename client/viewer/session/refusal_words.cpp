@@ -16,6 +16,7 @@ constexpr std::array rows{
     BriefRow{"out_of_sight", "not in sight"},
     BriefRow{"in_region", "this is protected"},
     BriefRow{"role", "you may not"},
+    BriefRow{"not_on_foot", "stand first: Q"},
     BriefRow{"requests_per_second", "too fast"},
     BriefRow{"dig_rate", "wait a moment"},
     BriefRow{"store_full", "your store is full"},

@@ -3,6 +3,7 @@
 
 #include "client/viewer/session/viewer_session.h"
 #include "shared/base/check.h"
+#include "shared/person/person_body.h"
 #include "shared/person/walker.h"
 
 namespace scree {
@@ -11,11 +12,9 @@ namespace scree {
 std::optional<uint64_t> ViewerSession::person_of(PieceId body, const Prop& prop) const {
   const auto& persons = client_.mirror()->persons();
   if (const auto person = persons.find(body); person != persons.end()) return person->second;
-  if (prop.motion != PropMotion::kinematic || prop.tag == 0) return std::nullopt;
-  const uint64_t recorded = recorded_person(prop.tag);
-  const bool was_there = std::ranges::any_of(
-      recorded_cursors_, [&](const PlayerCursor& one) { return one.session == recorded; });
-  return was_there ? std::optional(recorded) : std::nullopt;
+  if (!client_.connected() || !client_.welcome()->replay) return std::nullopt;
+  const std::optional<uint64_t> session = person_of_body(prop);
+  return session ? std::optional(recorded_person(*session)) : std::nullopt;
 }
 
 const SceneProps& ViewerSession::props(double now_s) {
@@ -46,7 +45,7 @@ const Figures& ViewerSession::figures(double now_s) {
   return figures_;
 }
 
-/// Adds those on foot; who tells no cursor looks ahead.
+/// Adds those on foot.
 void ViewerSession::add_bodies(double now_s, std::vector<PlayerCursor>& all, PersonFacts& facts) {
   const Mirror* mirror = client_.mirror();
   if (mirror == nullptr) return;
@@ -54,17 +53,17 @@ void ViewerSession::add_bodies(double now_s, std::vector<PlayerCursor>& all, Per
   for (const auto& [id, motion] : mirror->props()) {
     const std::optional<uint64_t> person = person_of(id, *motion.prop);
     if (!person || (welcome() != nullptr && *person == welcome()->session)) continue;
-    const Pose pose = mirror->pose_at(motion, tick);
-    const glm::vec3 feet_m = pose.position_m - glm::vec3(0.0F, 0.5F * Walker::height_m, 0.0F);
-    facts.feet_m.emplace(*person, feet_m);
-    const glm::vec3 eye_m = feet_m + glm::vec3(0.0F, Walker::eye_above_m, 0.0F);
-    if (std::ranges::none_of(all, [&](const PlayerCursor& one) { return one.session == *person; }))
-      all.push_back({*person, "", eye_m, eye_m + pose.rotation * glm::vec3(0.0F, 0.0F, -5.0F)});
+    add_body(facts, all, *person, mirror->pose_at(motion, tick));
   }
 }
 
 bool ViewerSession::persons_walk() const {
   return client_.mirror() != nullptr && scree::persons_walk(client_.mirror()->status());
+}
+
+WaterLevel ViewerSession::water() const {
+  const Mirror* mirror = client_.mirror();
+  return mirror != nullptr && mirror->status() ? water_of(mirror->status()->settings) : WaterLevel();
 }
 
 void ViewerSession::stand(bool away) {

@@ -46,6 +46,7 @@ Result<void> View::follow(const SessionStep& step, ViewerSession& session, const
   const Scene scene = session.scene(now_s);
   if (models_.follow(scene.props, [&](const Digest& model) { return session.model(model); }))
     renderer_->set_models(models_.meshes());
+  TRY(renderer_->set_water(session.water()));
   TRY(renderer_->set_props(scene.props));
   TRY(methods_.follow(step.changes, scene, camera));
   // Afterwards: they stand on the ground that the method has generated.

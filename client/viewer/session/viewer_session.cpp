@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
-#include "client/connection/come_again.h"
 #include "client/session/edit_reach.h"
 #include "client/viewer/base/limits.h"
 #include "client/viewer/session/refusal_words.h"
+#include "client/viewer/session/way_ahead.h"
 #include "proto/person_name.h"
 #include "shared/base/check.h"
 #include "shared/base/limits.h"
@@ -28,6 +28,7 @@ void append(MirrorChanges& to, const MirrorChanges& from) {
   to.pieces_added.insert(to.pieces_added.end(), from.pieces_added.begin(), from.pieces_added.end());
   to.pieces_removed.insert(to.pieces_removed.end(), from.pieces_removed.begin(), from.pieces_removed.end());
   to.props_added.insert(to.props_added.end(), from.props_added.begin(), from.props_added.end());
+  to.stones.insert(to.stones.end(), from.stones.begin(), from.stones.end());
   to.props_removed.insert(to.props_removed.end(), from.props_removed.begin(), from.props_removed.end());
 }
 
@@ -53,7 +54,7 @@ ViewerSession::ViewerSession(std::unique_ptr<Connector> connector, SessionChoice
 
 SessionStep ViewerSession::step(double now_s, const Camera& camera) {
   SessionStep step;
-  if (!connected() && !client_.joining() && !gave_up_ && now_s >= next_try_s_) join(now_s, camera.eye_m);
+  if (!connected() && !client_.joining() && attempts_.due(now_s)) join(now_s, camera.eye_m);
   take_events(now_s, step);
   client_.settle(now_s, step.changes);
   if (foreseen_walk_ && mirror() != nullptr) foreseen_walk_->follow(*mirror());
@@ -96,11 +97,12 @@ void ViewerSession::join(double now_s, glm::vec3 eye_m) {
   hello.name = choice_.name;
   hello.meets = true;
   hello.at_spawn = at_spawn_;
+  hello.stones = true;
   client_.join(hello, now_s);
 }
 
 void ViewerSession::begin(const Client::Joined& joined, double now_s, SessionStep& step) {
-  connected_since_s_ = now_s;
+  attempts_.joined(now_s);
   asked_s_.clear();
   step.new_mirror = true;
   step.other_world = joined.other_world;
@@ -128,13 +130,7 @@ void ViewerSession::lose(double now_s, const ConnectionEnd& end) {
   timeline_.begin(tick_rate_hz_);
   physics_.reset();
   trouble_ = without_options(end.message);
-  gave_up_ = !may_come_again(end.refusal);
-  if (connected_since_s_ && now_s - *connected_since_s_ >= limits::reconnect_worth_s) failures_ = 0;
-  connected_since_s_.reset();
-  const int doubled = static_cast<int>(failures_) + 1 - static_cast<int>(limits::reconnect_first);
-  next_try_s_ = now_s + std::min(std::ldexp(limits::reconnect_min_s, std::clamp(doubled, 0, 30)),
-                                 limits::reconnect_max_s);
-  ++failures_;
+  attempts_.lost(now_s, end.refusal);
   bytes_per_s_ = 0.0;
 }
 
@@ -148,7 +144,10 @@ void ViewerSession::measure_rate(double now_s) {
 
 void ViewerSession::apply(const Client::Applied& applied, double now_s, SessionStep& step) {
   const double arrived_s = applied.received.arrived_s();
-  std::visit(Overloaded{[&](const FrameMessage& frame) { pace_.note(frame.tick, arrived_s); },
+  std::visit(Overloaded{[&](const FrameMessage& frame) {
+                          pace_.note(frame.tick, arrived_s);
+                          note(frame.operations, step);
+                        },
                         [&](const ReplyMessage& reply) { settle(reply, arrived_s, now_s); },
                         [&](const CursorsMessage& cursors) { cursors_ = cursors.cursors; },
                         [&](const RecordedCursorsMessage& cursors) { set_recorded_cursors(cursors); },
@@ -171,6 +170,12 @@ void ViewerSession::apply(const Client::Applied& applied, double now_s, SessionS
 void ViewerSession::note(const CuesMessage& cues, SessionStep& step) {
   for (const Cue& cue : cues.cues)
     if (step.cues.size() < limits::piece_events_per_step_max) step.cues.push_back(cue);
+}
+
+void ViewerSession::note(const std::vector<Operation>& operations, SessionStep& step) {
+  const size_t room = limits::piece_events_per_step_max - step.edits.size();
+  step.edits.insert(step.edits.end(), operations.begin(),
+                    operations.begin() + static_cast<std::ptrdiff_t>(std::min(room, operations.size())));
 }
 
 void ViewerSession::settle(const ReplyMessage& reply, double arrived_s, double now_s) {
@@ -288,12 +293,21 @@ void ViewerSession::strike(const Tool& tool, glm::vec3 from_m, glm::vec3 directi
   const std::optional<glm::vec3> hit_m = aim(from_m, direction);
   if (!hit_m) return;
   const ToolHolder by = holder();
-  const Shape shape = shape_of(tool, *hit_m, direction, by.voxel_size_m);
+  const Shape shape = shape_of_strike(tool, *hit_m, direction);
   if (is_beyond_reach(shape, from_m))
     return refuse(told_of_reach(distance(shape, from_m), *reach_m()), "reach", now_s);
   if (tool.use == ToolUse::place && by.carried.empty())
     return refuse("You carry nothing to place: dig some rock first", "store_missing", now_s);
-  ask(request_of(tool, *hit_m, direction, requests_ + 1, by), now_s);
+  Request request = request_of(tool, *hit_m, direction, requests_ + 1, by);
+  if (auto* const dig = std::get_if<DigRequest>(&request)) dig->shape = shape;
+  ask(request, now_s);
+}
+
+Shape ViewerSession::shape_of_strike(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction) {
+  Shape shape = shape_of(tool, hit_m, direction, holder().voxel_size_m);
+  if (!feet_m_ || tool.use != ToolUse::dig || tool.kind == ToolKind::tunnel) return shape;
+  shape.a = middle_of_way(field(), *feet_m_, direction, tool.radius_m).value_or(shape.a);
+  return shape;
 }
 
 void ViewerSession::ask(const Request& request, double now_s) {
@@ -323,12 +337,12 @@ std::string ViewerSession::description() const {
   if (const WelcomeMessage* told = welcome())
     return where + (told->replay ? " (a recording)" : ", as " + std::string(name_of(told->role)));
   if (trouble_.empty()) return "connecting to " + where + " ...";
-  return gave_up_ ? trouble_ : trouble_ + " - trying again";
+  return gave_up() ? trouble_ : trouble_ + " - trying again";
 }
 
 std::optional<double> ViewerSession::next_try_s(double now_s) const {
-  if (connected() || gave_up_ || client_.joining()) return std::nullopt;
-  return std::max(next_try_s_ - now_s, 0.0);
+  if (connected() || gave_up() || client_.joining()) return std::nullopt;
+  return attempts_.wait_s(now_s);
 }
 
 std::optional<ConnectionCounters> ViewerSession::traffic() const {

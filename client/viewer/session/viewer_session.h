@@ -14,14 +14,16 @@
 #include <string>
 
 #include "client/render/scene/draw_method.h"
+#include "client/session/attempts.h"
 #include "client/session/client.h"
 #include "client/session/walk_prediction.h"
+#include "client/viewer/figures/figures.h"
 #include "client/viewer/input/tool.h"
 #include "client/viewer/session/conversation.h"
-#include "client/viewer/session/figures.h"
 #include "client/viewer/session/pace.h"
 #include "client/viewer/session/timeline.h"
 #include "shared/base/timing.h"
+#include "shared/base/water.h"
 
 namespace scree {
 
@@ -36,6 +38,7 @@ struct SessionStep {
   bool jumped = false;       ///< a replay is at another moment: what changed did not happen
   MirrorChanges changes;
   std::vector<Cue> cues{};           ///< of a game's rules, at most limits::piece_events_per_step_max
+  std::vector<Operation> edits{};    ///< what was done to terrain; at most likewise
   std::vector<ChannelData> heard{};  ///< what the rules have for this program
 };
 
@@ -94,6 +97,11 @@ class ViewerSession {
 
   /// The point at which a ray (unit direction) meets rock within limits::carve_reach_m, metres.
   std::optional<glm::vec3> aim(glm::vec3 from_m, glm::vec3 direction);
+  /// The shape of a strike at `hit_m` along `direction` (unit): a dig of who is on foot takes first what is
+  /// in the way (way_ahead.h).
+  Shape shape_of_strike(const Tool& tool, glm::vec3 hit_m, glm::vec3 direction);
+  /// Where the person's feet are from now on; nothing: the person is not on foot.
+  void stand_at(std::optional<glm::vec3> feet_m) { feet_m_ = feet_m; }
   /// Whether the server refuses an edit of this shape from there as too far away, as far as it has told so.
   bool is_beyond_reach(const Shape& shape, glm::vec3 from_m) const;
   /// Who this person is to regions, as far as it is known here: the name counts if a token states it.
@@ -124,6 +132,8 @@ class ViewerSession {
   const Conversation& conversation() const { return conversation_; }
   /// Whether the server moves persons on foot, as far as it has told so.
   bool persons_walk() const;
+  /// As the server's settings said it last.
+  WaterLevel water() const;
   /// Asks to be put on foot, or to leave it.
   void stand(bool away);
   /// This client's own person, foreseen as of this step; null without a world.
@@ -146,11 +156,11 @@ class ViewerSession {
   std::string description() const;
   std::string notice(double now_s) const;
   /// Whether the server refused for a reason that stays (may_come_again): there is no other attempt.
-  bool gave_up() const { return gave_up_; }
+  bool gave_up() const { return attempts_.gave_up(); }
   /// Seconds until the next attempt; nothing while there is a connection, or an attempt.
   std::optional<double> next_try_s(double now_s) const;
   /// The next attempt is now.
-  void try_now() { next_try_s_ = 0.0; }
+  void try_now() { attempts_.try_now(); }
   /// What the world is made of, as far as it has come.
   const Palette& palette() const {
     return client_.mirror() == nullptr ? *plain_palette() : *client_.mirror()->palette();
@@ -178,6 +188,7 @@ class ViewerSession {
   void lose(double now_s, const ConnectionEnd& end);
   void apply(const Client::Applied& applied, double now_s, SessionStep& step);
   static void note(const CuesMessage& cues, SessionStep& step);
+  static void note(const std::vector<Operation>& operations, SessionStep& step);
   void settle(const ReplyMessage& reply, double arrived_s, double now_s);
   void show_notice(std::string words, double now_s);
   void refuse(std::string words, std::string_view refusal, double now_s);
@@ -201,10 +212,7 @@ class ViewerSession {
   SceneProps props_;
   std::string trouble_;    ///< the reason for the missing connection
   bool was_here_ = false;  ///< connected before
-  bool gave_up_ = false;   ///< the server refused for a reason that stays (may_come_again)
-  double next_try_s_ = 0.0;
-  uint32_t failures_ = 0;  ///< attempts that led to nothing since a connection that was worth something
-  std::optional<double> connected_since_s_;
+  Attempts attempts_;
   double next_report_s_ = 0.0;
   double next_cursor_s_ = 0.0;
   CursorMessage reported_cursor_;
@@ -215,6 +223,7 @@ class ViewerSession {
   PersonColours colours_;
   Conversation conversation_;
   std::optional<WalkPrediction> foreseen_walk_;
+  std::optional<glm::vec3> feet_m_;
   bool wants_physics_ = false;
   bool physics_requested_ = false;  ///< the last state sent to the server
   std::optional<PhysicsMessage> physics_;

@@ -1,6 +1,9 @@
 // How a person is in the world: flies, walks, or looks through another person's eye.
 #pragma once
 
+#include <glm/vec3.hpp>
+#include <optional>
+
 #include "client/viewer/session/followed_eye.h"
 #include "client/viewer/session/on_foot.h"
 #include "client/viewer/session/served_feet.h"
@@ -23,6 +26,10 @@ class Whereabouts {
   bool follow_next_eye(ViewerSession& session, double now_s);
 
  private:
+  void move(Camera& camera, const FlyInput& input, float elapsed_s, ViewerSession& session, double now_s);
+  /// Nothing: the person is not on foot.
+  std::optional<glm::vec3> feet_m(ViewerSession& session) const;
+
   OnFoot feet_;             ///< where the server moves nobody
   ServedFeet served_feet_;  ///< where it does
   FollowedEye eye_;

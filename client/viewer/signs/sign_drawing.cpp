@@ -1,8 +1,11 @@
 #include "client/viewer/signs/sign_drawing.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <optional>
+#include <utility>
 
 namespace scree {
 namespace {
@@ -13,10 +16,15 @@ constexpr SignColour empty_bar{255, 255, 255, 50};
 /// Widths of a bar, in heights of the letters; of the picture's width at most.
 constexpr float bar_width = 16.0F, bar_height = 0.35F, row_width_share = 0.9F;
 constexpr float diamond_half = 0.45F, arrow_length = 0.8F;
+constexpr float arrow_gap = 3.0F;  ///< pixels between the diamond and its arrow
 
 SignColour colour_of(const Sign& sign, float opacity = 1.0F) {
   return {sign.colour[0], sign.colour[1], sign.colour[2],
           static_cast<uint8_t>(std::lround(255.0F * std::clamp(opacity, 0.0F, 1.0F)))};
+}
+
+bool meet(const TakenRoom& a, const TakenRoom& b) {
+  return a.from.x < b.to.x && b.from.x < a.to.x && a.from.y < b.to.y && b.from.y < a.to.y;
 }
 
 SignColour fainter(SignColour colour, float opacity) {
@@ -26,8 +34,8 @@ SignColour fainter(SignColour colour, float opacity) {
 
 class Drawing {
  public:
-  Drawing(glm::vec2 size, const LetterSizes& letters)
-      : size_(size), letters_(letters), gap_(0.3F * letters.height) {}
+  Drawing(glm::vec2 size, const LetterSizes& letters, std::vector<TakenRoom>&& taken)
+      : size_(size), letters_(letters), gap_(0.3F * letters.height), taken_(std::move(taken)) {}
 
   void row(const ShownSign& shown) {
     const bool is_bar = shown.sign.kind == SignKind::bar;
@@ -41,6 +49,7 @@ class Drawing {
     const glm::vec2 from(std::round(0.5F * (size_.x - inner) - gap_), std::round(top_));
     const glm::vec2 to(from.x + inner + 2.0F * gap_, from.y + text + between + bar + 2.0F * gap_);
     parts_.push_back(SignBox{from, to, ground});
+    taken_.push_back({from, to});
     if (text > 0.0F)
       write({std::max(0.5F * (from.x + to.x - words), from.x + gap_), from.y + gap_}, shown.words,
             colour_of(shown.sign));
@@ -56,29 +65,61 @@ class Drawing {
   void marker(const ShownSign& shown) {
     const MarkerPlace& place = *shown.marker;
     const SignColour colour = colour_of(shown.sign, place.opacity);
-    const glm::vec2 at = glm::clamp(place.at, 0.0F, 1.0F) * size_;
     const float half = diamond_half * letters_.height;
+    glm::vec2 at = glm::clamp(place.at, 0.0F, 1.0F) * size_;
+    if (place.way) at = beside_taken(at, half + arrow_gap + arrow_length * letters_.height);
     diamond(at, half + 1.5F, fainter({0, 0, 0, 170}, place.opacity));
     diamond(at, half, colour);
     if (place.way) arrow(at, *place.way, half, colour);
     if (shown.words.empty()) return;
-    // Above the diamond, and beneath it where there is no room.
-    const float width = letters_.width(shown.words);
-    const float above = at.y - half - gap_ - letters_.height;
-    const glm::vec2 lowest(gap_, gap_);
-    const glm::vec2 highest(std::max(size_.x - width - gap_, gap_),
-                            std::max(size_.y - letters_.height - gap_, gap_));
-    const glm::vec2 corner = glm::clamp(
-        glm::vec2(at.x - 0.5F * width, above >= gap_ ? above : at.y + half + gap_), lowest, highest);
-    const glm::vec2 margin(0.5F * gap_, 0.2F * gap_);
-    parts_.push_back(SignBox{corner - margin, corner + glm::vec2(width, letters_.height) + margin,
-                             fainter(ground, place.opacity)});
+    const glm::vec2 margin(0.5F * gap_, 0.2F * gap_), words(letters_.width(shown.words), letters_.height);
+    const std::optional<glm::vec2> place_of = place_of_words(at, half, words);
+    if (!place_of) return;
+    const glm::vec2 corner = *place_of;
+    parts_.push_back(SignBox{corner - margin, corner + words + margin, fainter(ground, place.opacity)});
     write(corner, shown.words, colour);
   }
 
-  std::vector<SignPart> take() { return std::move(parts_); }
+  std::vector<SignPart> take() { return std::exchange(parts_, {}); }
 
  private:
+  bool is_taken(const TakenRoom& room) const {
+    return std::ranges::any_of(taken_, [&](const TakenRoom& one) { return meet(room, one); });
+  }
+  /// Above the diamond; beneath it, or to its right or left, where there is no room. Nothing: there is none
+  /// anywhere, and the words would be covered.
+  std::optional<glm::vec2> place_of_words(glm::vec2 at, float half, glm::vec2 words) const {
+    const glm::vec2 lowest(gap_);
+    const glm::vec2 highest = glm::max(size_ - words - gap_, lowest);
+    const float off = half + gap_;
+    const glm::vec2 above(at.x - 0.5F * words.x, at.y - off - words.y);
+    const std::array<glm::vec2, 4> places{{above,
+                                           {above.x, at.y + off},
+                                           {at.x + off, at.y - 0.5F * words.y},
+                                           {at.x - off - words.x, at.y - 0.5F * words.y}}};
+    for (const glm::vec2& place : places) {
+      const glm::vec2 corner(std::clamp(place.x, lowest.x, highest.x), place.y);
+      const bool moved_over_it = &place > &places[1] && corner.x != place.x;
+      const bool is_within = corner.y >= lowest.y && corner.y <= highest.y;
+      if (is_within && !moved_over_it && !is_taken({corner, corner + words})) return corner;
+    }
+    return std::nullopt;
+  }
+  /// Towards the middle of the picture's height until nothing lies over it.
+  glm::vec2 beside_taken(glm::vec2 at, float room) const {
+    const float reach = room + 1.0F;
+    const bool is_high = at.y < 0.5F * size_.y;
+    glm::vec2 moved = at;
+    for (size_t i = 0; i < taken_.size(); ++i) {
+      const auto over = std::ranges::find_if(taken_, [&](const TakenRoom& one) {
+        return meet({moved - reach, moved + reach}, one);
+      });
+      if (over == taken_.end()) return moved;
+      moved.y = is_high ? over->to.y + reach : over->from.y - reach;
+      if (is_high != (moved.y < 0.5F * size_.y)) break;
+    }
+    return at;
+  }
   void write(glm::vec2 at, const std::string& words, SignColour colour) {
     parts_.push_back(SignWords{glm::round(at), words, colour});
   }
@@ -89,7 +130,7 @@ class Drawing {
   }
   void arrow(glm::vec2 at, glm::vec2 way, float half, SignColour colour) {
     const glm::vec2 beside(-way.y, way.x);
-    const glm::vec2 foot = at + way * (half + 3.0F);
+    const glm::vec2 foot = at + way * (half + arrow_gap);
     const float wide = 0.7F * half;
     parts_.push_back(SignTriangle{
         {foot - beside * wide, foot + beside * wide, foot + way * (arrow_length * letters_.height)}, colour});
@@ -98,6 +139,7 @@ class Drawing {
   glm::vec2 size_;
   const LetterSizes& letters_;
   float gap_;
+  std::vector<TakenRoom> taken_;
   float top_ = 0.5F * letters_.height;
   std::vector<SignPart> parts_;
 };
@@ -105,14 +147,17 @@ class Drawing {
 }  // namespace
 
 std::vector<SignPart> draw_signs(const std::vector<ShownSign>& shown, glm::vec2 size,
-                                 const LetterSizes& letters) {
-  Drawing drawing(size, letters);
-  // Markers come last and lie beneath the rows.
-  for (const ShownSign& one : shown)
-    if (one.marker) drawing.marker(one);
+                                 const LetterSizes& letters, std::vector<TakenRoom> taken) {
+  Drawing drawing(size, letters, std::move(taken));
   for (const ShownSign& one : shown)
     if (!one.marker) drawing.row(one);
-  return drawing.take();
+  const std::vector<SignPart> rows = drawing.take();
+  for (const ShownSign& one : shown)
+    if (one.marker) drawing.marker(one);
+  // Markers lie beneath the rows.
+  std::vector<SignPart> parts = drawing.take();
+  parts.insert(parts.end(), rows.begin(), rows.end());
+  return parts;
 }
 
 }  // namespace scree

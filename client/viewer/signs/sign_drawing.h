@@ -39,8 +39,15 @@ struct LetterSizes {
   float height = 13.0F;
 };
 
-/// Nothing where no sign is shown.
+/// What lies over the picture where signs are drawn.
+struct TakenRoom {
+  glm::vec2 from{0.0F};
+  glm::vec2 to{0.0F};
+};
+
+/// Nothing where no sign is shown. The words of markers, and markers at the picture's edge, keep clear of the
+/// rows and of `taken`; words that have no room are left out.
 std::vector<SignPart> draw_signs(const std::vector<ShownSign>& shown, glm::vec2 size,
-                                 const LetterSizes& letters);
+                                 const LetterSizes& letters, std::vector<TakenRoom> taken = {});
 
 }  // namespace scree

@@ -87,7 +87,8 @@ HudFacts FactFinder::find(Visit& visit, double now_s) {
   }
   if (DrawMethod* method = methods.preparing()) {
     const DrawStats stats = method->stats();
-    facts.preparing = {std::string(methods.preparing_name()), stats.resident, stats.waiting};
+    facts.preparing = {std::string(methods.preparing_name()), stats.resident, stats.waiting,
+                       methods.was_loaded()};
   }
   facts.memory.insert(facts.memory.end(), mirror_memory_.begin(), mirror_memory_.end());
   return facts;

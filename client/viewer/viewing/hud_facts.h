@@ -16,6 +16,7 @@ struct Preparing {
   std::string method;
   size_t done = 0;
   size_t waiting = 0;
+  bool goes_on = false;  ///< there was a whole picture of this world before
 
   float share() const {
     return done + waiting == 0 ? 0.0F : static_cast<float>(done) / static_cast<float>(done + waiting);

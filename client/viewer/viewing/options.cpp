@@ -125,8 +125,8 @@ void declare_pictures(CLI::App& app, ViewerOptions& options, Texts& texts) {
       ->envname("SCREE_OFFSCREEN");
   app.add_option(
          "--screenshot", texts.screenshots,
-         "FILE[@WHEN], a PNG; repeatable. WHEN: joined (default), pieces>=N (that many pieces are in sight), "
-         "settled (something was carved, and all pieces are terrain again)")
+         "FILE[@WHEN], a PNG; repeatable. WHEN: joined (default), after=N (seconds later), pieces>=N (that "
+         "many pieces are in sight), settled (something was carved, and all pieces are terrain again)")
       ->envname("SCREE_SCREENSHOT");
   app.add_option(
          "--path", options.path_file,

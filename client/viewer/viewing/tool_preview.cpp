@@ -30,9 +30,9 @@ std::optional<Material> put_by(const Tool& tool, const ToolHolder& holder) {
 /// Over the surface by so much, metres, which its roughness would else hide the line in.
 constexpr float rim_over_m = 0.06F;
 
-/// Nothing: the shape is not round, or lies within the rock.
+/// Nothing: the shape is not round, or lies within the rock, or elsewhere.
 std::optional<ShapeRim> rim_of(const Shape& shape, glm::vec3 hit_m, const Field& field) {
-  if (shape.kind == ShapeKind::box) return std::nullopt;
+  if (shape.kind == ShapeKind::box || distance(shape, hit_m) > 0.0F) return std::nullopt;
   const glm::vec3 gradient = sample(field, hit_m / field.source().voxel_size_m).gradient;
   if (glm::length(gradient) < 0.1F) return std::nullopt;
   const glm::vec3 normal = glm::normalize(gradient);
@@ -69,7 +69,7 @@ const std::optional<ToolAim>& ToolPreview::step(const Tool& tool, ViewerSession&
   const std::optional<glm::vec3> hit_m = session.aim(camera.eye_m, direction);
   if (!hit_m || session.is_replay()) return aim_;
   const ToolHolder holder = session.holder();
-  const Shape shape = shape_of(tool, *hit_m, direction, holder.voxel_size_m);
+  const Shape shape = session.shape_of_strike(tool, *hit_m, direction);
   const bool is_beyond = session.is_beyond_reach(shape, camera.eye_m) || is_in_closed_region(session, shape);
   aim_ = {shape, is_beyond, put_by(tool, holder), rim_of(shape, *hit_m, session.field())};
   if (now_s >= next_measure_s_ && (measured_ != shape || measured_use_ != tool.use)) {

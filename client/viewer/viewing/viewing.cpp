@@ -20,7 +20,7 @@ std::optional<float> radius_of(const ViewerOptions& options) {
 
 SessionChoice session_of(const ViewerOptions& options, Quality quality) {
   SessionChoice choice;
-  choice.interest_radius_m = radius_of(options).value_or(traits_of(quality).view_radius_m);
+  choice.interest_radius_m = Visit::interest_radius_m(radius_of(options), quality);
   choice.name = options.name;
   choice.cache = options.cache;
   choice.cache.images = true;
@@ -46,8 +46,8 @@ Result<std::unique_ptr<Viewing>> Viewing::begin(const ViewerOptions& options) {
   const Quality quality = options.quality.value_or(options.offscreen ? Quality::high : AutoQuality::first);
   Result<Sounds> sounds = Sounds::begin(options.sound && !options.offscreen, options.sound_file);
   if (!sounds) return fail(sounds.error().message);
-  Result<std::unique_ptr<View>> view =
-      View::create(*options.method, session_of(options, quality).interest_radius_m, decode_png, read_glb);
+  Result<std::unique_ptr<View>> view = View::create(
+      *options.method, radius_of(options).value_or(traits_of(quality).view_radius_m), decode_png, read_glb);
   if (!view) return fail(view.error().message);
   return std::unique_ptr<Viewing>(new Viewing(options, quality, std::move(*view), std::move(*sounds)));
 }

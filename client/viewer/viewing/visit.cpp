@@ -1,5 +1,6 @@
 #include "client/viewer/viewing/visit.h"
 
+#include <algorithm>
 #include <glm/trigonometric.hpp>
 #include <utility>
 
@@ -31,7 +32,7 @@ void Visit::use(Quality quality) {
   if (!details_) fineness.details_m = 0.0F;
   if (render_scale_) fineness.render_scale = *render_scale_;
   view->set_fineness(fineness, view_radius_m());
-  session.set_interest_radius(view_radius_m());
+  session.set_interest_radius(interest_radius_m(chosen_radius_m_, quality_));
 }
 
 void Visit::set_view_radius(std::optional<float> metres) {
@@ -84,7 +85,7 @@ Result<void> Visit::step(double now_s) {
     dust_.clear();
   }
   events_.clear();
-  if (session.mirror() != nullptr) follow_pieces(step.cues, now_s);
+  if (session.mirror() != nullptr) follow_pieces(step, now_s);
   if (hears_) heard_.insert(heard_.end(), step.heard.begin(), step.heard.end());
   while (heard_.size() > limits::messages_heard_max) heard_.pop_front();
   const TraceSpan span(trace.get(), "viewer", "update");
@@ -96,6 +97,10 @@ Result<void> Visit::step(double now_s) {
   session.figures(now_s).add_to(contacts);
   view->renderer().set_contacts(std::move(contacts));
   return {};
+}
+
+float Visit::interest_radius_m(std::optional<float> chosen_m, Quality quality) {
+  return chosen_m.value_or(std::max(traits_of(quality).view_radius_m, limits::interest_least_m));
 }
 
 std::deque<ChannelData> Visit::drain_heard() {
@@ -117,10 +122,14 @@ std::vector<ShownSign> Visit::signs(float aspect, double now_s) {
 }
 
 /// What they do is heard and seen.
-void Visit::follow_pieces(const std::vector<Cue>& cues, double now_s) {
+void Visit::follow_pieces(const SessionStep& step, double now_s) {
   if (!listens_ && !particles_ && !shakes_) return;
+  std::vector<Cue> cues = step.cues;
+  for (const Operation& edit : step.edits) add_cues_of(edit, cues);
   events_ = piece_events_.step(session.scene(now_s), now_s, session.palette());
-  for (const Cue& cue : cues) events_.push_back(event_of(cue, session.palette()));
+  for (const Cue& cue : cues)
+    if (events_.size() < limits::piece_events_per_step_max)
+      events_.push_back(event_of(cue, session.palette()));
   if (shakes_) shake_.add(events_, camera.eye_m, now_s);
   if (!particles_) return;
   dust_.add(events_, now_s);

@@ -69,6 +69,8 @@ class Visit {
   std::optional<Quality> choose_quality(std::optional<Quality> wanted, float frame_ms);
   void set_view_radius(std::optional<float> metres);
   float view_radius_m() const { return chosen_radius_m_.value_or(traits_of(quality_).view_radius_m); }
+  /// As far as terrain and pieces are followed: where a quality draws less, edits reach farther.
+  static float interest_radius_m(std::optional<float> chosen_m, Quality quality);
   /// Whether breaks, blows and merges raise dust; not any more: it is gone at once.
   void show_particles(bool on);
   /// Whether grass, bushes and stones lie about, where the quality has them.
@@ -86,7 +88,7 @@ class Visit {
 
  private:
   void stand_at_spawn();
-  void follow_pieces(const std::vector<Cue>& cues, double now_s);
+  void follow_pieces(const SessionStep& step, double now_s);
 
   ToolPreview preview_;
   PieceEventDetector piece_events_;

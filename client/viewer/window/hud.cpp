@@ -13,17 +13,20 @@ namespace {
 
 const ImVec4 warning_colour(1.0F, 0.75F, 0.4F, 1.0F);
 constexpr float progress_width_in_text = 24.0F;  ///< heights of the text
-constexpr float menu_width_in_text = 22.0F;      ///< likewise
+/// The same while one is in the world: it tells, and hides nothing.
+constexpr float slim_width_in_text = 8.0F, slim_height_in_text = 0.25F;
+constexpr float said_width_in_text = 36.0F;  ///< about 65 letters: longer lines are hard to read
+constexpr float menu_width_in_text = 22.0F;  ///< likewise
 
 glm::vec2 screen_size() {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   return {size.x, size.y};
 }
 
-/// Width of a line of the middle's strips.
+/// The greatest width of a line of the middle's strips.
 float line_width() {
   const float width = screen_size().x - 2.0F * (panel_margin + ImGui::GetStyle().WindowPadding.x);
-  return std::max(width, 1.0F);
+  return std::max(std::min(width, said_width_in_text * ImGui::GetFontSize()), 1.0F);
 }
 
 /// How high it is, with the gap to the next one.
@@ -44,13 +47,25 @@ std::span<const std::string> last_lines(const std::vector<std::string>& lines, f
   return std::span(lines).subspan(first);
 }
 
-/// A line of the middle's strips, broken where the window ends.
+/// A line of the middle's strips, broken where it gets too wide.
 void say(const std::string& text, const ImVec4& colour) {
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
   ImGui::PushTextWrapPos(ImGui::GetStyle().WindowPadding.x + line_width());
   ImGui::TextUnformatted(text.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopStyleColor();
+}
+
+/// Returns how high it is, with the gap to what comes next.
+float show_progress(const Preparing& preparing) {
+  const float text = ImGui::GetFontSize(), share = preparing.share();
+  if (preparing.goes_on) {
+    ImGui::ProgressBar(share, ImVec2(slim_width_in_text * text, slim_height_in_text * text), "");
+  } else {
+    const std::string words = "making the world: " + std::to_string(std::lround(100.0F * share)) + " %";
+    ImGui::ProgressBar(share, ImVec2(progress_width_in_text * text, 0.0F), words.c_str());
+  }
+  return ImGui::GetItemRectSize().y + ImGui::GetStyle().ItemSpacing.y;
 }
 
 /// With a shadow, to be read on anything.
@@ -140,15 +155,11 @@ MenuChoice Hud::menu(MenuKeys& keys, std::string_view note) {
 void Hud::messages(const HudFacts& facts, const std::vector<std::string>& lines) {
   if (!facts.preparing && facts.notice.empty() && lines.empty()) return;
   panels_.begin(PanelPlace::bottom);
-  if (const auto& preparing = facts.preparing) {
-    const std::string text =
-        "making the world: " + std::to_string(std::lround(100.0F * preparing->share())) + " %";
-    ImGui::ProgressBar(preparing->share(), ImVec2(progress_width_in_text * ImGui::GetFontSize(), 0.0F),
-                       text.c_str());
+  float taken = facts.preparing ? show_progress(*facts.preparing) : 0.0F;
+  if (!facts.notice.empty()) {
+    say(facts.notice, warning_colour);
+    taken += height_of(facts.notice);
   }
-  if (!facts.notice.empty()) say(facts.notice, warning_colour);
-  const float taken = (facts.preparing ? ImGui::GetFrameHeightWithSpacing() : 0.0F) +
-                      (facts.notice.empty() ? 0.0F : height_of(facts.notice));
   for (const std::string& line : last_lines(lines, taken)) say(line, ImGui::GetStyleColorVec4(ImGuiCol_Text));
   panels_.end();
 }

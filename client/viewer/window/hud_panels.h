@@ -21,6 +21,8 @@ class HudPanels {
 
   /// The rectangles of the panels begun in this frame; empty where there is none, or none seen yet.
   const PanelRectangles& rectangles() const { return seen_; }
+  /// Where panels like those of the last frame stand in this one, begun or not.
+  const PanelRectangles& places() const { return placed_; }
   /// Whether the panel there had less height than it wants, in this frame; or less width, which hides the
   /// ends of its lines.
   bool scrolls(PanelPlace place) const;

@@ -22,8 +22,11 @@ void Hud::signs(const std::vector<ShownSign>& shown) {
   const ImVec2 size = ImGui::GetIO().DisplaySize;
   const LetterSizes letters{[](const std::string& words) { return ImGui::CalcTextSize(words.c_str()).x; },
                             ImGui::GetFontSize()};
+  std::vector<TakenRoom> panels;
+  for (const Rectangle& one : panels_.places())
+    if (one.size.x > 0.0F) panels.push_back({one.at, one.at + one.size});
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
-  for (const SignPart& part : draw_signs(shown, {size.x, size.y}, letters))
+  for (const SignPart& part : draw_signs(shown, {size.x, size.y}, letters, std::move(panels)))
     std::visit(Overloaded{[&](const SignBox& box) {
                             list.AddRectFilled(place_of(box.from), place_of(box.to), packed(box.colour));
                           },

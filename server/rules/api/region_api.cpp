@@ -85,9 +85,9 @@ Result<void> masses(RulesCall& call) {
   for (const RegionMass& mass : all) {
     if (mass.origin.region != region->id) continue;
     to.open_table();
-    if (call.moment.persons->contains(mass.origin.party)) {
+    if (const uint64_t person = call.moment.person_of(mass.origin.party); person != 0) {
       to.name("by");
-      write_person(to, mass.origin.party);
+      write_person(to, person);
     }
     to.name("material");
     write_material(to, mass.material, call.moment);

@@ -108,7 +108,18 @@ inline Operation any_operation(FuzzInput& input) {
     case 5:
       return PaintOperation{known(any_shape(input)), any_material(input), input.flag()};
     case 7:
-      switch (input.below(3)) {
+      switch (input.below(4)) {
+        case 3: {
+          auto bricks = std::make_shared<std::vector<BrickPatch>>();
+          const BrickCoord first = brick_of(any_voxel(input));
+          for (uint32_t i = input.below(4); i > 0; --i)
+            bricks->push_back({{first.x, first.y, first.z + static_cast<int32_t>(bricks->size())},
+                               input.flag() ? air_brick() : solid_brick(),
+                               {}});
+          RestoreOperation restore{.bricks = std::move(bricks)};
+          if (input.flag()) restore.pieces.push_back(any_piece(input));
+          return restore;
+        }
         case 0:
           return DigOperation{known(any_shape(input)), input.flag() ? any_piece(input) : 0};
         case 1:

@@ -91,7 +91,10 @@ class Ids {
                           [&](IslandOperation& island) { island.piece = fresh(1); }, [](PaintOperation&) {},
                           [](SlideOperation&) {},
                           [&](DigOperation& dig) { dig.piece = dig.piece == 0 ? 0 : known(dig.piece); },
-                          [](PlaceOperation&) {}},
+                          [](PlaceOperation&) {},
+                          [&](RestoreOperation& restore) {
+                            for (PieceId& piece : restore.pieces) piece = known(piece);
+                          }},
                operation);
   }
 
@@ -228,6 +231,7 @@ ServerMessage any_message(FuzzInput& input, Ids& ids, Tick tick) {
       piece.id = any_piece(input);
       piece.volume = any_volume(input);
       piece.pose = any_pose(input);
+      if (input.flag()) return StoneMessage{std::move(piece), input.number<uint32_t>()};
       return piece;
     }
     case 8:

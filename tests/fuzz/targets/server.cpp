@@ -90,9 +90,16 @@ AdminMessage any_admin(FuzzInput& input) {
   if (input.below(4) != 0) admin.token = FuzzServer::admin_token;
   const std::string address = "10.0.0." + std::to_string(input.below(4));
   const uint64_t session = input.below(12);
-  switch (input.below(10)) {
+  switch (input.below(11)) {
+    case 10:
+      admin.act = ListFlightRequest{any_number_as<FlightList>(input), input.byte(), input.below(300)};
+      break;
     case 9:
       admin.act = ControlRulesRequest{any_number_as<RulesControl>(input), "", input.text(64)};
+      if (input.below(3) == 1)
+        admin.act = HistoryRequest{input.place(64.0F), 4.0F, input.text(8), input.byte()};
+      if (input.below(3) == 1)
+        admin.act = UndoRequest{any_number_as<UndoMode>(input), input.text(8), input.byte()};
       break;
     case 0:
       admin.act = ListSessionsRequest{};

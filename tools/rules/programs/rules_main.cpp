@@ -106,6 +106,7 @@ int run(CLI::App& app, int argc, char** argv) {
   CLI::App* const tested = app.add_subcommand("test", "runs the tests of a folder, without a server");
   tested->add_option("FOLDER", options.test.folder, "with init.lua and tests/")->required();
   tested->add_option("FILTER", options.test.filter, "runs the tests whose names contain this text");
+  tested->add_flag("--log", options.test.log, "prints what the rules say and print in tests that pass, too");
   tested->add_flag("--json", options.test.json, "prints JSON");
   tested->callback([&] { status = test(options); });
   CLI::App* const typed = app.add_subcommand("types", "writes what editors need to know all functions");

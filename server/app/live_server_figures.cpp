@@ -1,0 +1,71 @@
+// LiveServer's figures: what its ticks are counted by, and what operators see of them.
+#include <fmt/format.h>
+
+#include "server/app/live_server_state.h"
+#include "server/app/server_metrics.h"
+#include "server/app/server_status.h"
+#include "server/log/log.h"
+
+namespace scree {
+
+void LiveServer::State::count(TickSchedule::Delay delay) {
+  if (!delay.late) return;
+  const std::scoped_lock lock(mutex);
+  ++report.late_ticks;
+  report.late.add(parts, std::chrono::duration<double, std::milli>(period).count());
+  if (delay.lost_ticks == 0) return;
+  report.overruns += delay.lost_ticks;
+  // A replay may take its time for a jump.
+  if (const auto more = log_limit.admit("late", steady_now_s()))
+    log_of(LogPart::world)
+        .write(config.replay.path.empty() ? LogLevel::warn : LogLevel::debug,
+               fmt::format("tick {} came {} ticks late: they are lost{}", report.last_tick, delay.lost_ticks,
+                           *more));
+}
+
+ServerReport LiveServer::State::report_now(const NetStats& stats, const LatencyCounts& latency) const {
+  const std::scoped_lock lock(mutex);
+  ServerReport now = report;
+  now.net = stats;
+  now.latency = latency;
+  now.seconds = std::chrono::duration<double>(Clock::now() - started).count();
+  if (recorder) {
+    now.ticks_recorded = recorder->ticks_written();
+    now.record_waits = recorder->waits();
+    now.record_size = recorder->size();
+    now.record_path = recorder->path();
+    now.recording = recorder->health();
+    now.record_waiting = recorder->waiting();
+    now.record_commits = recorder->commits();
+  }
+  if (saved_world && !saved_world->is_temporary()) {
+    now.saving = saved_world->status();
+    now.saves = saved_world->save_times();
+  }
+  now.resident_mb = resident_bytes() / bytes_per_mb;
+  if (pager) {
+    now.paging = pager->status();
+    now.work.memory_mb = now.paging.memory_mb;
+    now.requests_held = told.paging.requests_held;
+  }
+  if (events) now.events = events->status();
+  return now;
+}
+
+/// On the network thread.
+std::string LiveServer::State::status(const NetFigures& figures) const {
+  if (!is_open) return {};
+  return status_json(report_now(figures.stats, figures.latency), figures,
+                     {config.world.tick_rate_hz, config.net.replay, config.net.palette});
+}
+
+/// Likewise.
+std::string LiveServer::State::metrics(const NetFigures& figures) const {
+  if (!is_open) return {};
+  const std::vector<Figure> of_host = config.hooks.figures ? config.hooks.figures() : std::vector<Figure>();
+  return metrics_text(report_now(figures.stats, figures.latency), figures,
+                      {config.world.tick_rate_hz, config.net.replay, config.net.palette},
+                      {config.world.terrain.voxel_size_m, started_unix_s, of_host});
+}
+
+}  // namespace scree
