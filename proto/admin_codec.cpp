@@ -64,12 +64,17 @@ struct WritingAct {
   void operator()(const HistoryRequest& from) const { write_history(*to.mutable_list_history(), from); }
   void operator()(const UndoRequest& from) const { write_undo(*to.mutable_undo(), from); }
   void operator()(const ListFlightRequest& from) const { write(*to.mutable_list_flight(), from); }
+  void operator()(const ListLinesRequest& from) const {
+    to.mutable_list_lines()->set_of(static_cast<wire::LinesOf>(from.of));
+    to.mutable_list_lines()->set_most(from.most);
+  }
   void operator()(const ListRegionMassesRequest& from) const {
     to.mutable_list_region_masses()->set_region(showable(from.region, limits::region_name_bytes_max));
   }
 };
 
 static_assert(wire::UndoMode_ARRAYSIZE == kind_count<UndoMode>);
+static_assert(wire::LinesOf_ARRAYSIZE == kind_count<LinesOf>);
 
 HistoryRequest read(const wire::ListHistory& from, FieldChecker& check) {
   HistoryRequest history;
@@ -150,6 +155,9 @@ AdminRequest read_act(const wire::Admin& from, FieldChecker& check) {
           check.text(from.list_region_masses().region(), limits::region_name_bytes_max, "name of a region")};
     case wire::Admin::kListFlight:
       return read(from.list_flight(), check);
+    case wire::Admin::kListLines:
+      return ListLinesRequest{check.asked_kind<LinesOf>(from.list_lines().of(), "kind of lines"),
+                              from.list_lines().most()};
     case wire::Admin::ACT_NOT_SET:
       break;
   }

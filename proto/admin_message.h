@@ -12,6 +12,7 @@
 #include "proto/game_message.h"
 #include "proto/history_message.h"
 #include "proto/joint_message.h"
+#include "proto/lines_message.h"
 #include "proto/playback_state.h"
 #include "proto/region_message.h"
 #include "shared/operation/request.h"
@@ -38,10 +39,11 @@ struct LiftBanRequest {
   std::string address;
 };
 struct ListStoresRequest {};
-using AdminRequest = std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest,
-                                  ListBansRequest, LiftBanRequest, ControlReplayRequest, ListBodiesRequest,
-                                  ListJointsRequest, ListStoresRequest, ListRegionMassesRequest,
-                                  ControlRulesRequest, HistoryRequest, UndoRequest, ListFlightRequest>;
+using AdminRequest =
+    std::variant<SettingsRequest, ListSessionsRequest, KickRequest, BanRequest, ListBansRequest,
+                 LiftBanRequest, ControlReplayRequest, ListBodiesRequest, ListJointsRequest,
+                 ListStoresRequest, ListRegionMassesRequest, ControlRulesRequest, HistoryRequest, UndoRequest,
+                 ListFlightRequest, ListLinesRequest>;
 
 /// Answered with a reply; what lists something, with an AdminListMessage.
 struct AdminMessage {

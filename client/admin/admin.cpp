@@ -307,6 +307,11 @@ Result<AdminListMessage> list_flight(const AdminServer& server, const ListFlight
   return std::move(asked.first);
 }
 
+Result<std::string> list_lines(const AdminServer& server, const ListLinesRequest& request) {
+  auto asked = TRY(ask<AdminListMessage>(server, request));
+  return std::move(asked.first.text);
+}
+
 Result<std::string> control_rules(const AdminServer& server, const ControlRulesRequest& wish) {
   auto asked = TRY(ask<AdminListMessage>(server, wish));
   return std::move(asked.first.text);

@@ -148,6 +148,13 @@ std::string slow_ticks_lines(const AdminListMessage& list);
 std::string parties_json(const AdminListMessage& list);
 std::string parties_lines(const AdminListMessage& list);
 
+/// What the server keeps for administrators line by line: an object of JSON each, of any bytes.
+Result<std::string> list_lines(const AdminServer& server, const ListLinesRequest& request);
+/// An array of these objects; the error: a line is none.
+Result<std::string> lines_json(const std::string& lines);
+/// A line each for a terminal.
+Result<std::string> lines_text(const std::string& lines, LinesOf of);
+
 /// An answer, and the tick that it is of.
 struct SpaceAnswer {
   Tick tick = 0;

@@ -85,8 +85,9 @@ std::vector<BackupFolder::Backup> BackupFolder::list() const {
   return found;
 }
 
-Result<void> BackupFolder::keep_newest(size_t keep) const {
-  const std::vector<Backup> all = list();
+Result<void> BackupFolder::keep_newest(size_t keep, uint64_t now_unix_s) const {
+  std::vector<Backup> all = list();
+  std::ranges::rotate(all, std::ranges::upper_bound(all, now_unix_s, {}, &Backup::unix_s));
   for (size_t i = 0; i + keep < all.size(); ++i) {
     std::error_code error;
     fs::remove(all[i].path, error);
@@ -129,7 +130,9 @@ struct Backups::State {
 
 /// By the steady clock.
 double Backups::State::first_due_s() const {
-  const auto all = folder.list();
+  const uint64_t now_s = unix_now_ms() / 1000;
+  auto all = folder.list();
+  std::erase_if(all, [&](const auto& backup) { return backup.unix_s > now_s; });  // the clock was set back
   if (all.empty()) return steady_now_s();
   const double age_s = static_cast<double>(unix_now_ms()) / 1e3 - static_cast<double>(all.back().unix_s);
   return steady_now_s() + std::clamp(plan.every_s - age_s, 0.0, plan.every_s);
@@ -164,7 +167,7 @@ void Backups::State::make() {
   part_began_s = began_s;
   const auto made = copy_checked(world_path, path, WorldCheck::all_rows,
                                  [&] { return give_way(path + std::string(unfinished_end)); });
-  const auto rotated = made ? folder.keep_newest(plan.keep) : Result<void>();
+  const auto rotated = made ? folder.keep_newest(plan.keep, unix_s) : Result<void>();
   const std::scoped_lock lock(mutex);
   if (stopping && !made) return;
   if (made) {

@@ -37,8 +37,9 @@ class BackupFolder {
   /// The oldest first.
   std::vector<Backup> list() const;
   std::string path_at(uint64_t unix_s) const;
-  /// Removes all but the newest `keep`.
-  Result<void> keep_newest(size_t keep) const;
+  /// Removes all but the newest `keep`. Those that are of later than `now_unix_s` were made before the clock
+  /// was set back: they count as the oldest.
+  Result<void> keep_newest(size_t keep, uint64_t now_unix_s) const;
   /// What a crash left of one that was being made.
   void remove_unfinished() const;
   const std::string& folder() const { return folder_; }

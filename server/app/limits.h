@@ -115,6 +115,16 @@ inline constexpr double backup_retry_s = 60.0;
 /// Niceness of the thread that makes backups: ticks come first.
 inline constexpr int backup_niceness = 10;
 
+/// Bytes of the file of what administrators did. Above: it is renamed, and another one begins.
+inline constexpr size_t audit_bytes_max = 4 * 1024 * 1024;
+
+/// Bytes of its newest lines that administrators may read. Above: the oldest go, from memory alone.
+inline constexpr size_t audit_kept_bytes = 65'536;
+
+/// Seconds between two samples of a server's figures, and how many are kept: an hour.
+inline constexpr double figure_sample_s = 10.0;
+inline constexpr size_t figure_samples_max = 360;
+
 /// Milliseconds between two looks at what the process has in RAM.
 inline constexpr int resident_sample_ms = 500;
 

@@ -172,7 +172,9 @@ bool LiveServer::State::step() {
   parts.cpu_ms = (thread_cpu_s() - cpu_before_s) * 1e3;
   flight->add(watch.end(net->load()), *delta);
   const std::scoped_lock lock(mutex);
-  report.whole_tick.add(std::chrono::duration<double, std::milli>(handing_over - begin).count());
+  const double whole_ms = std::chrono::duration<double, std::milli>(handing_over - begin).count();
+  report.whole_tick.add(whole_ms);
+  worst_tick_ms = std::max(worst_tick_ms, whole_ms);
   report.whole_tick_cpu.add(parts.cpu_ms);
   report.terrain_in.add(terrain_in_ms);
   report.after_tick.add(keep_ms);

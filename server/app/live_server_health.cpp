@@ -69,6 +69,9 @@ ServerHealth LiveServer::State::health() const {
   if (events)
     if (const StoreHealth health = events->status().health; !health.ok())
       found.add(HealthKind::events, writing_fault("the log of events", health));
+  if (history)
+    if (const StoreHealth health = history->status().health; !health.ok())
+      found.add(HealthKind::history, writing_fault("the history of edits", health));
   return found;
 }
 
@@ -87,7 +90,9 @@ void LiveServer::State::send_pulse(double now_s) {
 
 /// On the network thread, for the simulation's cannot say it of itself.
 void LiveServer::State::check_heartbeat(double now_s) {
-  if (!is_open || config.pacing != Pacing::real_time) return;
+  if (!is_open) return;
+  if (figure_hour.is_due(now_s)) sample_figures(now_s);
+  if (config.pacing != Pacing::real_time) return;
   {
     const std::scoped_lock lock(mutex);
     if (!running) return;

@@ -4,10 +4,12 @@
 
 #include "server/app/ground_giver.h"
 #include "server/app/live_server_state.h"
+#include "server/app/memory_limit.h"
 #include "server/app/prop_models.h"
 #include "server/app/world_materials.h"
 #include "server/log/log.h"
 #include "server/replay/recorded_field.h"
+#include "server/work/memory.h"
 #include "server/world/settings.h"
 #include "server/world/world_snapshot.h"
 #include "shared/base/check.h"
@@ -46,6 +48,7 @@ Result<void> LiveServer::State::open() {
                 hex_of(given) + " (--ground)");
   pass_on_hooks();
   TRY(open_history());
+  TRY(open_audit());
   config.net.status = [this](const NetFigures& figures) { return status(figures); };
   config.net.metrics = [this](const NetFigures& figures) { return metrics(figures); };
   config.net.health = [this] { return health(); };
@@ -76,6 +79,7 @@ Result<void> LiveServer::State::open() {
   TRY(open_recorder());
   if (saved_world != nullptr) TRY(start_saving());
   if (world != nullptr) {
+    tell_memory_limit();
     ahead = std::make_unique<TerrainAhead>(config.world.terrain);
     if (config.governed)
       governor = std::make_unique<LoadGovernor>(config.world.tick_rate_hz, work_percent_most);
@@ -198,6 +202,28 @@ Result<void> LiveServer::State::open_history() {
   world.want_replaced(true);
   config.net.ask_history = [this](uint64_t session, uint32_t request, const HistoryAct& asked,
                                   const std::string& who) { answer_history(session, request, asked, who); };
+  return {};
+}
+
+/// A process that goes beyond what its machine or container has is ended without a word.
+void LiveServer::State::tell_memory_limit() const {
+  const double limit_mb = memory_limit_bytes() / bytes_per_mb;
+  const uint32_t wanted_mb = feed->world()->config().memory_max_mb;
+  if (limit_mb == 0.0 || wanted_mb <= limit_mb) return;
+  log_of(LogPart::app)
+      .warn(
+          "memory-max is {} MB, and the machine or its container gives {:.0f} MB: a world that grows is "
+          "ended "
+          "by the system before the server refuses edits. Set memory-max lower, or give it more memory",
+          wanted_mb, limit_mb);
+}
+
+/// A replay, and a world that ends with its server, have no file of it.
+Result<void> LiveServer::State::open_audit() {
+  const bool kept = saved_world != nullptr && !saved_world->is_temporary();
+  audit = std::make_unique<AuditTrail>(TRY(AuditTrail::open(kept ? saved_world->path() + ".audit" : "")));
+  config.net.records = {[this](LinesOf of) { return lines(of); },
+                        [this](const std::string& who, const std::string& act) { audit->add(who, act); }};
   return {};
 }
 

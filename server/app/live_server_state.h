@@ -9,6 +9,8 @@
 #include <thread>
 
 #include "server/app/admission.h"
+#include "server/app/audit_trail.h"
+#include "server/app/figure_hour.h"
 #include "server/app/heartbeat.h"
 #include "server/app/live_events.h"
 #include "server/app/live_server.h"
@@ -44,6 +46,11 @@ struct LiveServer::State {
   Result<void> open_recorder();
   Result<void> open_events();
   Result<void> open_history();
+  Result<void> open_audit();
+  void tell_memory_limit() const;
+  std::vector<std::string> lines(LinesOf of) const;
+  std::vector<std::string> setting_lines() const;
+  void sample_figures(double now_s);
   void forget_history();
   void pass_on_hooks();
   void answer_history(uint64_t session, uint32_t request, const HistoryAct& asked, const std::string& who);
@@ -110,7 +117,9 @@ struct LiveServer::State {
   std::unique_ptr<Trace> trace;         ///< null: no trace
   std::thread thread;
   Heartbeat heartbeat;      ///< of the simulation's thread
-  double pulse_at_s = 0.0;  ///< when the next pulse is due; used by the network thread only
+  double pulse_at_s = 0.0;  ///< when the next pulse is due; used by the network thread only, as the next two
+  std::unique_ptr<AuditTrail> audit;
+  FigureHour figure_hour;
   Clock::time_point started = Clock::now();
   const uint64_t started_unix_s = unix_now_ms() / 1000;
   Clock::duration period{};
@@ -135,6 +144,7 @@ struct LiveServer::State {
   bool stopping = false;
   bool running = true;
   ServerReport report;
+  double worst_tick_ms = 0.0;  ///< since the last sample of figures
   std::shared_ptr<const TickDelta> last_delta;
 };
 

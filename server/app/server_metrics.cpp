@@ -4,6 +4,7 @@
 #include <charconv>
 #include <ctime>
 
+#include "server/app/memory_limit.h"
 #include "server/app/resident_memory.h"
 #include "server/metrics/figure_page.h"
 #include "server/work/memory.h"
@@ -65,6 +66,9 @@ void add_process(FigurePage& page, const ServerReport& report, const NetFigures&
   page.total("process_cpu_seconds_total", "Processor time of all threads.", process_cpu_s());
   page.state("process_resident_memory_bytes", "What the process has in RAM.",
              report.resident_mb * bytes_per_mb);
+  if (const double limit = memory_limit_bytes(); limit > 0.0)
+    page.state("scree_memory_limit_bytes", "What the machine, or the server's container, gives at most.",
+               limit);
   page.state("scree_memory_max_bytes", "The setting memory-max.",
              number_of(report.settings, "memory-max") * bytes_per_mb);
   page.state("scree_terrain_memory_bytes", "Memory of the terrain, as the server estimates it.",
@@ -287,6 +291,16 @@ void add_recording(FigurePage& page, const ServerReport& report) {
                static_cast<double>(report.events.written));
     page.total("scree_events_lost_total", "Lines that it has not.",
                static_cast<double>(report.events.health.lost));
+  }
+  if (const auto& history = report.history) {
+    page.state("scree_history_failing", "1 while the history of edits cannot be written, else 0.",
+               history->health.ok() ? 0 : 1);
+    page.total("scree_history_edits_total", "Edits that the history was told of.",
+               static_cast<double>(history->edits));
+    page.total("scree_history_lost_ticks_total", "Ticks whose edits it has not.",
+               static_cast<double>(history->health.lost));
+    page.state("scree_history_bytes", "What the history takes on the disk.",
+               static_cast<double>(history->bytes));
   }
   const auto disk = [&](std::string_view file, uint64_t free_bytes) {
     if (free_bytes != 0)

@@ -7,6 +7,7 @@
 
 #include "server/app/terrain_pager.h"
 #include "server/app/tick_parts.h"
+#include "server/history/edit_history.h"
 #include "server/metrics/durations.h"
 #include "server/net/net_server.h"
 #include "server/store/event_log.h"
@@ -84,6 +85,7 @@ struct ServerReport {
   RecordingSize record_size;
   std::string events_path;  ///< empty: no log
   EventLog::Status events;
+  std::optional<HistoryStatus> history;
   std::string world_path;  ///< empty: the world ends with the server
   SaverStatus saving;
   Durations saves;

@@ -114,7 +114,8 @@ struct HistoryFile::State {
 
   Database database;
   Statement get_fact, put_fact, put_author, put_edit, put_image, extend_image, put_piece, drop_piece,
-      get_image;
+      extend_edit, get_image;
+  std::optional<std::pair<int64_t, EditRow>> last_undo;  ///< its line, which grows, and the line's key
   std::vector<uint8_t> address_key;
   int64_t next_image = 1;
   bool is_of_world = true;
@@ -169,6 +170,8 @@ Result<void> HistoryFile::State::prepare(Tick tick) {
   put_fact = TRY(database.prepare("REPLACE INTO facts VALUES (?1, ?2, ?3)"));
   put_author = TRY(database.prepare("REPLACE INTO authors VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)"));
   put_edit = TRY(database.prepare("INSERT INTO edits VALUES (NULL, ?1, ?2, ?3, ?4, ?5, ?6, ?7)"));
+  extend_edit =
+      TRY(database.prepare("UPDATE edits SET lo = ?2, hi = ?3, bricks = ?4, pieces = ?5 WHERE key = ?1"));
   put_image = TRY(database.prepare("INSERT INTO images VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8)"));
   extend_image = TRY(database.prepare("UPDATE images SET last = ?2, after = ?3 WHERE key = ?1"));
   put_piece = TRY(database.prepare("REPLACE INTO pieces VALUES (?1, ?2, ?3)"));
@@ -221,6 +224,7 @@ Result<void> HistoryFile::commit() {
   return state_->database.execute("COMMIT");
 }
 void HistoryFile::roll_back() {
+  state_->last_undo.reset();  // its line may be gone
   static_cast<void>(state_->database.execute("ROLLBACK"));
 }
 
@@ -232,9 +236,24 @@ Result<void> HistoryFile::put(const Author& author) {
 }
 
 Result<void> HistoryFile::put(const EditRow& edit) {
+  auto& last = state_->last_undo;
+  if (is_undo(edit.author) && last && last->second.author == edit.author) {
+    EditRow all = last->second;
+    all.lo = {std::min(all.lo.x, edit.lo.x), std::min(all.lo.y, edit.lo.y), std::min(all.lo.z, edit.lo.z)};
+    all.hi = {std::max(all.hi.x, edit.hi.x), std::max(all.hi.y, edit.hi.y), std::max(all.hi.z, edit.hi.z)};
+    all.bricks += edit.bricks;
+    all.pieces += edit.pieces;
+    const std::array<int64_t, 5> columns{last->first, key_of(all.lo), key_of(all.hi), all.bricks, all.pieces};
+    TRY(state_->database.run(state_->extend_edit, columns));
+    last->second = all;
+    return {};
+  }
   const std::array<int64_t, 7> columns{sql(edit.tick),  sql(edit.author), edit.kind,  key_of(edit.lo),
                                        key_of(edit.hi), edit.bricks,      edit.pieces};
-  return state_->database.run(state_->put_edit, columns);
+  TRY(state_->database.run(state_->put_edit, columns));
+  if (!is_undo(edit.author)) return {};
+  if (const auto key = TRY(state_->database.number("SELECT last_insert_rowid()"))) last = {*key, edit};
+  return {};
 }
 
 Result<int64_t> HistoryFile::put(const ImageRow& image, const BrickPatch& was) {

@@ -12,6 +12,7 @@
 #include "server/log/journal.h"
 #include "server/log/line_formats.h"
 #include "server/log/log.h"
+#include "server/log/recent_sink.h"
 #include "server/log/spdlog_level.h"
 
 namespace scree {
@@ -61,7 +62,8 @@ void set_levels(const LogConfig& config) {
 }
 
 void begin_log(const LogConfig& config, const std::string& program) {
-  spdlog::set_default_logger(std::make_shared<spdlog::logger>(program, sink_of(config.format, program)));
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>(
+      program, spdlog::sinks_init_list{sink_of(config.format, program), recent_sink()}));
   set_levels(config);
 }
 

@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "auth/access_token.h"
+#include "proto/limits.h"
 #include "proto/spawn_direction.h"
 #include "server/doors/unix_time.h"
 #include "server/log/log.h"
@@ -25,6 +26,28 @@ bool is_for_directors(const AdminRequest& act) {
   return std::holds_alternative<ListBodiesRequest>(act) || std::holds_alternative<ListJointsRequest>(act) ||
          std::holds_alternative<ListStoresRequest>(act) ||
          std::holds_alternative<ListRegionMassesRequest>(act);
+}
+
+/// Not a look at what would be, or at how far it is.
+bool changes_world(const UndoRequest& undo) {
+  return undo.mode != UndoMode::preview && undo.mode != UndoMode::progress;
+}
+
+std::string words_of(const UndoRequest& undo) {
+  if (undo.mode == UndoMode::stop) return "stops the undo";
+  std::string words = undo.by.empty() ? "takes back edits" : "takes back edits of " + undo.by;
+  if (undo.since_s != 0) words += fmt::format(" of the last {} s", undo.since_s);
+  if (undo.to_tick != 0) words += fmt::format(", to tick {}", undo.to_tick);
+  if (undo.lo_m && undo.hi_m)
+    words += fmt::format(" in the box {:g},{:g},{:g} to {:g},{:g},{:g}", undo.lo_m->x, undo.lo_m->y,
+                         undo.lo_m->z, undo.hi_m->x, undo.hi_m->y, undo.hi_m->z);
+  if (undo.mode == UndoMode::keep_others) words += ", keeping what others edited since";
+  if (undo.mode == UndoMode::over_others) words += ", over what others edited since";
+  return words;
+}
+
+std::string name_in_brackets(const SessionEntry* entry) {
+  return entry == nullptr || entry->name.empty() ? std::string() : " (" + entry->name + ")";
 }
 
 }  // namespace
@@ -74,8 +97,7 @@ void Administration::set(ClientSession& session, uint32_t request, SettingsReque
   }
   std::string changes;
   for (const SettingValue& setting : asked.settings) changes += " " + setting.name + "=" + setting.value;
-  if (requests_.pass(session, {session.id(), request, asked}))
-    settings_asked_[{session.id(), request}] = fmt::format("{} sets{}", author_of(session), changes);
+  if (requests_.pass(session, {session.id(), request, asked})) note_asked(session, request, "sets" + changes);
 }
 
 Result<void> Administration::find_here(const ClientSession& session, SettingsRequest& asked) const {
@@ -105,12 +127,21 @@ Result<const PlayerCursor*> Administration::person_at(const ClientSession& sessi
                            : std::to_string(here.size()) + " persons are here from this address" + way_out);
 }
 
-void Administration::log_settings(const TickDelta& delta) {
-  if (settings_asked_.empty()) return;
+void Administration::note(const std::string& author, const std::string& act, uint64_t about) const {
+  log_of(LogPart::admin, about).info("{} {}", author, act);
+  if (records_.acted) records_.acted(author, act);
+}
+
+void Administration::note_asked(const ClientSession& session, uint32_t request, std::string act) {
+  asked_[{session.id(), request}] = {author_of(session), std::move(act)};
+}
+
+void Administration::note_done(const TickDelta& delta) {
+  if (asked_.empty()) return;
   for (const Reply& reply : delta.replies) {
-    const auto asked = settings_asked_.extract({reply.session, reply.request});
+    const auto asked = asked_.extract({reply.session, reply.request});
     if (!asked.empty() && reply.refusal.empty())
-      log_of(LogPart::admin, reply.session).info("{}", asked.mapped());
+      note(asked.mapped().author, asked.mapped().act, reply.session);
   }
 }
 
@@ -124,6 +155,9 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
     session.send(ServerMessage(std::move(rows)));
   };
   const auto history = [&](const HistoryAct& asked) {
+    const auto* const undo = std::get_if<UndoRequest>(&asked);
+    if (ask_history_ && undo != nullptr && changes_world(*undo))
+      note(author_of(session), words_of(*undo), session.id());
     if (ask_history_) return ask_history_(session.id(), message.request, asked, author_of(session));
     requests_.refuse(session, message.request,
                      {Refusal::admin_invalid, "this server remembers no edits (--history-mb)"});
@@ -144,16 +178,17 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
                  [&](const HistoryRequest& asked) { history(asked); },
                  [&](const UndoRequest& asked) { history(asked); },
                  [&](const ListFlightRequest& flight) { list(this->flight(flight)); },
+                 [&](const ListLinesRequest& lines) { list(this->lines(lines)); },
                  [&](const KickRequest& kick) { reply(this->kick(kick, author_of(session))); },
                  [&](const BanRequest& ban) { reply(this->ban(ban, author_of(session))); },
                  [&](const LiftBanRequest& lift) { reply(this->lift(lift, author_of(session))); },
                  [&](const ControlRulesRequest& rules) {
                    if (!control_rules_) return reply(fail("this server runs no rules (--rules)"));
                    if (rules.control != RulesControl::list)
-                     log_of(LogPart::admin, session.id())
-                         .info("{} {}", author_of(session),
-                               rules.control == RulesControl::reload ? "reads the rules again"
-                                                                     : "runs a line of rules: " + rules.line);
+                     note(author_of(session),
+                          rules.control == RulesControl::reload ? "reads the rules again"
+                                                                : "runs a line of rules: " + rules.line,
+                          session.id());
                    control_rules_(session.id(), message.request, rules);
                  },
                  [&](const ControlReplayRequest& control) {
@@ -168,6 +203,20 @@ AdminListMessage Administration::flight(const ListFlightRequest& request) const 
     message.parties = with_sessions(flight_.parties ? flight_.parties() : std::vector<PartyRow>(), sessions_);
   else if (flight_.ticks)
     message.slow_ticks = flight_.ticks(request);
+  return message;
+}
+
+/// Of the newest as many as were asked for, and as the text holds.
+AdminListMessage Administration::lines(const ListLinesRequest& request) const {
+  AdminListMessage message;
+  if (!records_.lines) return message;
+  const std::vector<std::string> all = records_.lines(request.of);
+  size_t first = all.size();
+  for (size_t bytes = 0; first > 0 && (request.most == 0 || all.size() - first < request.most); --first) {
+    bytes += all[first - 1].size() + 1;
+    if (bytes > limits::admin_text_bytes_max) break;
+  }
+  for (; first < all.size(); ++first) message.text += all[first] + "\n";
   return message;
 }
 
@@ -192,9 +241,11 @@ Result<void> Administration::kick(const KickRequest& kick, const std::string& au
   const SessionEntry* const entry = sessions_.find(kick.session);
   const bool is_away = entry == nullptr && tickets_.departed(kick.session) != nullptr;
   if (entry == nullptr && !is_away) return fail(fmt::format("there is no session {}", kick.session));
-  log_of(LogPart::admin, kick.session)
-      .info("session {} is kicked by {}{}", kick.session, author,
-            with_reason(is_away ? ", while its connection was lost" : "", kick.reason));
+  note(author,
+       with_reason(fmt::format("kicks session {}{}{}", kick.session, name_in_brackets(entry),
+                               is_away ? ", while its connection is lost" : ""),
+                   kick.reason),
+       kick.session);
   if (is_away) {
     tickets_.forget(kick.session);
     return {};
@@ -219,7 +270,7 @@ Result<void> Administration::ban(const BanRequest& ban, const std::string& autho
   Result<void> added = authorizer_.bans().add(key, {until_s, ban.reason}, now_s);
   const std::string until =
       until_s == 0 ? "until that is lifted" : "until " + iso_time(until_s * ms_per_second);
-  log_of(LogPart::admin).info("{} is banned {} by {}{}", key, until, author, with_reason("", ban.reason));
+  note(author, with_reason(fmt::format("bans {} {}", key, until), ban.reason));
   end_banned();
   return added;
 }
@@ -251,7 +302,7 @@ void Administration::read_bans_again() {
 Result<void> Administration::lift(const LiftBanRequest& lift, const std::string& author) {
   const std::string key = TRY(ban_key(lift.address));
   Result<void> lifted = authorizer_.bans().lift(key);
-  if (lifted) log_of(LogPart::admin).info("the ban of {} is lifted by {}", key, author);
+  if (lifted) note(author, "lifts the ban of " + key);
   return lifted;
 }
 

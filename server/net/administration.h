@@ -11,6 +11,7 @@
 #include "proto/messages.h"
 #include "server/doors/authorizer.h"
 #include "server/doors/tickets.h"
+#include "server/net/host_records.h"
 #include "server/net/requests.h"
 #include "server/net/session_table.h"
 #include "server/publish/publisher.h"
@@ -43,10 +44,13 @@ class Administration {
 
   /// From now on.
   void set_flight(FlightReports flight) { flight_ = std::move(flight); }
+  void set_records(HostRecords records) { records_ = std::move(records); }
   /// Handles a request. The error is a wrong admin token's, and ends the session.
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
-  /// Logs the settings that administrators asked for and that this tick made so.
-  void log_settings(const TickDelta& delta);
+  /// A request that is noted once a tick has carried it out, in these words.
+  void note_asked(const ClientSession& session, uint32_t request, std::string act);
+  /// Notes those that this tick carried out.
+  void note_done(const TickDelta& delta);
   /// Takes what was changed in the file of bans by hand, and ends the sessions that it refuses.
   void read_bans_again();
 
@@ -59,9 +63,12 @@ class Administration {
   void act(ClientSession& session, const AdminMessage& message);
   std::vector<BanRow> ban_rows() const;
   AdminListMessage flight(const ListFlightRequest& request) const;
+  AdminListMessage lines(const ListLinesRequest& request) const;
   Result<void> kick(const KickRequest& kick, const std::string& author);
   Result<void> ban(const BanRequest& ban, const std::string& author);
   Result<void> lift(const LiftBanRequest& lift, const std::string& author);
+  /// Into the log, as a line about a session if it is one's, and for who keeps what administrators do.
+  void note(const std::string& author, const std::string& act, uint64_t about = 0) const;
   /// Ends the sessions that are banned, administrators' excepted.
   void end_banned();
   /// Who acts, for the log: the session, the person's name, the access token, the address.
@@ -78,9 +85,13 @@ class Administration {
   const ControlRules control_rules_;
   const AskHistory ask_history_;
   FlightReports flight_;
+  HostRecords records_;
   const Publisher& publisher_;  ///< has the cursors of the persons who are there
-  /// Lines for the log, by session and request, of settings that the world has not answered yet.
-  std::map<std::pair<uint64_t, uint32_t>, std::string> settings_asked_;
+  struct Asked {
+    std::string author, act;
+  };
+  /// By session and request: what the world has not answered yet.
+  std::map<std::pair<uint64_t, uint32_t>, Asked> asked_;
 };
 
 }  // namespace scree

@@ -31,7 +31,7 @@ void NetHost::publish(const TickDelta& delta, const TickSpan& span, bool more) {
   if (config_.saving) publisher_.set_saving(config_.saving());
   share_bytes_out();
   queue_frames(delta, span.done_s);
-  administration_.log_settings(delta);
+  administration_.note_done(delta);
   answer(delta, span);
   flush_queue_.send_turn(delta.tick, more);
   stream_ground();

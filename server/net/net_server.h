@@ -29,6 +29,7 @@
 #include "server/doors/proxies.h"
 #include "server/net/command_queue.h"
 #include "server/net/flight_reports.h"
+#include "server/net/host_records.h"
 #include "server/net/limits.h"
 #include "server/net/message_counts.h"
 #include "server/net/request_times.h"
@@ -125,6 +126,7 @@ struct NetConfig {
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplayRequest&)> control;
   FlightReports flight{};
+  HostRecords records{};
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
   bool chat = true;                     ///< whether persons' lines are passed on
   bool log_chat = false;                ///< whether they are logged, too

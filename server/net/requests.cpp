@@ -65,7 +65,7 @@ void Requests::grant(const ServiceLimits& service) {
   sight_ = service.sight;
 }
 
-void Requests::ask(ClientSession& session, uint32_t request, const Request& body) {
+bool Requests::ask(ClientSession& session, uint32_t request, const Request& body) {
   const SessionEntry& entry = sessions_.at(session.id());
   // In a replay no role may change anything, so a session is not sent for another token.
   const auto may_ask = replay_ ? tl::expected<void, Refused>() : check_session(entry, body, reach_m_);
@@ -73,14 +73,17 @@ void Requests::ask(ClientSession& session, uint32_t request, const Request& body
     const StoreName own = store_of_person(entry.grant.token_id, session.id());
     Command command{session.id(), request,         with_own_store(body, own),
                     entry.party,  asker_of(entry), eye_for(entry, body, sight_)};
-    if (std::holds_alternative<WalkRequest>(body) && !replay_) return pass_input(session, command);
+    if (std::holds_alternative<WalkRequest>(body) && !replay_) {
+      pass_input(session, command);
+      return false;
+    }
     if (auto* const stand = std::get_if<StandRequest>(&command.body))
       if (!may_act_as(entry.grant.role, Role::director)) stand->place_m.reset();
-    pass(session, command);
-    return;
+    return pass(session, command);
   }
   ++counts_.requests;
   refuse(session, request, may_ask.error());
+  return false;
 }
 
 bool Requests::pass(ClientSession& session, const Command& command) {

@@ -28,8 +28,8 @@ class Requests {
   /// How often, and how far from its eye, a session may ask for edits.
   void grant(const ServiceLimits& service);
   /// Passes a request on if the session's role may ask it, and its eye is near enough; else it is refused. A
-  /// person's input has a rate of its own.
-  void ask(ClientSession& session, uint32_t request, const Request& body);
+  /// person's input has a rate of its own. Whether it is on its way to the world, and gets an answer.
+  bool ask(ClientSession& session, uint32_t request, const Request& body);
   /// Whether the request is on its way to the world; else it is refused.
   bool pass(ClientSession& session, const Command& command);
   /// Answers a request that is counted already.

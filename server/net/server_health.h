@@ -15,7 +15,7 @@ namespace scree {
 /// What a fault is about: everything; what was promised to those who are there; newcomers.
 enum class HealthLevel : uint8_t { life, promise, place };
 
-enum class HealthKind : uint8_t { simulation, saving, recording, events, stopping, starting, full, backups };
+enum class HealthKind : uint8_t { simulation, saving, recording, events, stopping, starting, full, backups, history };
 
 struct HealthRow {
   std::string_view name;
@@ -40,6 +40,8 @@ constexpr HealthRow row_of(HealthKind kind) {
       return {"full", HealthLevel::place};
     case HealthKind::backups:
       return {"backups", HealthLevel::promise};
+    case HealthKind::history:
+      return {"history", HealthLevel::promise};
   }
   return {};
 }

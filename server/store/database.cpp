@@ -2,9 +2,12 @@
 
 #include <array>
 #include <cerrno>
+#include <fcntl.h>
 #include <filesystem>
 #include <fmt/format.h>
 #include <sqlite3.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #include <utility>
 #include <xxhash.h>
 
@@ -91,6 +94,14 @@ Result<Database> Database::create(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored))
     return fail(path + " exists already: choose another name, or move it away");
+  // Of a file that SQLite makes it does not say why the system refused.
+  constexpr mode_t as_sqlite = S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH;
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, as_sqlite);
+  if (file < 0) {
+    const int refused = errno;
+    return fail(fmt::format("{}: cannot be created: {}", path, words_of(fault_of_system(refused), refused)));
+  }
+  ::close(file);
   sqlite3* raw = nullptr;
   const int flags = SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_EXRESCODE;
   const int code = sqlite3_open_v2(path.c_str(), &raw, flags, nullptr);

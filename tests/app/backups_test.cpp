@@ -44,9 +44,13 @@ TEST(BackupFolder, the_newest_stay_by_the_time_in_their_names_and_other_files_ar
   std::ofstream(backups.path_at(5000) + "-new") << "half";
   ASSERT_EQ(backups.list().size(), 4U);
   EXPECT_EQ(backups.list().front().unix_s, 1000U);
-  ASSERT_TRUE(backups.keep_newest(2));
+  ASSERT_TRUE(backups.keep_newest(2, 4000));
   ASSERT_EQ(backups.list().size(), 2U);
   EXPECT_EQ(backups.list().front().unix_s, 3000U);
+  std::ofstream(backups.path_at(3500)) << "x";
+  ASSERT_TRUE(backups.keep_newest(2, 3500));
+  ASSERT_EQ(backups.list().size(), 2U);
+  EXPECT_EQ(backups.list().back().unix_s, 3500U) << "4000 was made before the clock was set back";
   backups.remove_unfinished();
   EXPECT_EQ(std::distance(fs::directory_iterator(folder / "kept"), fs::directory_iterator()), 7);
 }

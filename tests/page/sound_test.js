@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
-import { launch, open_page, until } from './browser.js';
+import { launch, open_page, until, WAIT_MS } from './browser.js';
 import { host } from './server.js';
 
 const WIDTH = 640, HEIGHT = 360;
@@ -38,7 +38,15 @@ const strike = async (page) => {
   }
   await page.mouse.click(WIDTH / 2, HEIGHT / 2);
 };
-const heard = (page, what) => until(page, what, (least) => globalThis.scree.sound() > least, HEARD);
+/** Strikes until a strike is heard: a slow page may miss a click, and rock may be gone where the last one hit. */
+async function strikes_until_heard(page) {
+  for (const ends_ms = Date.now() + WAIT_MS; Date.now() < ends_ms;) {
+    await strike(page);
+    const is_heard = page.waitForFunction((least) => globalThis.scree.sound() > least, { polling: 100, timeout: WAIT_MS / 6 }, HEARD);
+    if (await is_heard.then(() => true, () => false)) return;
+  }
+  assert.fail(`no strike is heard: ${JSON.stringify(await page.evaluate(() => globalThis.scree.state()))}`);
+}
 
 async function strikes_are_heard(url, worklet) {
   const { page, complaints, close } = await opened(url);
@@ -49,16 +57,14 @@ async function strikes_are_heard(url, worklet) {
   await page.mouse.click(WIDTH / 2, HEIGHT / 2);
   await until(page, 'sound plays', () => globalThis.scree.sound() === 0);
   assert.equal(await asked(), 1);
-  await strike(page);
-  await heard(page, 'the strike is heard');
+  await strikes_until_heard(page);
   await until(page, 'it dies away', () => globalThis.scree.sound() === 0);
   await page.keyboard.press('Digit6');
   await until(page, 'it is off', () => globalThis.scree.sound() === -1);
   assert.equal(await page.evaluate(() => JSON.parse(localStorage.getItem('scree')).sound), false);
   await page.keyboard.press('Digit6');
   await until(page, 'it is on', () => globalThis.scree.sound() >= 0);
-  await strike(page);
-  await heard(page, 'the next strike is heard');
+  await strikes_until_heard(page);
   assert.deepEqual(complaints.filter((one) => !EXPECTED.test(one)), []);
   await close();
 }

@@ -46,6 +46,9 @@ inline std::vector<std::string> admin_words(const AdminRequest& act) {
                  [](const HistoryRequest& history) { return history_words(history); },
                  [](const UndoRequest& undo) { return undo_words(undo); },
                  [](const ListFlightRequest& list) { return words(list); },
+                 [](const ListLinesRequest& list) {
+                   return std::vector{fmt::format("list lines: {}, {}", name_of(list.of), list.most)};
+                 },
                  [](const ListRegionMassesRequest& list) { return Lines{"list masses of " + list.region}; },
                  [](const ControlRulesRequest& c) {
                    return Lines{fmt::format("rules: {} '{}', '{}'", name_of(c.control), c.rules, c.line)};

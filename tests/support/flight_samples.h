@@ -44,7 +44,8 @@ inline std::vector<ServerMessage> flight_server_messages() {
 
 inline std::vector<ClientMessage> flight_client_messages() {
   return {AdminMessage{22, "", ListFlightRequest{FlightList::worst, 300, 5}},
-          AdminMessage{23, "", ListFlightRequest{FlightList::parties, 0, 0}}};
+          AdminMessage{23, "", ListFlightRequest{FlightList::parties, 0, 0}},
+          AdminMessage{24, "", ListLinesRequest{LinesOf::figures, 60}}};
 }
 
 }  // namespace scree::samples

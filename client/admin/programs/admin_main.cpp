@@ -334,6 +334,7 @@ int main(int argc, char** argv) {
   scree::add_rules_commands(app, of_world);
   scree::add_history_commands(app, of_world);
   scree::add_flight_commands(app, of_world);
+  scree::add_lines_commands(app, of_world);
   try {
     app.parse(argc, argv);
     if (app.get_subcommands().empty()) throw CLI::RequiredError("A subcommand");

@@ -44,6 +44,7 @@ void add_store_commands(CLI::App& app, WorldCommands& table);
 void add_rules_commands(CLI::App& app, WorldCommands& table);
 void add_history_commands(CLI::App& app, WorldCommands& table);
 void add_flight_commands(CLI::App& app, WorldCommands& table);
+void add_lines_commands(CLI::App& app, WorldCommands& table);
 
 /// A place, or another vector: "X Y Z" or "X,Y,Z", metres or other units.
 using Place = std::array<float, 3>;

@@ -3,8 +3,6 @@
 import { keep, load } from './kept.js';
 
 const RATE_HZ = 48000;  // the synthesiser's
-/** The most that browsers look back upon, 0.7 s: longer than a slow frame. */
-const METER_FRAMES = 32768;
 /** Without a worklet: how far ahead samples are made, longer than a frame of most machines; in how large pieces; and how often. */
 const AHEAD_S = 0.25, PIECE_FRAMES = 1024, AHEAD_MS = 40;
 
@@ -14,17 +12,18 @@ async function fetch_sound() {
   return answer.arrayBuffer();
 }
 
-/** What takes events, on the browser's thread of sound. */
-async function by_worklet(context, wasm, out) {
+/** What takes events, on the browser's thread of sound. `sounds(most)`: is told the greatest samples. */
+async function by_worklet(context, wasm, sounds) {
   await context.audioWorklet.addModule(new URL('sound_worklet.js', import.meta.url));
   const node = new AudioWorkletNode(context, 'scree-sound',
     { numberOfInputs: 0, outputChannelCount: [2], processorOptions: { wasm } });
-  node.connect(out);
+  node.port.onmessage = ({ data }) => sounds(data);
+  node.connect(context.destination);
   return (events) => node.port.postMessage(events);
 }
 
 /** The same on the page's own. */
-async function by_page(context, wasm, out) {
+async function by_page(context, wasm, sounds) {
   const { Synth } = await import('./sound_worklet.js');
   const { instance } = await WebAssembly.instantiate(wasm);
   const synth = new Synth(instance);
@@ -33,9 +32,9 @@ async function by_page(context, wasm, out) {
     if (context.state !== 'running') return;
     for (until_s = Math.max(until_s, context.currentTime); until_s < context.currentTime + AHEAD_S; until_s += PIECE_FRAMES / RATE_HZ) {
       const buffer = context.createBuffer(2, PIECE_FRAMES, RATE_HZ);
-      synth.render(buffer.getChannelData(0), buffer.getChannelData(1));
+      sounds(synth.render(buffer.getChannelData(0), buffer.getChannelData(1)));
       const source = new AudioBufferSourceNode(context, { buffer });
-      source.connect(out);
+      source.connect(context.destination);
       source.start(until_s);
     }
   }, AHEAD_MS);
@@ -47,8 +46,8 @@ export class Sound {
   #say;
   #on = load().sound !== false;
   #context = null;
-  #meter = null;
   #add = null;
+  #most = 0;
 
   /** In the wake of a gesture. `say(text)`: as Notices.say(). */
   constructor(client, say) {
@@ -76,12 +75,12 @@ export class Sound {
     else this.#context?.suspend();
   }
 
-  /** The greatest of the last METER_FRAMES; −1: it does not play. For a browser's console, and for tests. */
+  /** The greatest sample since the last call; −1: it does not play. For a browser's console, and for tests. */
   peak() {
     if (this.#context?.state !== 'running' || !this.#add) return -1;
-    const samples = new Float32Array(this.#meter.fftSize);
-    this.#meter.getFloatTimeDomainData(samples);
-    return samples.reduce((most, sample) => Math.max(most, Math.abs(sample)), 0);
+    const most = this.#most;
+    this.#most = 0;
+    return most;
   }
 
   /** Some browsers let a page play in a gesture alone, so the next one tries again. */
@@ -93,11 +92,10 @@ export class Sound {
     }
     const context = new AudioContext({ sampleRate: RATE_HZ });
     this.#context = context;
-    this.#meter = new AnalyserNode(context, { fftSize: METER_FRAMES });
-    this.#meter.connect(context.destination);
     try {
       const wasm = await fetch_sound();
-      this.#add = await (context.audioWorklet ? by_worklet : by_page)(context, wasm, this.#meter);
+      const sounds = (most) => { this.#most = Math.max(this.#most, most); };
+      this.#add = await (context.audioWorklet ? by_worklet : by_page)(context, wasm, sounds);
     } catch (error) {
       this.#say(`There is no sound: ${error.message}.`);
     }
