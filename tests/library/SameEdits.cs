@@ -1,4 +1,4 @@
-// As same_edits.c. usage: mono same_edits.exe PORT LIST FIRST STEP
+// As same_edits.c. usage: mono same_edits.exe PORT LIST FIRST STEP GO
 using System;
 using System.Globalization;
 using System.IO;
@@ -58,6 +58,8 @@ static class SameEdits {
         client.Ask(ReadEdit(client, line));
         while (!replied) Poll(client);
       }
+      Console.WriteLine("done");
+      while (!File.Exists(args[4])) Poll(client);
       for (quiet = 0; quiet < atRest;) Poll(client);
       Console.WriteLine(hash.ToString("x16"));
     }

@@ -1,10 +1,12 @@
-/* Carries out every STEP-th edit of a list from the FIRST on, one after another, waits until the world is at rest, and
- * prints the hash of all edits that the copy has. usage: same_edits PORT LIST FIRST STEP */
+/* Carries out every STEP-th edit of a list from the FIRST on, one after another, and prints "done". When the file GO is
+ * there, for all clients have done theirs, it waits until the world is at rest, and prints the hash of all edits that the
+ * copy has. usage: same_edits PORT LIST FIRST STEP GO */
 #include <inttypes.h>
 #include <scree/client.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { at_rest = 4, wait_ms = 50 };
 
@@ -60,7 +62,7 @@ static scree_request read_edit(scree_client* client, char* line) {
 }
 
 int main(int argc, char** argv) {
-  if (argc != 5) quit("usage", "same_edits PORT LIST FIRST STEP");
+  if (argc != 6) quit("usage", "same_edits PORT LIST FIRST STEP GO");
   scree_options options;
   scree_client* client = NULL;
   struct heard heard = {0, 0, 0};
@@ -85,6 +87,9 @@ int main(int argc, char** argv) {
     while (!heard.replied) poll(client, &heard);
   }
   fclose(list);
+  puts("done");
+  fflush(stdout);
+  while (access(argv[5], F_OK) != 0) poll(client, &heard);
   for (heard.quiet = 0; heard.quiet < at_rest;) poll(client, &heard);
   printf("%016" PRIx64 "\n", heard.hash);
   scree_client_destroy(client);

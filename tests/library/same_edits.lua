@@ -1,4 +1,4 @@
--- As same_edits.c. usage: luajit same_edits.lua PORT LIST FIRST STEP
+-- As same_edits.c. usage: luajit same_edits.lua PORT LIST FIRST STEP GO
 local ffi = require "ffi"
 local scree = require "scree"
 local C = scree.C
@@ -55,6 +55,9 @@ for line in io.lines(arg[2]) do
     i = i + 1
   end
 end
+print("done")
+io.flush()
+while not io.open(arg[5]) do scree.poll(client, wait_ms, heard) end
 quiet = 0
 repeat scree.poll(client, wait_ms, heard) until quiet >= at_rest
 print((bit.tohex(bit.rshift(hash, 32), 8) .. bit.tohex(hash, 8)))

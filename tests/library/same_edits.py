@@ -1,5 +1,6 @@
-"""As same_edits.c. usage: python3 same_edits.py PORT LIST FIRST STEP"""
+"""As same_edits.c. usage: python3 same_edits.py PORT LIST FIRST STEP GO"""
 
+import os
 import sys
 
 import scree
@@ -26,6 +27,9 @@ with scree.Client(port=port) as client:
         reply = client.carry_out(read_edit(line, timber))
         if reply["text"]:
             sys.exit(reply["text"])
+    print("done", flush=True)
+    while not os.path.exists(sys.argv[5]):
+        client.poll(WAIT_S)
     quiet, last = 0, 0
     while quiet < AT_REST:
         for event in client.poll(WAIT_S):

@@ -43,10 +43,18 @@ done
 
 pids=()
 for i in "${!clients[@]}"; do
-  ${clients[i]} "$port" "$here/edits.txt" "$i" "${#clients[@]}" >"$folder/hash$i" 2>"$folder/said$i" &
+  ${clients[i]} "$port" "$here/edits.txt" "$i" "${#clients[@]}" "$folder/go" >"$folder/hash$i" 2>"$folder/said$i" &
   pids+=($!)
   started+=($!)
 done
+# Who is done early must not take the pause of a slow one for the end.
+while (($(cat "$folder"/hash* | grep -c '^done$') < ${#clients[@]})); do
+  for i in "${!clients[@]}"; do
+    kill -0 "${pids[i]}" 2>/dev/null || { echo "${clients[i]} ended: $(cat "$folder/said$i")" >&2; exit 1; }
+  done
+  sleep 0.1
+done
+touch "$folder/go"
 for i in "${!clients[@]}"; do
   wait "${pids[i]}" || { echo "${clients[i]} failed: $(cat "$folder/said$i")" >&2; exit 1; }
 done

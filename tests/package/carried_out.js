@@ -13,11 +13,13 @@ async function carry_out(client, line) {
   await client[kind](edit);
 }
 
-/** Every STEP-th edit of the text from the FIRST on, one after another; then the hash of a world at rest, as 16 digits. */
-export async function hash_after(client, text, first, step) {
+/** Every STEP-th edit of the text from the FIRST on, one after another; then, once `all_done` resolves, the hash of a world at
+ * rest, as 16 digits. */
+export async function hash_after(client, text, first, step, all_done) {
   await client.loaded();
   const edits = text.split('\n').filter((line) => line && !line.startsWith('#'));
   for (let i = first; i < edits.length; i += step) await carry_out(client, edits[i]);
+  await all_done();
   let quiet = 0, hash = 0n;
   for await (const { kind } of client.events()) {
     if (kind !== 'status') continue;

@@ -4,5 +4,5 @@ import { connect } from './scree-client/index.js';
 
 globalThis.hash_after = async (text, first, step) => {
   const client = await connect(`ws://${location.host}`, { once: true, program: 'same-edits' });
-  return hash_after(client, text, first, step);
+  return hash_after(client, text, first, step, globalThis.all_done);
 };
