@@ -19,6 +19,13 @@ HttpResponse without_page() {
                "where it lies (--web DIR). The viewers reach the server on this port, too.");
 }
 
+HttpResponse without_administration() {
+  return words(
+      404,
+      "This server's page was built without the part for administrators, because npm had not the modules "
+      "for it. ./scree web builds it where npm reaches its registry; ./scree admin does the same.");
+}
+
 }  // namespace
 
 HttpResponse Site::answer(const HttpRequest& request, const WebPeer& peer) {
@@ -61,8 +68,10 @@ bool Site::below_another_path(std::string_view path) const {
 
 HttpResponse Site::file(const HttpRequest& request) const {
   const WebFile* const found = files_->find(request.path);
-  if (found == nullptr && !files_->has_page() && (request.path == "/" || request.path == "/status"))
+  if (found == nullptr && !files_->has_page() &&
+      (request.path == "/" || request.path == "/status" || request.path == "/admin"))
     return without_page();
+  if (found == nullptr && request.path == "/admin") return without_administration();
   if (found == nullptr)
     return words(404, below_another_path(request.path)
                           ? "there is no such file: a proxy that serves this page under a path has to take "

@@ -148,6 +148,7 @@ Result<std::shared_ptr<const WebFiles>> web_files(const WebConfig& config) {
 const WebFile* WebFiles::find(std::string_view path) const {
   if (path == "/") path = "/index.html";
   if (path == "/status") path = "/status.html";
+  if (path == "/admin") path = "/admin.html";
   if (!path.starts_with('/')) return nullptr;
   const auto found = files_.find(path.substr(1));
   return found == files_.end() ? nullptr : &found->second;

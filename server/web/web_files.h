@@ -28,7 +28,8 @@ class WebFiles {
   /// that lead out of the folder. NAME.gz beside NAME is NAME compressed. The error names the folder.
   static Result<std::shared_ptr<const WebFiles>> load(const std::string& folder);
 
-  /// `path`: as "/" and "/assets/a.js"; "/" is index.html, "/status" is status.html. Null: there is none.
+  /// `path`: as "/" and "/assets/a.js"; "/" is index.html, "/status" and
+  /// "/admin" are status.html and admin.html. Null: there is none.
   const WebFile* find(std::string_view path) const;
   bool has_page() const { return find("/") != nullptr; }
   size_t count() const { return files_.size(); }

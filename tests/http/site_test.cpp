@@ -61,6 +61,13 @@ TEST_F(SiteTest, gives_the_page_and_its_files_by_their_types) {
   EXPECT_EQ(ask("/nothing.js").status, 404);
 }
 
+TEST_F(SiteTest, says_how_the_administrators_page_is_built_where_it_is_not) {
+  EXPECT_EQ(ask("/admin").status, 404);
+  EXPECT_TRUE(holds(*ask("/admin").body, "./scree web"));
+  folder.write("admin.html", "administration");
+  EXPECT_EQ(*ask("/admin").body, "administration");
+}
+
 TEST_F(SiteTest, sends_the_compressed_file_to_who_takes_it) {
   const auto with_gzip = [](HttpRequest& request) { request.accepts_gzip = true; };
   const HttpResponse wasm = ask("/client.0123abcd.wasm", with_gzip);

@@ -1,14 +1,15 @@
-// Puts the web client together: scree.js, scree.wasm and sound.wasm with the page's files, each under a name that has its content's
-// hash, so that browsers may keep them for ever; pages, whose names are in addresses, keep theirs.
+// Puts the web client together: scree.js, scree.wasm and sound.wasm with the page's files, and the administrators' page where
+// web_admin.mjs built it, each under a name that has its content's hash, so that browsers may keep them for ever; pages, whose
+// names are in addresses, keep theirs.
 // Beside each lies the same compressed, NAME.gz. Where one file names another in quotes ("main.js", './main.js'), the
 // name becomes the one with the hash.
-//   node web_dist.mjs PAGE_DIR BUILD_DIR OUT_DIR
+//   node web_dist.mjs PAGE_DIR BUILD_DIR OUT_DIR [ADMIN_DIR]
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { mkdirSync, readFileSync, readdirSync, renameSync, rmSync, writeFileSync } from 'node:fs';
 import { extname, join } from 'node:path';
 
-const [page, build, out] = process.argv.slice(2);
+const [page, build, out, admin] = process.argv.slice(2);
 const texts = ['.html', '.css', '.js', '.mjs', '.json', '.svg', '.webmanifest'];
 const files = new Map(); // by name: its bytes
 // Scripts go without comments and with short names: a third of their bytes.
@@ -18,6 +19,7 @@ const enter = (folder, name) => {
   files.set(name, extname(name) === '.js' ? small(content) : content);
 };
 for (const name of readdirSync(page)) enter(page, name);
+if (admin) for (const name of readdirSync(admin)) enter(admin, name);
 for (const name of ['scree.js', 'scree.wasm', 'sound.wasm']) enter(build, name);
 
 const quoted = (name) => new RegExp(`(["'\`])((?:\\./)?)${name.replace(/[.*+?^${}()|[\]\\]/g, '\\$&')}\\1`, 'g');
