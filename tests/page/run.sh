@@ -13,6 +13,10 @@ if [[ $program =~ ^(session|proxy|first|keyboard|signs|sound)_test\.js$ && ! -e 
   echo "There is no page in ${SCREE_DIST:-SCREE_DIST}: ./scree web builds it." >&2
   exit 77
 fi
+if [[ $program == admin_test.js && ! -e ${SCREE_DIST:-}/admin.html ]]; then
+  echo "There is no administrators' page in ${SCREE_DIST:-SCREE_DIST}: ./scree web builds it, with modules from npm." >&2
+  exit 77
+fi
 # Node looks for modules beside and above a program, so the programs lie beside them.
 copy=$(mktemp --directory --tmpdir="$folder")
 trap 'rm -rf "$copy"' EXIT

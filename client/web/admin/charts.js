@@ -102,7 +102,7 @@ export class Charts {
     const sample = time_ms === null ? this.#samples.at(-1)
       : this.#samples.reduce((best, one) => (!best || Math.abs(one.at_ms - time_ms) < Math.abs(best.at_ms - time_ms) ? one : best), null);
     for (const chart of this.#charts) chart.read(sample, this.#first_ms, time_ms !== null);
-    const moment = !sample ? 'The server has no figures yet: one comes every 10 s.' : time_ms === null ? 'now; point at a curve to read it earlier' : `at ${new Date(sample.at_ms).toLocaleTimeString()}`;
+    const moment = !sample ? 'The server has no figures yet: one comes every 10 s.' : time_ms === null ? 'now; a line is a quarter of an hour; point at a curve to read it earlier' : `at ${new Date(sample.at_ms).toLocaleTimeString()}`;
     write(this.#moment, moment);
   }
 

@@ -6,7 +6,7 @@ import { bytes_of, text_of } from './wire.js';
 
 const EVERY_MS = 5000, PROGRESS_MS = 500;
 const HALF_HEIGHT_M = 512, HALF_WIDTH_M = 4096, NEAR_SURFACE_M = 64;
-const SINCE = [['10 minutes', 600], ['hour', 3600], ['day', 86400], ['time that is remembered', 0]];
+const SINCE = [['10 minutes ago', 600], ['an hour ago', 3600], ['a day ago', 86400], ['the beginning', 0]];
 /** UndoMode of proto/access.proto. */
 const PREVIEW = 0, REFUSE_CONFLICTS = 1, KEEP_OTHERS = 2, OVER_OTHERS = 3, STOP = 4, PROGRESS = 5;
 
@@ -45,8 +45,8 @@ export class History {
   #timer = 0;
   #progress_timer = 0;
   #preview = null;
-  #corners = ['From x', 'From z', 'To x', 'To z'].map((label) => make('input', { type: 'number', step: 'any', min: -HALF_WIDTH_M, max: HALF_WIDTH_M, placeholder: '–', aria: { label } }));
-  #everywhere = make('button', { type: 'button' }, 'Everywhere');
+  #corners = ['from x', 'from z', 'to x', 'to z'].map((label) => make('input', { type: 'number', step: 'any', min: -HALF_WIDTH_M, max: HALF_WIDTH_M, placeholder: label, aria: { label } }));
+  #everywhere = make('button', { type: 'button' }, 'Everywhere instead');
   #who = make('input', { type: 'text', maxLength: 64, placeholder: 'everybody', autocomplete: 'off', spellcheck: false });
   #since = make('select', {}, ...SINCE.map(([words, value]) => make('option', { value }, words)));
   #tick = make('input', { type: 'number', min: 1, step: 1, placeholder: 'none' });
@@ -65,8 +65,8 @@ export class History {
     this.#on = on;
     this.#since.value = 3600;
     const form = make('form', {},
-      make('fieldset', { className: 'where' }, make('legend', {}, 'Where: drag a box on the map, or its corners in metres'), ...this.#corners, this.#everywhere),
-      make('div', { className: 'fields' }, field('Whose edits', this.#who), field('Of the last', this.#since), field('Or: as it was after tick', this.#tick)),
+      make('fieldset', { className: 'where' }, make('legend', {}, 'Where: everywhere, or in a box that you drag or type'), ...this.#corners, this.#everywhere),
+      make('div', { className: 'fields' }, field('Whose edits', this.#who), field('Since', this.#since), field('Or all that changed after tick', this.#tick)),
       make('div', { className: 'row' }, this.#look), this.#result, this.#run);
     this.#run.append(this.#run_words, make('div', { className: 'progress' }, this.#run_bar), this.#stop);
     form.addEventListener('submit', (event) => {

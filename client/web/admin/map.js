@@ -37,7 +37,7 @@ export class MapPart {
   constructor(main, hello) {
     this.#main = main;
     this.#session = new Session(hello, { changed: () => this.#told(), joined: (welcome) => this.#joined(welcome), message: (kind) => this.#take(kind) });
-    this.#view = new MapView(this.#tiles, { place: (place) => this.#place(place), box: (box) => this.#choose(box), moved: () => {} });
+    this.#view = new MapView(this.#tiles, { place: (place) => this.#place(place), box: (box) => this.#choose(box) });
     this.#sounding = new Sounding(this.#session, () => this.#view.draw());
     this.#history = new History(main, {
       height: ({ x, z }) => this.#tiles.at(x, z)?.height, chosen: (box) => this.#view.mark({ chosen: box }), marks: (marks) => this.#view.mark(marks),

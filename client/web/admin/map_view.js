@@ -25,6 +25,8 @@ export class MapView {
   boxing = false;
   #centre = { x: 0, z: 0 };
   #per_pixel = 0.5;
+  #wanted_m = 0;     // what is to be seen around the middle once the map has a size
+  #hovers = false;
   #tiles;
   #painter;
   #on;
@@ -38,7 +40,7 @@ export class MapView {
   #scale = make('div', { className: 'scale', aria: { hidden: 'true' } });
   #names = [];
 
-  /** `on`: {place({x, z}), box({lo, hi}), moved()}. */
+  /** `on`: {place({x, z}), box({lo, hi})}. */
   constructor(tiles, on) {
     this.#tiles = tiles;
     this.#painter = new Painter(tiles);
@@ -46,7 +48,7 @@ export class MapView {
     this.canvas.setAttribute('role', 'application');
     this.canvas.setAttribute('aria-label', 'Map of the world from above. Arrow keys move, plus and minus zoom, Enter chooses the place in the middle, B begins a box and Enter ends it, Escape forgets it.');
     this.element.append(this.canvas, this.#readout, this.#scale);
-    new ResizeObserver(() => this.draw()).observe(this.element);
+    new ResizeObserver(() => (this.#wanted_m > 0 ? this.go(this.#centre, this.#wanted_m) : this.draw())).observe(this.element);
     this.#listen();
   }
 
@@ -55,7 +57,10 @@ export class MapView {
     canvas.addEventListener('pointerdown', (event) => this.#down(event));
     canvas.addEventListener('pointermove', (event) => this.#move(event));
     for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, (event) => this.#up(event));
-    canvas.addEventListener('pointerleave', () => { if (this.#pointers.size === 0) this.#read(this.#centre); });
+    canvas.addEventListener('pointerleave', () => {
+      this.#hovers = false;
+      this.draw();
+    });
     canvas.addEventListener('wheel', (event) => {
       event.preventDefault();
       this.zoom(ZOOM ** -Math.sign(event.deltaY), event.offsetX, event.offsetY);
@@ -91,6 +96,7 @@ export class MapView {
     const within = (value) => Math.min(Math.max(value, -HALF_WIDTH_M), HALF_WIDTH_M);
     this.#centre = { x: within(x), z: within(z) };
     const { width, height } = this.size;
+    this.#wanted_m = width === 0 ? radius_m : 0;
     if (radius_m > 0 && width > 0) this.#per_pixel = Math.min(Math.max(3 * radius_m / Math.min(width, height), 0.06), PER_PIXEL_MAX);
     this.#moved();
   }
@@ -108,9 +114,7 @@ export class MapView {
   }
 
   #moved() {
-    this.#read(this.#centre);
     this.draw();
-    this.#on.moved();
   }
 
   // ---- what is marked
@@ -154,6 +158,7 @@ export class MapView {
   #move(event) {
     const pointer = this.#pointers.get(event.pointerId);
     const place = this.#world(event.offsetX, event.offsetY);
+    this.#hovers = event.pointerType === 'mouse';
     if (!pointer) return this.#read(place);
     const before = { ...pointer };
     Object.assign(pointer, { x: event.offsetX, y: event.offsetY });
@@ -238,9 +243,12 @@ export class MapView {
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.fillStyle = '#1c222a';
     context.fillRect(0, 0, width, height);
+    this.#painter.begin_frame();
     for (let level = LEVELS - 1; level >= this.level; --level) this.#draw_level(context, level);
     this.#draw_marks(context);
     if (document.activeElement === canvas && this.#pointers.size === 0) this.#draw_cross(context, width / 2, height / 2);
+    if (this.#painter.late) this.draw();
+    if (!this.#hovers) this.#read(this.#centre);
     const { pixels, text } = scale_of(this.#per_pixel, Math.min(160, width / 3));
     this.#scale.style.width = `${pixels}px`;
     write(this.#scale, text);
@@ -255,7 +263,6 @@ export class MapView {
       const [x, y] = this.#pixel(tile.lo_m);
       // Whole pixels, so that no seam is between tiles.
       const left = Math.round(x), top = Math.round(y);
-      context.imageSmoothingEnabled = side > 64;
       context.drawImage(picture, left, top, Math.round(x + side) - left, Math.round(y + side) - top);
     }
   }

@@ -45,10 +45,12 @@ export class Overview {
       { title: 'Tick', curves: [curve('tick_ms', 'mean'), curve('tick_ms_max', 'worst')], say: ms, limit: () => this.#tick_ms },
       { title: 'Late ticks', curves: [curve('late')], say: whole, least: 10 },
       { title: 'Persons', curves: [curve('sessions')], say: whole, least: 5 },
-      { title: 'Pieces and bodies', curves: [curve('pieces', 'pieces'), curve('bodies', 'bodies')], say: whole, least: 10 },
+      { title: 'Pieces', curves: [curve('pieces')], say: whole, least: 10 },
+      { title: 'Bodies, with props', curves: [curve('bodies')], say: whole, least: 10 },
       { title: 'Sent a second', curves: [curve('sent_bytes_s')], say: bytes, least: 10000 },
       { title: 'Memory', curves: [curve('memory_mb')], say: (mb) => `${whole(mb)} MB`, least: 100 },
-      { title: 'Requests', curves: [curve('requests', 'all'), curve('refused', 'refused')], say: whole, least: 10 },
+      { title: 'Requests', curves: [curve('requests')], say: whole, least: 10 },
+      { title: 'Refused', curves: [curve('refused')], say: whole, least: 10 },
     ];
   }
 
@@ -63,9 +65,9 @@ export class Overview {
 
   /** Once a second. */
   status(status) {
-    this.#head('Tick, median', ms(status.tickMedianMs), `worst ${ms(status.tickWorstMs)} of ${ms(this.#tick_ms)}`, status.tickMedianMs > this.#tick_ms);
-    this.#head('Pieces', whole(status.pieces), `${whole(Number(status.piecesMade))} made, ${whole(Number(status.piecesMerged))} merged`);
-    this.#head('Persons', whole(status.clients), 'sessions that are there');
+    this.#head('Tick, median', ms(status.tickMedianMs), `worst ${ms(status.tickWorstMs)}`, status.tickMedianMs > this.#tick_ms);
+    this.#head('Pieces', whole(status.pieces), `${whole(Number(status.piecesMade))} made so far`);
+    this.#head('Persons', whole(status.clients), 'that are there');
     const refused = status.refusals.reduce((sum, { count }) => sum + Number(count), 0);
     const saving = text_of(status.saving);
     write(this.#saved, `${saving ? `Saved up to tick ${whole(Number(status.savedTick))} of ${whole(Number(status.tick))} (${saving}).` : 'The world ends with the server: it has no file.'} `

@@ -30,7 +30,7 @@ export class People {
     this.#session = session;
     this.#own = own;
     this.#sessions = new Rows('Sessions', [
-      { title: 'name', className: 'name', text: ({ name, session: number }) => name || `#${number}` },
+      { title: 'name', className: 'name', text: ({ name }) => name || 'no name' },
       { title: 'session', className: 'number', text: ({ session: number }) => String(number) },
       { title: 'role', text: ({ role }) => role },
       { title: 'address', text: ({ address, encrypted }) => `${address}${encrypted ? '' : ' (no TLS)'}` },

@@ -14,6 +14,8 @@ export const tile_m = (level) => SIDE * spacing_of(level);
 /** The level whose samples are about eight pixels apart. */
 export const level_for = (metres_per_pixel) => Math.min(Math.max(Math.round(Math.log2(8 * metres_per_pixel / FINEST_M)), 0), LEVELS - 1);
 
+const NOTHING = { state: UNKNOWN, height: 0, material: 0 };
+
 /** Indices of the samples that a pass adds to those before. */
 const NEW_IN = STRIDES.map((stride, pass) => Array.from({ length: SIDE * SIDE }, (_, i) => i).filter((i) => {
   const on = (step) => (i % SIDE) % step === 0 && Math.floor(i / SIDE) % step === 0;
@@ -104,11 +106,11 @@ export class Tiles {
     for (const { key } of oldest) this.#tiles.delete(key);
   }
 
-  /** What is known of a sample anywhere on a level, by its number from the origin: a height, or undefined. */
-  height(level, i, j) {
+  /** What is known of a sample anywhere on a level, by its number from the origin: {state, height, material}. */
+  sample(level, i, j) {
     const tile = this.get(level, Math.floor(i / SIDE), Math.floor(j / SIDE));
     const index = tile ? tile.known(((j % SIDE) + SIDE) % SIDE * SIDE + ((i % SIDE) + SIDE) % SIDE) : -1;
-    return index >= 0 && tile.states[index] === ROCK ? tile.heights[index] : undefined;
+    return index < 0 ? NOTHING : { state: tile.states[index], height: tile.heights[index], material: tile.materials[index] };
   }
 
   /** The finest that is known of a place: {height, material}, or null. */
