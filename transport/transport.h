@@ -1,5 +1,5 @@
-// A stream of bytes both ways, whatever carries it: TCP, TLS or a WebSocket over another stream. What is
-// above it knows no other.
+// A stream of bytes both ways, whatever carries it: TCP, a Unix socket, TLS or a WebSocket over another
+// stream. What is above it knows no other.
 //
 // All calls and all handlers are on one thread, the one that runs the sockets; write_now() alone may be
 // called by another one while that one waits for it. At most one read and one write are under way at a time,
@@ -53,7 +53,7 @@ class Transport {
   /// Whether bytes pass: a handshake beneath, if there is one, is over.
   virtual bool established() const = 0;
   virtual bool encrypted() const = 0;
-  /// The other side's numeric address; "unknown" if the link was lost before.
+  /// The other side's numeric address, or words for one without; "unknown" if the link was lost before.
   virtual const std::string& address() const = 0;
   virtual uint16_t port() const = 0;
 };

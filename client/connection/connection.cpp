@@ -2,7 +2,6 @@
 
 #include <asio/executor_work_guard.hpp>
 #include <asio/io_context.hpp>
-#include <asio/ip/tcp.hpp>
 #include <asio/post.hpp>
 #include <asio/steady_timer.hpp>
 #include <condition_variable>
@@ -13,15 +12,11 @@
 #include <thread>
 
 #include "client/connection/come_again.h"
+#include "client/connection/dial.h"
 #include "client/connection/intake.h"
 #include "client/connection/limits.h"
-#include "client/connection/token_way.h"
 #include "proto/codec.h"
-#include "shared/base/text.h"
-#include "transport/asio_link_clock.h"
-#include "transport/link_transport.h"
-#include "transport/tcp_transport.h"
-#include "transport/tls_transport.h"
+#include "transport/transport.h"
 
 namespace scree {
 
@@ -29,7 +24,6 @@ namespace scree {
 /// the context on its caller's thread; then `thread` runs it.
 struct Connection::Impl {
   using Clock = std::chrono::steady_clock;
-  using tcp = asio::ip::tcp;
 
   struct Waiting {
     Received received;
@@ -39,10 +33,7 @@ struct Connection::Impl {
   asio::io_context context;
   std::optional<asio::executor_work_guard<asio::io_context::executor_type>> work;
   std::thread thread;
-  tcp::resolver resolver{context};
-  tcp::resolver::results_type found;  ///< addresses of the server's name
-  tcp::resolver::results_type::iterator untried;
-  tcp::socket socket{context};           ///< until it is connected
+  Dial dial{context};                    ///< until it has reached the server
   std::shared_ptr<Transport> transport;  ///< from then on
   Intake intake;
   std::vector<uint8_t> buffer = std::vector<uint8_t>(limits::read_bytes);
@@ -67,8 +58,6 @@ struct Connection::Impl {
   ConnectionCounters counters;
 
   Result<void> start(const ServerEndpoint& server, const std::vector<ClientMessage>& first);
-  void try_next(const ServerEndpoint& server, std::shared_ptr<const TlsClientContext> tls,
-                const std::vector<ClientMessage>& first, const asio::error_code& before);
   void end(const std::string& why, const std::string& refusal = {});
   void check_silence();
   void read();
@@ -82,61 +71,26 @@ struct Connection::Impl {
   std::vector<Received> pop_all();
 };
 
+/// Connects, and says hello.
 Result<void> Connection::Impl::start(const ServerEndpoint& server, const std::vector<ClientMessage>& first) {
-  if (server.host.empty()) return fail("no server is named (--host)");
-  std::shared_ptr<const TlsClientContext> tls;
-  if (server.tls) {
-    auto made = TRY(TlsClientContext::make(server.trust));
-    tls = std::move(made);
-  }
-  resolver.async_resolve(server.host, std::to_string(server.port),
-                         [this, server, tls, first](const asio::error_code& error, const auto& results) {
-                           if (error) return end("cannot find the host: " + error.message());
-                           found = results;
-                           untried = found.begin();
-                           try_next(server, tls, first, asio::error::host_not_found);
-                         });
-  return {};
-}
-
-/// Connects to the next of the server's addresses, and says hello.
-void Connection::Impl::try_next(const ServerEndpoint& server, std::shared_ptr<const TlsClientContext> tls,
-                                const std::vector<ClientMessage>& first, const asio::error_code& before) {
-  if (ended) return;
-  if (untried == found.end())
-    return end(fmt::format("cannot connect: {}; is a server running there?", before.message()));
-  const tcp::endpoint to = *untried++;
-  // A name does not say where it leads, so the address decides.
-  if (const auto fault = fault_of_way(server, to.address().to_string()))
-    return end(*fault, std::string(token_in_clear));
-  asio::error_code failed;
-  socket.close(failed);
-  socket.open(to.protocol(), failed);
-  if (failed) return try_next(server, std::move(tls), first, failed);
-  // What the link does not take is to wait at the server, as it would there, and not in this socket.
-  asio::error_code ignored;
-  if (server.link) socket.set_option(tcp::socket::receive_buffer_size(limits::link_receive_bytes), ignored);
-  socket.async_connect(to, [this, server, tls, first](const asio::error_code& refused) {
-    if (refused) return try_next(server, tls, first, refused);
-    transport = std::make_shared<TcpTransport>(std::move(socket));
-    if (server.link)
-      transport = std::make_shared<LinkTransport>(std::move(transport), *server.link,
-                                                  std::make_unique<AsioLinkClock>(context));
-    if (tls) transport = std::make_shared<TlsTransport>(std::move(transport), TlsEngine(tls, server.host));
-    for (const ClientMessage& message : first) {
-      std::vector<uint8_t> bytes = encode(message);
-      note_sent(bytes.size());
-      push(std::move(bytes));
-    }
-    read();
-  });
+  return dial.begin(
+      server,
+      [this, first](std::shared_ptr<Transport> stream) {
+        transport = std::move(stream);
+        for (const ClientMessage& message : first) {
+          std::vector<uint8_t> bytes = encode(message);
+          note_sent(bytes.size());
+          push(std::move(bytes));
+        }
+        read();
+      },
+      [this](const ConnectionEnd& failed) { end(failed.message, failed.refusal); });
 }
 
 void Connection::Impl::end(const std::string& why, const std::string& refusal) {
   if (ended) return;
   ended = true;
-  asio::error_code ignored;
-  socket.close(ignored);
+  dial.cancel();
   if (transport) transport->close();
   silence.cancel();
   work.reset();
@@ -293,10 +247,9 @@ tl::expected<std::unique_ptr<Connection>, ConnectionEnd> Connection::connect(
     const ServerEndpoint& server, HelloMessage hello, std::chrono::milliseconds within,
     const std::vector<ClientMessage>& then) {
   const auto failed = [&server](const std::string& why, const std::string& refusal = {}) {
-    return tl::unexpected(
-        ConnectionEnd{{fmt::format("{}: {}", endpoint_text(server.host, server.port), why)}, refusal});
+    return tl::unexpected(ConnectionEnd{{fmt::format("{}: {}", text_of(server), why)}, refusal});
   };
-  hello.token = server.token;
+  hello.token = server.socket.empty() ? server.token : std::string();
   std::vector<ClientMessage> first{std::move(hello)};
   first.insert(first.end(), then.begin(), then.end());
   try {

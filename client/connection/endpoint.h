@@ -15,6 +15,8 @@ namespace scree {
 struct ServerEndpoint {
   std::string host = "127.0.0.1";
   uint16_t port = default_port;
+  std::string
+      socket{};  ///< path of the server's admin socket: instead of host and port, without TLS and token
   bool tls = false;
   TlsTrust trust{};                  ///< with TLS: whose certificate is taken
   std::optional<LinkConfig> link{};  ///< as if each connection went by such a link
@@ -23,5 +25,8 @@ struct ServerEndpoint {
   /// The token may be read on its way: it goes to other machines without TLS, too.
   bool insecure_token = false;
 };
+
+/// "127.0.0.1:4177", or the path of the socket.
+std::string text_of(const ServerEndpoint& server);
 
 }  // namespace scree

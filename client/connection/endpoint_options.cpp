@@ -1,6 +1,8 @@
 #include "client/connection/endpoint_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdlib>
 #include <fmt/format.h>
 
 #include "proto/limits.h"
@@ -12,6 +14,12 @@ namespace scree {
 namespace {
 
 constexpr NumberWithin ports{1, 65535, true};
+constexpr const char* socket_variable = "SCREE_ADMIN_SOCKET";
+
+/// CLI11 does not keep whether a value comes from the environment: where the variable is set, it may.
+bool is_surely_a_flag(const CLI::Option& option) {
+  return option.count() > 0 && std::getenv(option.get_envname().c_str()) == nullptr;
+}
 
 void declare_host_and_port(CLI::App& app, ServerEndpoint& endpoint) {
   app.add_option("--host", endpoint.host, "name or address of the server")
@@ -60,6 +68,35 @@ EndpointOptions::EndpointOptions(CLI::App& app, ServerEndpoint& endpoint,
                  "of the bottleneck). cut=100000 ends each connection after so many bytes; after "
                  "half-open=50kB nothing passes. down. and up. choose one direction: down.rate=100kbit")
       ->envname("SCREE_LINK");
+  if (naming == EndpointNaming::or_socket) declare_socket(app);
+}
+
+void EndpointOptions::declare_socket(CLI::App& app) {
+  for (const char* name : {"--host", "--port", "--tls", "--tls-ca", "--tls-fingerprint", "--token",
+                           "--token-file", "--insecure-token"})
+    of_network_.push_back(app.get_option(name));
+  app.add_option(
+      "--socket", endpoint_.socket,
+      fmt::format("file of the server's --admin-socket, instead of host, port and token (variable: {})",
+                  socket_variable));
+}
+
+Result<void> EndpointOptions::choose_socket() {
+  if (of_network_.empty()) return {};
+  const char* const told = std::getenv(socket_variable);
+  const bool is_free =
+      std::ranges::none_of(of_network_, [](const auto* option) { return option->count() > 0; });
+  if (endpoint_.socket.empty() && told != nullptr && is_free) endpoint_.socket = told;
+  if (endpoint_.socket.empty()) return {};
+  const auto beside =
+      std::ranges::find_if(of_network_, [](const auto* option) { return is_surely_a_flag(*option); });
+  if (beside != of_network_.end())
+    return fail(fmt::format("--socket has no use for {}: it is on this machine, and its owner needs no token",
+                            (*beside)->get_name()));
+  endpoint_.tls = false;
+  endpoint_.trust = {};
+  drop_token();
+  return {};
 }
 
 /// A colon divides host and port, unless it is one of several without brackets: an IPv6 address alone.
@@ -98,6 +135,7 @@ void EndpointOptions::drop_token() {
 }
 
 Result<void> EndpointOptions::complete() {
+  TRY(choose_socket());
   if (names_server()) TRY(parse_server());
   TRY(check_host());
   endpoint_.tls = endpoint_.tls || !endpoint_.trust.ca_path.empty() || !endpoint_.trust.fingerprint.empty();

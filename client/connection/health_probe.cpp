@@ -1,36 +1,30 @@
 #include "client/connection/health_probe.h"
 
 #include <array>
-#include <asio/connect.hpp>
 #include <asio/io_context.hpp>
-#include <asio/ip/tcp.hpp>
 #include <fmt/format.h>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "client/connection/dial.h"
 #include "proto/codec.h"
 #include "proto/frame_reader.h"
-#include "shared/base/text.h"
-#include "transport/tcp_transport.h"
-#include "transport/tls_transport.h"
+#include "transport/transport.h"
 
 namespace scree {
 
 namespace {
 
-using asio::ip::tcp;
-
 class Probe {
  public:
   Result<HealthMessage> ask(const ServerEndpoint& server, std::chrono::milliseconds within) {
-    if (server.tls) tls_ = TRY(TlsClientContext::make(server.trust));
-    host_ = server.host;
-    resolver_.async_resolve(server.host, std::to_string(server.port),
-                            [this](const asio::error_code& error, const auto& found) {
-                              if (error) return end("cannot find the host: " + error.message());
-                              connect(found);
-                            });
+    ServerEndpoint asked = server;
+    asked.token.clear();  // it is not sent, and so no fault of the way
+    asked.link.reset();
+    TRY(dial_.begin(
+        asked, [this](std::shared_ptr<Transport> stream) { begin(std::move(stream)); },
+        [this](const ConnectionEnd& failed) { end(failed.message); }));
     context_.run_for(within);
     if (!answer_ && why_.empty()) end(fmt::format("no answer within {} ms", within.count()));
     if (!answer_) return fail(why_);
@@ -38,15 +32,11 @@ class Probe {
   }
 
  private:
-  void connect(const tcp::resolver::results_type& found) {
-    asio::async_connect(socket_, found, [this](const asio::error_code& error, const tcp::endpoint&) {
-      if (error) return end(fmt::format("cannot connect: {}; is a server running there?", error.message()));
-      stream_ = std::make_shared<TcpTransport>(std::move(socket_));
-      if (tls_) stream_ = std::make_shared<TlsTransport>(std::move(stream_), TlsEngine(tls_, host_));
-      asked_ = encode(ClientMessage(AskHealthMessage{}));
-      write(asked_);
-      read();
-    });
+  void begin(std::shared_ptr<Transport> stream) {
+    stream_ = std::move(stream);
+    asked_ = encode(ClientMessage(AskHealthMessage{}));
+    write(asked_);
+    read();
   }
   void write(std::span<const uint8_t> rest) {
     stream_->write_some({&rest, 1}, [this, rest](const Moved& moved) {
@@ -82,10 +72,7 @@ class Probe {
   }
 
   asio::io_context context_;
-  tcp::resolver resolver_{context_};
-  tcp::socket socket_{context_};
-  std::shared_ptr<const TlsClientContext> tls_;
-  std::string host_;
+  Dial dial_{context_};
   std::shared_ptr<Transport> stream_;
   std::vector<uint8_t> asked_;
   std::array<uint8_t, 4096> buffer_{};
@@ -98,9 +85,8 @@ class Probe {
 
 Result<HealthMessage> ask_health(const ServerEndpoint& server, std::chrono::milliseconds within) {
   const auto failed = [&server](const std::string& why) {
-    return fail(fmt::format("{}: {}", endpoint_text(server.host, server.port), why));
+    return fail(fmt::format("{}: {}", text_of(server), why));
   };
-  if (server.host.empty()) return failed("no server is named (--host)");
   try {
     Probe probe;
     auto health = probe.ask(server, within);

@@ -61,6 +61,9 @@ void DoorOptions::declare_admin(CLI::App& app, NetConfig& net) {
   app.add_flag("--make-admin-token", makes_token_,
                "makes the --admin-token-file with a new token if it is missing")
       ->needs(file);
+  app.add_option("--admin-socket", net.admin_socket,
+                 "file of a Unix socket, made at the start, by which this server's user and root are "
+                 "administrators without a token (scree-admin --socket)");
 }
 
 /// Who is let in by address, and whose word counts for it.

@@ -277,6 +277,7 @@ void refuse_shared_files(const Raw& raw, const std::string& config_path) {
                             NamedFile{"--materials", raw.materials},
                             NamedFile{"--replay", live.replay.path, false, true},
                             NamedFile{"--admin-token-file", raw.doors.token_path(), raw.doors.makes_token()},
+                            NamedFile{"--admin-socket", live.net.admin_socket, true},
                             NamedFile{"--tls-cert", access.tls_certificate_path},
                             NamedFile{"--tls-key", access.tls_key_path},
                             NamedFile{"--token-key", access.token_key_path},

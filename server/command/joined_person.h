@@ -17,7 +17,7 @@ struct JoinedPerson {
   bool meets = false;        ///< it sees who else is there, and what they say
   bool resumed = false;      ///< the connection was lost, and the session goes on
   bool administers = false;  ///< it does nothing else, and is nobody in the world
-  std::string ip{};          ///< numeric
+  std::string ip{};          ///< numeric; of the owner by the admin socket: words
 
   bool operator==(const JoinedPerson&) const = default;
 };

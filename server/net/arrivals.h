@@ -1,5 +1,6 @@
 // Who comes in: connections that the entrance, or something else than a socket, lets in become sessions, and
-// those whose first bytes are HTTP become HTTP connections. Bounds both together (Room). A few of those that
+// those whose first bytes are HTTP become HTTP connections. Those of the owner's entrance speak the protocol
+// alone, without TLS. Bounds both together (Room). A few of those that
 // the door turns away are held until they can be told so in their own language. On the network thread.
 #pragma once
 
@@ -14,6 +15,7 @@
 #include "server/doors/authorizer.h"
 #include "server/doors/entrance.h"
 #include "server/doors/limits.h"
+#include "server/doors/owner_entrance.h"
 #include "server/net/client_session.h"
 #include "server/net/host_log.h"
 #include "server/net/net_server.h"
@@ -45,12 +47,18 @@ class Arrivals final : public EntranceHost {
       : parts_(parts),
         changed_(std::move(changed)),
         entrance_(context, parts.door, parts.config.proxies, *this),
+        owners_(
+            context,
+            [this](OwnerEntrance::Socket socket, const std::string& address) {
+              owner_entered(std::move(socket), address);
+            },
+            [this](const std::string& why) { owner_refused(why); }),
         next_session_(parts.config.first_session) {}
 
-  Result<void> listen() { return entrance_.listen(parts_.config.bind, parts_.config.port); }
+  Result<void> listen();
   uint16_t port() const { return entrance_.port(); }
-  /// Nobody comes in by the entrance any more.
-  void close() { entrance_.close(); }
+  /// Nobody comes in by the entrances any more.
+  void close();
 
   /// As of NetHost.
   bool enter(std::shared_ptr<Transport> transport);
@@ -63,6 +71,8 @@ class Arrivals final : public EntranceHost {
   void turned_away(asio::ip::tcp::socket socket, const std::string& address, const Refused& refused) override;
   void accepting_failed(const std::string& why) override;
 
+  void owner_entered(OwnerEntrance::Socket socket, const std::string& address);
+  void owner_refused(const std::string& why);
   void begin(std::shared_ptr<Transport> transport, const Visitor& from, uint64_t id);
   void begin_http(uint64_t id, std::shared_ptr<Transport> stream, std::span<const uint8_t> arrived);
   void named(uint64_t id, const std::string& ip, const std::string& peer);
@@ -74,6 +84,7 @@ class Arrivals final : public EntranceHost {
   const Parts parts_;
   const std::function<void()> changed_;
   Entrance entrance_;
+  OwnerEntrance owners_;
   uint64_t next_session_;  ///< 0 is the server itself
   RateLimit held_{limits::turned_away_per_second_max, static_cast<double>(limits::turned_away_max)};
 };

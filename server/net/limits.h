@@ -37,7 +37,7 @@ inline constexpr size_t sessions_of_a_household = 2;
 /// else the next is refused. So that an administrator can always act, whatever is full of others.
 inline constexpr size_t administrators_max = 32;
 
-/// Descriptors that the process keeps for files and threads, beside connections.
+/// Descriptors that the process keeps for files, threads and the owner's connections, beside all others.
 inline constexpr size_t descriptors_reserved = 64;
 
 /// When the server is full, a session makes room for the next if it has done nothing for so many seconds;

@@ -124,7 +124,7 @@ tl::expected<WelcomeMessage, Refused> NetHost::admit(ClientSession& session, con
   if (!radius_m) return refuse(Refusal::interest_invalid, radius_m.error().message);
   const std::optional<Departed> before = returns_.resume(hello.ticket, grant, sessions_, now_s);
   if (hello.administers || grant.role == Role::admin)
-    TRY(Room::find_room_beside(sessions_, grant));
+    TRY(Room::find_room_beside(sessions_, sessions_.at(session.id()), grant));
   else
     TRY(find_room(session, grant, before, now_s));
   join(session, hello, *radius_m, grant, before);

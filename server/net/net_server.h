@@ -91,9 +91,10 @@ struct NetConfig {
   TerrainSource terrain;
   uint32_t tick_rate_hz = 60;
   uint32_t ticks_per_transform = 3;
-  ServiceLimits service;    ///< until a tick says otherwise
-  bool replay = false;      ///< a recording: requests are refused
-  std::string admin_token;  ///< a client with it is an administrator; empty: there is none
+  ServiceLimits service;     ///< until a tick says otherwise
+  bool replay = false;       ///< a recording: requests are refused
+  std::string admin_token;   ///< a client with it is an administrator; empty: there is none
+  std::string admin_socket;  ///< path of a Unix socket by which the server's owner comes in; empty: none
   AccessConfig access;
   Door::Rules door{limits::connections_per_address_max, limits::connects_per_second_max,
                    limits::connects_burst_max};

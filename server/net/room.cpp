@@ -53,12 +53,15 @@ tl::expected<void, Refused> Room::find_place(const SessionTable& sessions, const
 
 /// Nobody who plays goes for it, and no administrator. The first of the programs that came without a token
 /// goes; an administrator also takes the room of a program whose token is of another role.
-tl::expected<void, Refused> Room::find_room_beside(const SessionTable& sessions, const Grant& grant) {
+tl::expected<void, Refused> Room::find_room_beside(const SessionTable& sessions, const SessionEntry& newcomer,
+                                                   const Grant& grant) {
+  if (newcomer.is_owner) return {};
   const SessionEntry* first_without_token = nullptr;
   const SessionEntry* first_with_token = nullptr;
   size_t beside = 0;
   for (const auto& [id, entry] : sessions.entries()) {
-    if (entry.session->phase() != ClientSession::Phase::joined || entry.needs_place()) continue;
+    if (entry.session->phase() != ClientSession::Phase::joined || entry.needs_place() || entry.is_owner)
+      continue;
     ++beside;
     if (entry.grant.role == Role::admin) continue;
     const SessionEntry*& first = holds_token(entry.grant) ? first_with_token : first_without_token;

@@ -29,7 +29,9 @@ class Room {
   tl::expected<void, Refused> find_place(const SessionTable& sessions, const ClientSession& newcomer,
                                          const Grant& grant, size_t reserved, double now_s) const;
   /// Finds room for a newcomer that needs no place: an administrator, or a program that administers alone.
-  static tl::expected<void, Refused> find_room_beside(const SessionTable& sessions, const Grant& grant);
+  /// The owner's connections are bounded where they come in (limits::owner_connections_max).
+  static tl::expected<void, Refused> find_room_beside(const SessionTable& sessions,
+                                                      const SessionEntry& newcomer, const Grant& grant);
   /// Whether a newcomer without a token, of an address that holds none, would find a place; `reserved`: as of
   /// find_place().
   bool has_place(const SessionTable& sessions, size_t reserved, double now_s) const;

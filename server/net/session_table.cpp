@@ -1,6 +1,7 @@
 #include "server/net/session_table.h"
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "server/doors/unix_time.h"
@@ -92,10 +93,26 @@ size_t SessionTable::turned_away() const {
 
 void SessionTable::list_outsiders(std::vector<Outsider>& outsiders) const {
   for (const uint64_t id : outsiders_) {
-    const ClientSession& session = *entries_.at(id).session;
+    const SessionEntry& entry = entries_.at(id);
+    if (entry.is_owner) continue;
+    const ClientSession& session = *entry.session;
     outsiders.push_back(
         {id, session.origin(), session.phase() == ClientSession::Phase::refused, session.is_silent()});
   }
+}
+
+SessionTable::OwnersSessions SessionTable::of_owner(double now_s) const {
+  OwnersSessions owners;
+  for (const auto& [id, entry] : entries_) {
+    if (!entry.is_owner) continue;
+    if (entry.session->phase() == ClientSession::Phase::refused)
+      ++owners.refused;
+    else
+      owners.open.push_back(entry.session);
+  }
+  std::ranges::stable_sort(owners.open, std::ranges::greater(),
+                           [now_s](const auto& session) { return session->idle_s(now_s); });
+  return owners;
 }
 
 std::vector<SessionRow> SessionTable::rows(double now_s) const {

@@ -34,6 +34,7 @@ struct SessionEntry {
   bool is_many = false;      ///< it is a trusted proxy's that names nobody
   bool administers = false;  ///< as of HelloMessage
   bool at_door = true;       ///< it has a place there (Door::enter), which it gives back
+  bool is_owner = false;     ///< as of Caller; it has no place at the door, and takes nobody's room
   ByteAccount bytes_out{};   ///< of a joined session
   uint64_t refused = 0;      ///< of its requests, by the world or by a limit
 
@@ -49,7 +50,9 @@ struct SessionEntry {
   bool needs_place() const { return grant.role != Role::admin && !administers; }
 
   BytesOut::Receiver receiver() { return {is_many ? std::string() : session->address(), &bytes_out}; }
-  Caller caller() const { return {session->address(), session->ip(), session->encrypted(), relayed}; }
+  Caller caller() const {
+    return {session->address(), session->ip(), session->encrypted(), relayed, is_owner};
+  }
 };
 
 class SessionTable {
@@ -89,8 +92,15 @@ class SessionTable {
   size_t placed() const;
   /// Outsiders that the door turned away.
   size_t turned_away() const;
-  /// Adds the outsiders to a list.
+  /// Adds the outsiders to a list, but for the owner's.
   void list_outsiders(std::vector<Outsider>& outsiders) const;
+
+  /// The owner's connections: those that were not refused, the idlest first, and how many were.
+  struct OwnersSessions {
+    Sessions open;
+    size_t refused = 0;
+  };
+  OwnersSessions of_owner(double now_s) const;
 
   /// The sessions that have joined, for administrators.
   std::vector<SessionRow> rows(double now_s) const;

@@ -14,6 +14,7 @@ struct Visitor {
   bool at_door = true;   ///< it has a place there under `address`, which it gives back
   /// It is told so, and nothing else.
   std::optional<Refused> turned_away{};
+  bool is_owner = false;  ///< as of Caller
 };
 
 }  // namespace scree

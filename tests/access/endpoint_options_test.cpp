@@ -89,6 +89,38 @@ TEST(EndpointOptions, a_token_comes_from_the_line_a_file_or_the_environment) {
   EXPECT_EQ(other.endpoint.token, "") << "an administrator's token is for the administrator's program";
 }
 
+TEST(EndpointOptions, a_socket_needs_neither_address_nor_token_and_its_variable_is_the_weakest) {
+  const auto parse_admin = [](std::vector<std::string> arguments) {
+    CLI::App app;
+    Parsed parsed;
+    EndpointOptions options(app, parsed.endpoint, "SCREE_ADMIN_TOKEN", EndpointNaming::or_socket);
+    std::ranges::reverse(arguments);
+    app.parse(arguments);
+    if (const auto completed = options.complete(); !completed) parsed.error = completed.error().message;
+    return parsed;
+  };
+  EXPECT_EQ(parse_admin({}).endpoint.socket, "");
+  EXPECT_EQ(parse_admin({"--socket", "s"}).endpoint.socket, "s");
+  for (const char* const beside :
+       {"--host=h", "--port=1", "--tls", "--tls-ca=f", "--token=t", "--token-file=f"})
+    EXPECT_TRUE(holds(parse_admin({"--socket", "s", beside}).error, "--socket has no use for --")) << beside;
+  ::setenv("SCREE_HOST", "by-environment", 1);
+  ::setenv("SCREE_ADMIN_TOKEN_FILE", "/no/such/file", 1);
+  const Parsed beside_variables = parse_admin({"--socket", "s"});
+  ::setenv("SCREE_ADMIN_SOCKET", "by-environment", 1);
+  const Parsed by_host = parse_admin({});
+  ::unsetenv("SCREE_HOST");
+  ::unsetenv("SCREE_ADMIN_TOKEN_FILE");
+  const Parsed alone = parse_admin({}), by_port = parse_admin({"--port", "1"}), other = parse({});
+  ::unsetenv("SCREE_ADMIN_SOCKET");
+  EXPECT_EQ(beside_variables.error, "");
+  EXPECT_EQ(beside_variables.endpoint.socket, "s");
+  EXPECT_EQ(by_host.endpoint.socket, "");
+  EXPECT_EQ(alone.endpoint.socket, "by-environment");
+  EXPECT_EQ(by_port.endpoint.socket, "");
+  EXPECT_EQ(other.endpoint.socket, "") << "the socket is for the administrator's program";
+}
+
 TEST(EndpointOptions, one_option_names_a_server_where_there_may_be_none) {
   const auto parse_server = [](const std::string& server) {
     CLI::App app;

@@ -35,6 +35,13 @@ bool is_refused(const std::vector<std::string>& words) {
   return std::holds_alternative<int>(options) && std::get<int>(options) == 2;
 }
 
+TEST(DoorOptions, name_the_owners_socket_which_is_no_other_file) {
+  EXPECT_EQ(net_of({}).admin_socket, "");
+  EXPECT_EQ(net_of({"--admin-socket", "s"}).admin_socket, "s");
+  EXPECT_TRUE(is_refused({"--admin-socket", ""}));
+  EXPECT_TRUE(is_refused({"--admin-socket", "s", "--world", "s"}));
+}
+
 TEST(DoorOptions, name_the_proxies_and_the_limits_of_an_address) {
   const NetConfig net = net_of({"--proxy", "10.0.0.0/8", "--proxy", "::1", "--connections-per-address", "200",
                                 "--connects-per-second", "25"});

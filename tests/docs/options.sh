@@ -82,7 +82,7 @@ commands=$("$source/scree" --help | sed -n 's/^  \([a-z]*\) .*/\1/p' | tr '\n' '
 all=$(names_in "$(cat "$source/CMakeLists.txt" "$source/.ci/run" "$source/client/library/include/scree/client.h" "$source/server/log/journal.cpp")")
 for name in server viewer bot replay world scene import export place admin token bench 'bench studies' 'replay render' 'replay control' \
   'replay info' 'replay verify' 'replay diff' 'replay cut' 'replay events' 'replay export' 'world new' 'world info' 'admin ban' \
-  'admin kick' 'admin set' 'admin health' 'admin slow' 'admin top' 'admin history' 'admin undo' 'admin restore' 'admin list-bodies' 'admin ask' 'admin region add' 'rules check' 'rules test' 'rules types' 'token new' 'token show' setup build test fuzz demo web; do
+  'admin kick' 'admin set' 'admin health' 'admin slow' 'admin top' 'admin history' 'admin undo' 'admin restore' 'admin console' 'admin list-bodies' 'admin ask' 'admin region add' 'rules check' 'rules test' 'rules types' 'token new' 'token show' setup build test fuzz demo web; do
   # shellcheck disable=SC2086  # two words
   help_of $name
   all+=$help

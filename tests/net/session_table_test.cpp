@@ -226,9 +226,10 @@ TEST(Room, programs_that_administer_by_any_token_keep_no_administrator_out) {
     sessions.join(id, "10.0.0.1", holder(id));
     sessions.table.at(id).administers = true;
   }
-  EXPECT_FALSE(Room::find_room_beside(sessions.table, holder(99)));
+  const SessionEntry& newcomer = sessions.table.at(sessions.connect(99, "10.0.0.2")->id());
+  EXPECT_FALSE(Room::find_room_beside(sessions.table, newcomer, holder(99)));
   EXPECT_TRUE(sessions.reasons.empty());
-  EXPECT_TRUE(Room::find_room_beside(sessions.table, {.role = Role::admin}));
+  EXPECT_TRUE(Room::find_room_beside(sessions.table, newcomer, {.role = Role::admin}));
   ASSERT_EQ(sessions.reasons.size(), 1U);
   EXPECT_EQ(sessions.reasons.begin()->first, 1U) << "it came first";
 }

@@ -34,8 +34,11 @@ if [[ -e /usr/share/scree/web/index.html ]]; then
   printf 'GET / HTTP/1.0\r\nHost: localhost\r\n\r\n' >&3
   grep -qai '<title>' <&3 || fail 'the server serves no page'
 fi
+[[ $(stat -c '%U %a' /run/scree/hill.sock) == 'scree 600' ]] || fail 'the socket of administrators is not its user'\''s alone'
+scree-admin --socket /run/scree/hill.sock bans | grep -q 203.0.113.9 || fail 'root is no administrator by the socket'
 before=$(terrain)
 stop
+[[ ! -e /run/scree/hill.sock ]] || fail 'the socket outlives its server'
 scree-world check /var/lib/scree/hill/hill.world >/dev/null || fail 'the world is damaged'
 scree-replay verify /var/lib/scree/hill/hill.scree >/dev/null || fail 'the recording does not verify'
 

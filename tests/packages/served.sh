@@ -10,16 +10,17 @@ install_packages() {
 }
 
 # of_unit KEY: its value in the service of the world hill.
-of_unit() { sed -n "s/^$1=//p" /lib/systemd/system/scree@.service | sed 's/%i/hill/g; s|%S|/var/lib|g'; }
+of_unit() { sed -n "s/^$1=//p" /lib/systemd/system/scree@.service | sed 's/%i/hill/g; s|%S|/var/lib|g; s|%t|/run|g'; }
 
 # serve: as the unit says, until scree-admin finds the server ready.
 serve() {
   local user folder
   user=$(of_unit User) folder=$(of_unit WorkingDirectory)
   install -d -o "$user" -g "$(of_unit Group)" -m "$(of_unit StateDirectoryMode)" "$folder"
+  install -d -o "$user" -g "$(of_unit Group)" "/run/$(of_unit RuntimeDirectory)"
   # shellcheck disable=SC2046  # the words of a command
   (cd "$folder" && umask "$(of_unit UMask)" &&
-    exec setpriv --reuid "$user" --regid "$user" --clear-groups --no-new-privs --bounding-set=-all $(of_unit ExecStart)) \
+    exec env "$(of_unit Environment)" setpriv --reuid "$user" --regid "$user" --clear-groups --no-new-privs --bounding-set=-all $(of_unit ExecStart)) \
     >/tmp/listening.json 2>/tmp/server.log &
   server=$!
   for ((i = 0; i < 600; ++i)); do

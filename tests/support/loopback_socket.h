@@ -1,4 +1,4 @@
-// A TCP connection to a server on this machine, for clients that are made by hand.
+// A connection to a server on this machine, by TCP or a Unix socket, for clients that are made by hand.
 #pragma once
 
 #include <arpa/inet.h>
@@ -6,6 +6,7 @@
 #include <netinet/in.h>
 #include <string>
 #include <sys/socket.h>
+#include <sys/un.h>
 #include <unistd.h>
 
 namespace scree {
@@ -15,18 +16,31 @@ struct Route {
   Route(uint16_t to_port) : port(to_port) {}  // NOLINT: a port alone is a route on loopback
   Route(uint16_t to_port, std::string to_address, std::string from_address)
       : port(to_port), to(std::move(to_address)), from(std::move(from_address)) {}
+  /// To a Unix socket.
+  static Route to_file(std::string path) {
+    Route route(0);
+    route.file = std::move(path);
+    return route;
+  }
 
   uint16_t port;
   std::string to = "127.0.0.1";
   std::string from{};  ///< empty: any
+  std::string file{};  ///< of a Unix socket; empty: by TCP
 };
 
 class LoopbackSocket {
  public:
   explicit LoopbackSocket(const Route& route, int receive_buffer_bytes = 0)
-      : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+      : socket_(::socket(route.file.empty() ? AF_INET : AF_UNIX, SOCK_STREAM, 0)) {
     if (receive_buffer_bytes != 0)
       ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes, sizeof receive_buffer_bytes);
+    if (!route.file.empty()) {
+      sockaddr_un there{AF_UNIX, {}};
+      route.file.copy(there.sun_path, sizeof there.sun_path - 1);
+      connected_ = ::connect(socket_, reinterpret_cast<const sockaddr*>(&there), sizeof there) == 0;
+      return;
+    }
     const sockaddr_in from = address(route.from, 0), to = address(route.to, route.port);
     connected_ =
         (route.from.empty() || ::bind(socket_, reinterpret_cast<const sockaddr*>(&from), sizeof from) == 0) &&

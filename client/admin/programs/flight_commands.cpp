@@ -5,6 +5,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "client/admin/programs/interrupt.h"
 #include "client/admin/programs/world_commands.h"
 #include "proto/limits.h"
 #include "shared/base/length_of_time.h"
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double since_max_s = 86'400.0;
 constexpr std::chrono::seconds refresh{2};
+constexpr std::chrono::milliseconds interrupt_period{50};
 /// Clears a terminal and goes to its first line (ECMA-48, ED and CUP).
 constexpr const char* clear_screen = "\x1b[H\x1b[2J";
 
@@ -39,6 +41,13 @@ Printed print_slow(const AdminServer& server, const FlightWords& words, bool as_
   return print_said(list_flight(server, request), as_json ? slow_ticks_json : slow_ticks_lines);
 }
 
+/// Sleeps, but not beyond an interrupt.
+void sleep_between_refreshes() {
+  for (auto slept = std::chrono::milliseconds(0); slept < refresh && !was_interrupted();
+       slept += interrupt_period)
+    std::this_thread::sleep_for(interrupt_period);
+}
+
 /// On a terminal again and again, until it is interrupted or the server is gone.
 Printed print_top(const AdminServer& server, const FlightWords& words, bool as_json) {
   const auto text = as_json ? parties_json : parties_lines;
@@ -48,7 +57,8 @@ Printed print_top(const AdminServer& server, const FlightWords& words, bool as_j
     if (!said) return said;
     std::printf("%s%s", clear_screen, said->c_str());
     std::fflush(stdout);
-    std::this_thread::sleep_for(refresh);
+    sleep_between_refreshes();
+    if (was_interrupted()) return "";
   }
   return print_said(list_flight(server, request), text);
 }

@@ -6,6 +6,7 @@
 #include <thread>
 #include <unistd.h>
 
+#include "client/admin/programs/interrupt.h"
 #include "client/admin/programs/world_commands.h"
 #include "proto/limits.h"
 #include "shared/base/option_check.h"
@@ -88,6 +89,7 @@ Printed wait_for_end(const AdminServer& server, bool as_json) {
     if (::isatty(STDERR_FILENO) != 0)
       std::cerr << "\r" << json.value("bricks_done", 0) << " of " << json.value("bricks", 0) << " bricks ";
     if (json.value("over", true)) break;
+    if (was_interrupted()) return "\nthe undo goes on in the server: undo --progress says how far\n";
     std::this_thread::sleep_for(progress_period);
   }
   if (::isatty(STDERR_FILENO) != 0) std::cerr << "\r\x1b[K";

@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
   CLI::App app("Adds a body of voxels from a file to a running server.", "scree-place");
   app.set_version_flag("--version", SCREE_VERSION);
   scree::Options options;
-  scree::EndpointOptions endpoint(app, options.server, "SCREE_ADMIN_TOKEN");
+  scree::EndpointOptions endpoint(app, options.server, "SCREE_ADMIN_TOKEN", scree::EndpointNaming::or_socket);
   scree::declare(app, options);
   if (const auto ended = scree::parse(app, argc, argv)) return *ended;
   options.solids.has_scale = app.count("--scale") > 0;
