@@ -96,8 +96,7 @@ LineEditor::LineEditor(std::string prompt, Complete complete) : library_(std::ma
   el_set(editor, EL_ADDFN, "scree-drop", "Drops the line", &Library::drop);
   el_set(editor, EL_BIND, "\t", "scree-offer", nullptr);
   el_set(editor, EL_BIND, "^R", "em-inc-search-prev", nullptr);
-  // While a line is typed, Ctrl-C is a key as any other.
-  el_set(editor, EL_SETTY, "-d", "intr=", nullptr);
+  el_set(editor, EL_SETTY, "-d", "-isig", nullptr);  // while a line is typed, Ctrl-C is a key as any other
   el_set(editor, EL_BIND, "^C", "scree-drop", nullptr);
 }
 

@@ -18,6 +18,12 @@ namespace {
 /// For the names of settings, while a person waits for a completion.
 constexpr std::chrono::milliseconds names_within{1000};
 
+/// As completion leaves them; a backslash keeps one.
+std::string without_last_spaces(std::string line) {
+  while (line.ends_with(' ') && !line.ends_with("\\ ")) line.pop_back();
+  return line;
+}
+
 class Console {
  public:
   Console(const AdminServer& server, const AdminSettings& settings) : server_(server), settings_(settings) {}
@@ -105,7 +111,8 @@ int Console::run_on_terminal() {
       std::printf("\n");
       break;
     }
-    if (history.add(typed.line)) editor.remember(typed.line);
+    const std::string kept = without_last_spaces(typed.line);
+    if (history.add(kept)) editor.remember(kept);
     forget_interrupt();
     run_line(typed.line);
   }
