@@ -14,9 +14,9 @@ class Option;
 
 namespace scree {
 
-/// How a program is told where its server is: host_and_port for those that always have one, by --host, --port
-/// and the environment; or_socket for those of administrators, by these or --socket; server for those that
-/// may do without, by --server HOST[:PORT] alone.
+/// How a program is told where its server is. host_and_port: by --host, --port and the environment, for those
+/// that always have one. or_socket: by these or --socket, for those of administrators. server: by --server
+/// HOST[:PORT] alone, for those that may do without.
 enum class EndpointNaming { host_and_port, or_socket, server };
 
 /// Declares --host, --port, --tls and so on, with their names in the environment; the token's is the

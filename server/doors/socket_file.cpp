@@ -47,7 +47,7 @@ tl::unexpected<Error> cannot_listen(const std::string& path, int error) {
   return cannot_listen(path, std::strerror(error));
 }
 
-/// Waits a little for another server that begins in this folder. Whoever may read the folder may hold the
+/// Waits a little for another server that begins in this folder. A user who may read the folder may hold the
 /// lock, so a start does not wait for long.
 Result<void> lock_folder(const std::string& path, int folder) {
   const auto until =

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <sys/wait.h>
+#include <termios.h>
 #include <unistd.h>
 #include <utility>
 #include <vector>
@@ -60,6 +61,17 @@ class TerminalProgram {
       }
       if (!read_more() || std::chrono::steady_clock::now() > end) return false;
     }
+  }
+  /// Likewise, and it reads keys: before, the terminal itself would take them, Ctrl-D for one.
+  bool prompts(std::string_view prompt) {
+    if (!shows(prompt)) return false;
+    const auto end = std::chrono::steady_clock::now() + patience;
+    termios modes{};
+    while (::tcgetattr(terminal_, &modes) == 0 && (modes.c_lflag & ICANON) != 0) {
+      if (std::chrono::steady_clock::now() > end) return false;
+      wait_a_moment();
+    }
+    return true;
   }
   /// Its exit status; -1: a signal ended it, or it does not end.
   int ends() {

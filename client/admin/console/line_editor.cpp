@@ -107,7 +107,6 @@ LineEditor::~LineEditor() {
 
 LineEditor::Typed LineEditor::read() {
   library_->dropped = false;
-  el_resize(library_->editor);  // the window may have another size by now
   int bytes = 0;
   const char* const line = el_gets(library_->editor, &bytes);
   if (library_->dropped) return {End::dropped};

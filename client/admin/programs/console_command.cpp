@@ -68,7 +68,7 @@ int Console::run_line(const std::string& line) {
 int Console::run_words(std::vector<std::string> words) const {
   CLI::App app("", "");
   AdminApp commands(app, settings_);
-  app.footer("Of the console: help SUBCOMMAND, and quit or exit.");
+  app.footer("The console has help SUBCOMMAND, quit and exit, too.");
   std::ranges::reverse(words);  // CLI11 takes them from the back
   try {
     app.parse(std::move(words));
