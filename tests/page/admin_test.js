@@ -14,6 +14,7 @@ const WIDE = { width: 1280, height: 800 }, PHONE = { width: 390, height: 844, to
 /** Of 32 bytes at most, as the protocol has names. */
 const HOSTILE = '<img src=x onerror=alert(1)>';
 const PARTS = ['overview', 'people', 'map', 'regions', 'settings', 'log', 'audit'];
+const END_MS = 60000;
 /** What a browser says of a server that is gone. */
 const EXPECTED = /WebSocket connection to .* failed|ERR_CONNECTION_REFUSED|Failed to load resource|GL Driver Message/;
 
@@ -163,7 +164,7 @@ test('the keyboard alone kicks a person whose name is markup, and takes back edi
   await page.keyboard.type('not <b>here</b>');
   await picture(page, 'admin_kick');
   await page.keyboard.press('Enter');
-  await visitor.ended;
+  await Promise.race([visitor.ended, new Promise((_, reject) => { setTimeout(() => reject(new Error('the session did not end')), END_MS).unref(); })]);
   assert.match(visitor.said.toString('latin1'), /not <b>here<\/b>/);
   await until(page, 'it is said', () => /was kicked/.test(document.querySelector('#said').textContent));
   await until(page, 'the person is gone', (name) => ![...document.querySelectorAll('#part-people td.name')].some((cell) => cell.textContent === name), HOSTILE);

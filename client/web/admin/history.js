@@ -245,11 +245,12 @@ export class History {
       return;  // a server that remembers nothing
     }
     this.#run.hidden = progress.undo === 0;
+    if (progress.undo === 0) return;
     write(this.#run_words, words_of_progress(progress));
     this.#run_bar.style.width = `${100 * (progress.bricks > 0 ? Math.min(progress.bricks_done / progress.bricks, 1) : 1)}%`;
     this.#stop.hidden = progress.over;
-    if (box || !progress.over) this.#on.changed(box);
-    if (progress.over && box) this.#refresh();
+    if (box) this.#on.changed(box);
+    if (box && progress.over) this.#refresh();
     if (!progress.over) this.#progress_timer = setTimeout(() => this.#follow_run(box), PROGRESS_MS);
   }
 }

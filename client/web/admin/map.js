@@ -38,7 +38,7 @@ export class MapPart {
     this.#main = main;
     this.#session = new Session(hello, { changed: () => this.#told(), joined: (welcome) => this.#joined(welcome), message: (kind) => this.#take(kind) });
     this.#view = new MapView(this.#tiles, { place: (place) => this.#place(place), box: (box) => this.#choose(box) });
-    this.#sounding = new Sounding(this.#session, () => this.#view.draw());
+    this.#sounding = new Sounding(this.#session, this.#tiles, () => this.#view.draw());
     this.#history = new History(main, {
       height: ({ x, z }) => this.#tiles.at(x, z)?.height, chosen: (box) => this.#view.mark({ chosen: box }), marks: (marks) => this.#view.mark(marks),
       go: (box) => this.#go(box), changed: (box) => this.#changed(box),
@@ -106,8 +106,7 @@ export class MapPart {
   }
 
   #joined(welcome) {
-    const { heights } = welcome;
-    this.#sounding.restart(heights ? (heights.lowest + heights.highest) / 512 : 0);
+    this.#sounding.restart(welcome.heights);
     for (const tile of this.#tiles.all()) tile.asked.clear();
     const digest = String(welcome.palette);
     if (digest === this.#palette.digest || welcome.palette.length === 0) return;

@@ -71,7 +71,7 @@ export class Painter {
   }
 
   #take_samples(tile) {
-    const step = spacing_of(tile.level), reach = tile.pass >= 2 ? 1 : tile.pass === 1 ? 2 : 4;
+    const step = spacing_of(tile.level), reach = tile.complete || tile.round > 0 ? 1 : tile.stride;
     for (let j = -1; j <= SIDE; ++j)
       for (let i = -1; i <= SIDE; ++i) {
         const own = this.#tiles.sample(tile.level, tile.x * SIDE + i, tile.z * SIDE + j), at = 4 * ((j + 1) * WITH_EDGE + i + 1);

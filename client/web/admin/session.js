@@ -83,18 +83,18 @@ export class Session {
   /** A request of the world, such as setRegion. */
   request(kind, value) { return this.#ask(kind, (request) => ({ request, ...value })); }
 
-  /** Questions about space: the Answer, also one that refuses all of them. */
-  query(questions) { return this.#ask('query', (query) => ({ query, questions })); }
+  /** Questions about space: the Answer, also one that refuses all of them. It may take long: the server works at them beside its ticks. */
+  query(questions) { return this.#ask('query', (query) => ({ query, questions }), 0); }
 
   tell(kind, value) {
     if (this.phase === 'joined') this.#send(kind, value);
   }
 
-  #ask(kind, fill) {
+  #ask(kind, fill, within_ms = ANSWER_MS) {
     if (this.phase !== 'joined') return Promise.reject(new Refused('There is no connection to the server now.', 'lost'));
     const number = ++this.#number;
     return new Promise((resolve, reject) => {
-      const late = setTimeout(() => this.#settle(number, () => reject(new Refused('The server did not answer in time.', 'late'))), ANSWER_MS);
+      const late = within_ms ? setTimeout(() => this.#settle(number, () => reject(new Refused('The server did not answer in time.', 'late'))), within_ms) : 0;
       this.#waiting.set(number, { resolve, reject, late });
       this.#send(kind, fill(number));
     });

@@ -1,15 +1,22 @@
-// Asks the server how high the ground is, by rays straight down, 64 a message, within its limits: questions are about what lies
+// Asks the server how high the ground is, by rays straight down, 64 a message, within its limits. Questions are about what lies
 // near the eye, so the eye of the connection goes from zone to zone, and looks at nothing (Interest) when there is nothing to ask.
-import { ROCK, VOID } from './tiles.js';
+//
+// What the server works for a ray is the air above the ground, which it makes chunk by chunk. So a ray begins a little above the
+// height that is known nearby, and again from higher where that was within rock.
+import { ROCK, VOID, spacing_of } from './tiles.js';
 
-/** Questions of a message, and of all that wait at once: under the server's 64 and 512, of which each message counts as one. */
-const AT_ONCE = 64, WAITING_MAX = 400;
+/** Questions of a message, and of all that wait at once: under the server's 64 and 512, and few, so that a map that moved need not wait long. */
+const AT_ONCE = 64, WAITING_MAX = 260;
 /** Questions a second, and saved up: under the server's 1,000 and 2,000. */
 const PER_SECOND = 900, SAVED_UP = 1500;
-/** A zone's side, how far rays go up and down from its middle, and the radius of interest: the corners lie within 1.25 times of it. */
-const ZONE_M = 256, RAY_M = 500, RADIUS_M = 256;
-/** Bands of heights that are tried: the middle one, then the one above where a ray starts in rock, or below where it hits nothing. */
+/** A zone's side, how far its rays go up and down from its eye, and the radius of interest: all of it lies within 1.25 times of that. */
+const ZONE_M = 256, UP_M = 255, RADIUS_M = 256;
+/** Bands of heights that overlap: the one in the middle, and one above and below, where what is looked for is there. */
 const BAND_M = 480;
+/** How far above the ground nearby a ray begins, and by how much more for each metre to there; and how much higher it is tried again. */
+const ABOVE_M = 6, ABOVE_EACH_M = 1.2, LIFTS_M = [0, 24, 96, 250, 500, 1000];
+/** Above this no generated ground reaches. */
+const GENERATED_TOP_M = 40;
 const AGAIN_MS = 400;
 const HALF_WIDTH_M = 4096;
 
@@ -17,32 +24,34 @@ const DOWN = { x: 0, y: -1, z: 0 };
 
 export class Sounding {
   #session;
+  #tiles;
   #changed;
-  #middle_y;
+  #middle_y = 0;
+  #top_y = GENERATED_TOP_M;
   #zone = '';
   #waiting = 0;
   #credit = SAVED_UP;
   #at_ms = performance.now();
   #pause_until_ms = 0;
   #looking = false;
-  #bands = new WeakMap();  // by tile: Map of sample → band
+  #tries = new WeakMap();  // by tile: by sample: {lifts, band} of those that one ray did not find
 
-  /** `changed(tile)`: samples came. */
-  constructor(session, changed) {
+  /** `changed()`: samples came. */
+  constructor(session, tiles, changed) {
     this.#session = session;
+    this.#tiles = tiles;
     this.#changed = changed;
   }
 
-  /** Of a new connection: the ground's middle height, as far as it is known. */
-  restart(middle_y) {
-    this.#middle_y = middle_y;
+  /** Of a new connection; `heights`: those of its welcome. */
+  restart(heights) {
+    this.#middle_y = heights ? (heights.lowest + heights.highest) / 512 : 0;
+    this.#top_y = heights ? heights.highest / 256 + ABOVE_M : GENERATED_TOP_M;
     this.#zone = '';
     this.#waiting = 0;
     this.#looking = false;
     this.#pause_until_ms = 0;
   }
-
-  get busy() { return this.#waiting > 0; }
 
   /** Asks for what these tiles lack, the first ones first; call it often. True: something is missing still. */
   step(tiles) {
@@ -50,9 +59,7 @@ export class Sounding {
     this.#credit = Math.min(this.#credit + PER_SECOND * (now_ms - this.#at_ms) / 1000, SAVED_UP);
     this.#at_ms = now_ms;
     if (this.#session.phase !== 'joined' || now_ms < this.#pause_until_ms) return true;
-    for (;;) {
-      const next = this.#next(tiles);
-      if (!next) break;
+    for (let next = this.#next(tiles); next; next = this.#next(tiles)) {
       if (this.#waiting + next.samples.length > WAITING_MAX || next.samples.length > this.#credit) return true;
       if (next.zone.key !== this.#zone) {
         if (this.#waiting > 0) return true;
@@ -64,11 +71,6 @@ export class Sounding {
     return this.#waiting > 0;
   }
 
-  #zone_of({ x, z }, band) {
-    const zx = Math.floor(x / ZONE_M), zz = Math.floor(z / ZONE_M);
-    return { key: `${zx}/${zz}/${band}`, eye: { x: (zx + 0.5) * ZONE_M, y: this.#middle_y + band * BAND_M, z: (zz + 0.5) * ZONE_M }, band };
-  }
-
   /** Up to 64 samples of one tile that lie in one zone: of the coarsest pass that is missing, in the zone of before if there is one. */
   #next(tiles) {
     const wanted = tiles.filter((tile) => tile.left.size > tile.asked.size);
@@ -78,23 +80,39 @@ export class Sounding {
     for (const tile of wanted) {
       if (tile.pass !== pass) continue;
       const groups = this.#groups(tile);
-      const here = groups.get(this.#zone);
-      if (here) return here;
+      if (groups.has(this.#zone)) return groups.get(this.#zone);
       first ??= groups.values().next().value;
     }
     return first;
   }
 
   #groups(tile) {
-    const groups = new Map(), bands = this.#bands.get(tile);
+    const groups = new Map(), tries = this.#tries.get(tile);
     for (const index of tile.left) {
       if (tile.asked.has(index)) continue;
-      const zone = this.#zone_of(tile.place(index), bands?.get(index) ?? 0);
+      const { lifts, band } = tries?.get(index) ?? { lifts: 0, band: 0 }, from_y = this.#start(tile, index) + LIFTS_M[lifts];
+      const zone = this.#zone_of(tile.place(index), band === 0 && from_y > this.#middle_y + UP_M ? 1 : band);
       const group = groups.get(zone.key) ?? { tile, zone, samples: [] };
       groups.set(zone.key, group);
-      if (group.samples.length < AT_ONCE) group.samples.push(index);
+      if (group.samples.length < AT_ONCE) group.samples.push({ index, from_y: Math.min(from_y, zone.eye.y + UP_M) });
     }
     return groups;
+  }
+
+  #zone_of({ x, z }, band) {
+    const zx = Math.floor(x / ZONE_M), zz = Math.floor(z / ZONE_M);
+    return { key: `${zx}/${zz}/${band}`, eye: { x: (zx + 0.5) * ZONE_M, y: this.#middle_y + band * BAND_M, z: (zz + 0.5) * ZONE_M }, band };
+  }
+
+  /** Where the ground nearby lets a ray begin. */
+  #start(tile, index) {
+    const known = tile.known(index), { x, z } = tile.place(index);
+    if (known >= 0 && tile.states[known] === ROCK) {
+      const other = tile.place(known);
+      return tile.heights[known] + ABOVE_M + ABOVE_EACH_M * Math.hypot(other.x - x, other.z - z);
+    }
+    const near = this.#tiles.at(x, z);
+    return near ? near.height + ABOVE_M + ABOVE_EACH_M * 4 * spacing_of(tile.level) : this.#top_y;
   }
 
   #look_at(zone) {
@@ -110,40 +128,36 @@ export class Sounding {
   }
 
   async #ask({ tile, zone, samples }) {
-    const from_y = zone.eye.y + RAY_M / 2;
-    const questions = samples.map((index) => {
+    const questions = samples.map(({ index, from_y }) => {
       const { x, z } = tile.place(index);
-      return { mask: { noPieces: true, noProps: true }, kind: { case: 'ray', value: { from: { x, y: from_y, z }, direction: DOWN, mostM: RAY_M } } };
+      return { mask: { noPieces: true, noProps: true }, kind: { case: 'ray', value: { from: { x, y: from_y, z }, direction: DOWN, mostM: from_y - zone.eye.y + UP_M } } };
     });
-    for (const index of samples) tile.asked.add(index);
+    for (const { index } of samples) tile.asked.add(index);
     this.#waiting += samples.length + 1;
     this.#credit -= samples.length;
-    const { round } = tile;
-    try {
-      const answer = await this.#session.query(questions);
-      if (tile.round !== round);
-      else if (answer.refusal.length) this.#again(tile, samples);
-      else answer.answers.forEach((one, i) => this.#take(tile, samples[i], zone.band, one));
-    } catch {
-      if (tile.round === round) this.#again(tile, samples);
-    }
+    const answer = await this.#session.query(questions).catch(() => null);
+    if (answer === null || answer.refusal.length) this.#again(tile, samples);
+    else answer.answers.forEach((one, i) => this.#take(tile, samples[i], zone.band, one));
     this.#waiting = Math.max(this.#waiting - samples.length - 1, 0);
-    this.#changed(tile);
+    this.#changed();
   }
 
   #again(tile, samples) {
-    for (const index of samples) tile.asked.delete(index);
+    for (const { index } of samples) tile.asked.delete(index);
     this.#pause_until_ms = performance.now() + AGAIN_MS;
   }
 
-  #take(tile, index, band, { kind, refusal }) {
-    const { x, z } = tile.place(index);
+  #take(tile, sample, band, { kind }) {
+    const { index } = sample, { x, z } = tile.place(index), refused = kind.case === 'refusal';
     if (kind.case === 'hit' && !kind.value.inside) return tile.set(index, ROCK, kind.value.place?.y ?? 0, kind.value.material);
-    const next = kind.case === 'hit' ? band + 1 : kind.case === 'nothing' ? band - 1 : band;
-    if (next === band && Math.max(Math.abs(x), Math.abs(z)) < HALF_WIDTH_M && refusal.length) return this.#again(tile, [index]);
-    if (next === band || Math.abs(next) > 1 || Math.sign(next) === -Math.sign(band)) return tile.set(index, VOID);
-    const bands = this.#bands.get(tile) ?? new Map();
-    this.#bands.set(tile, bands.set(index, next));
+    if (refused && Math.max(Math.abs(x), Math.abs(z)) < HALF_WIDTH_M) return this.#again(tile, [sample]);
+    const tries = this.#tries.get(tile) ?? new Map(), before = tries.get(index) ?? { lifts: 0, band: 0 };
+    const inside = kind.case === 'hit', next = inside ? { lifts: before.lifts + 1, band: 0 } : { lifts: before.lifts, band: band - 1 };
+    if (refused || (inside ? next.lifts >= LIFTS_M.length || before.band < 0 : next.band < -1)) {
+      tries.delete(index);
+      return tile.set(index, VOID);
+    }
+    this.#tries.set(tile, tries.set(index, next));
     tile.asked.delete(index);
   }
 }

@@ -1,11 +1,13 @@
 // The world from above as tiles of samples: how high the ground is, and what it is of. Without elements and without a connection.
 //
-// Level L has a sample each 2^L half metres; a tile has 32 × 32 of them. A tile is asked for in three passes, each four times as
-// fine as the one before, so that a coarse picture is there first.
+// Level L has a sample each 2^L half metres; a tile has 32 × 32 of them. A tile is asked for in passes, each finer than the one
+// before, so that a coarse picture is there first, and so that the height is known about where the next ones are asked for.
 
-export const SIDE = 32, FINEST_M = 0.5, LEVELS = 7, PASSES = 3;
+export const SIDE = 32, FINEST_M = 0.5, LEVELS = 7;
 /** Distance between the samples of a pass, in samples. */
-const STRIDES = [4, 2, 1];
+const STRIDES = [16, 4, 2, 1];
+/** Levels from this one on have no last pass: each of their samples costs the server as much as many of a finer level do. */
+const COARSE_LEVEL = 4;
 export const UNKNOWN = 0, ROCK = 1, VOID = 2;
 
 export const spacing_of = (level) => FINEST_M * 2 ** level;
@@ -28,17 +30,23 @@ export class Tile {
   states = new Uint8Array(SIDE * SIDE);
   /** Grows with each change; who draws it compares. */
   version = 0;
-  /** The pass that is asked for next; PASSES: all are there. */
+  /** The pass that is asked for next; as many as there are: the tile is complete. */
   pass = 0;
   /** Samples of that pass that have no answer yet. */
   left = new Set(NEW_IN[0]);
   /** Those among them that are being asked for. */
   asked = new Set();
-  /** How often it was asked for anew: answers to earlier questions count for nothing. */
+  /** How often all was asked for anew. */
   round = 0;
   used = 0;
+  #stale = false;
 
   constructor(level, x, z) { Object.assign(this, { level, x, z, key: `${level}/${x}/${z}` }); }
+
+  get passes() { return this.level < COARSE_LEVEL ? STRIDES.length : STRIDES.length - 1; }
+  get complete() { return this.pass >= this.passes; }
+  /** How far samples lie apart that are all there, in samples. */
+  get stride() { return STRIDES[Math.max(this.pass - 1, 0)]; }
 
   get lo_m() { return { x: this.x * tile_m(this.level), z: this.z * tile_m(this.level) }; }
 
@@ -54,11 +62,16 @@ export class Tile {
     this.asked.delete(index);
     this.left.delete(index);
     ++this.version;
-    while (this.left.size === 0 && this.pass < PASSES) this.left = new Set(NEW_IN[++this.pass]);
+    if (this.left.size > 0 || this.complete) return;
+    ++this.pass;
+    this.left = new Set(this.complete ? [] : NEW_IN[this.pass]);
+    if (this.complete && this.#stale) this.renew();
   }
 
-  /** All is asked for anew; what is known stays until then. */
+  /** All is asked for anew, as soon as it is complete; what is known stays until then. */
   renew() {
+    this.#stale = !this.complete;
+    if (this.#stale) return;
     this.pass = 0;
     this.left = new Set(NEW_IN[0]);
     this.asked.clear();
@@ -67,7 +80,8 @@ export class Tile {
 
   /** The sample, or the one of a coarser pass that stands for it; -1: nothing is known there. */
   known(index) {
-    for (const stride of [1, 2, 4]) {
+    for (let pass = STRIDES.length - 1; pass >= 0; --pass) {
+      const stride = STRIDES[pass];
       const i = index % SIDE, j = Math.floor(index / SIDE);
       const one = (j - j % stride) * SIDE + i - i % stride;
       if (this.states[one] !== UNKNOWN) return one;
