@@ -79,7 +79,7 @@ async function tab_to(page, words, key = 'Tab') {
   throw new Error(`"${words}" is not reached by ${key}`);
 }
 const nothing_is_shown = (page) => page.evaluate(() => document.querySelector('#tabs').hidden && document.querySelector('#parts').hidden
-  && !/127\.0\.0\.1|gravity|Vera/.test(document.querySelector('#parts').textContent));
+  && !/127\.0\.0\.1|air-drag|Vera/.test(document.querySelector('#parts').textContent));
 const text_of = (page, selector) => page.$eval(selector, (element) => element.textContent);
 
 test('without a token, with a wrong one and with a carver’s, nothing is shown or done', async () => {
@@ -228,18 +228,19 @@ test('settings, regions and bans: what is refused is said, what is done is shown
   const { page, close } = await open();
   await come_in(page);
   await show(page, 'settings');
-  await until(page, 'gravity', () => document.querySelector('#setting-gravity')?.value);
+  await until(page, 'air-drag', () => document.querySelector('#setting-air-drag')?.value);
   const set = async (value) => {
-    await page.$eval('#setting-gravity', (input) => { input.value = ''; });
-    await page.focus('#setting-gravity');
+    await page.$eval('#setting-air-drag', (input) => { input.value = ''; });
+    await page.focus('#setting-air-drag');
     await page.keyboard.type(value);
     await page.keyboard.press('Enter');
   };
   await set('1e9');
-  await until(page, 'the refusal', () => document.querySelector('#setting-gravity').closest('form').querySelector('.refused').textContent !== '');
+  await until(page, 'the refusal', () => document.querySelector('#setting-air-drag').closest('form').querySelector('.refused').textContent !== '');
   await picture(page, 'admin_setting');
+  assert.equal(await page.$$eval('.setting[data-changed]', (changed) => changed.length), 1);
   await set('5');
-  await until(page, 'it is set', () => /gravity is 5 now/.test(document.querySelector('#said').textContent));
+  await until(page, 'it is set', () => /air-drag is 5 now/.test(document.querySelector('#said').textContent));
 
   await show(page, 'regions');
   const fields = await page.$$('.region-form .fields input');

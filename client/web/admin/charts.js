@@ -1,9 +1,9 @@
-// Curves of the last hour, one below the other with one axis of time: a pointer, or the arrow keys, read all of them at one moment.
+// Curves of the last hour, or since the server's start, with one axis of time: a pointer, or the arrow keys, read all of them at one moment.
 import { make, write } from '../page/dom.js';
 
 const SPACE = 'http://www.w3.org/2000/svg';
 const WIDTH = 360, HEIGHT = 72, MARGIN = 3;
-const HOUR_MS = 3600000;
+const HOUR_MS = 3600000, SPAN_MIN_MS = 300000;
 
 function drawn(tag, attributes) {
   const element = document.createElementNS(SPACE, tag);
@@ -19,12 +19,12 @@ export function round_above(value) {
 }
 
 /** "M" and "L" of a path through the samples that have the number; a gap longer than `gap_ms` breaks it. */
-export function path_of(samples, number, first_ms, most, gap_ms = 25000) {
+export function path_of(samples, number, { first_ms, span_ms }, most, gap_ms = 25000) {
   let path = '', before = -Infinity;
   for (const sample of samples) {
     const value = number(sample);
     if (!Number.isFinite(value)) continue;
-    const x = WIDTH * (sample.at_ms - first_ms) / HOUR_MS, y = HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN) * Math.min(value / most, 1);
+    const x = WIDTH * (sample.at_ms - first_ms) / span_ms, y = HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN) * Math.min(value / most, 1);
     path += `${sample.at_ms - before > gap_ms ? 'M' : 'L'}${x.toFixed(1)},${y.toFixed(1)}`;
     before = sample.at_ms;
   }
@@ -50,11 +50,11 @@ class Chart {
     this.element = make('figure', { className: 'chart box' }, make('figcaption', {}, make('h3', {}, kind.title), ...keys, this.#now), make('div', { className: 'plot' }, svg, this.#top));
   }
 
-  draw(samples, first_ms) {
+  draw(samples, axis) {
     const all = this.#kind.curves.flatMap(({ number }) => samples.map(number).filter(Number.isFinite));
     const limit = this.#kind.limit?.();
     const most = round_above(Math.max(...all, this.#kind.least ?? 0, limit !== undefined && Math.max(...all) > limit / 4 ? limit : 0));
-    this.#kind.curves.forEach(({ number }, i) => this.#lines[i].setAttribute('d', path_of(samples, number, first_ms, most)));
+    this.#kind.curves.forEach(({ number }, i) => this.#lines[i].setAttribute('d', path_of(samples, number, axis, most)));
     write(this.#top, this.#kind.say(most));
     const shows = limit !== undefined && limit < most;
     const y = HEIGHT - MARGIN - (HEIGHT - 2 * MARGIN) * Math.min((limit ?? 0) / most, 1);
@@ -63,11 +63,11 @@ class Chart {
   }
 
   /** Reads it at that sample; `hand`: shows where that is. */
-  read(sample, first_ms, hand) {
+  read(sample, { first_ms, span_ms }, hand) {
     write(this.#now, sample ? this.#kind.curves.map(({ number }) => (Number.isFinite(number(sample)) ? this.#kind.say(number(sample)) : '–')).join(' / ') : '–');
     this.#hand.setAttribute('visibility', sample && hand ? 'visible' : 'hidden');
     if (!sample) return;
-    const x = WIDTH * (sample.at_ms - first_ms) / HOUR_MS;
+    const x = WIDTH * (sample.at_ms - first_ms) / span_ms;
     for (const end of ['x1', 'x2']) this.#hand.setAttribute(end, x);
   }
 }
@@ -75,7 +75,7 @@ class Chart {
 export class Charts {
   #charts;
   #samples = [];
-  #first_ms = 0;
+  #axis = { first_ms: 0, span_ms: HOUR_MS };
   #read = null;  // the time that is read; null: the newest
   #moment = make('p', { className: 'dim moment' });
 
@@ -92,8 +92,9 @@ export class Charts {
 
   show(samples, now_ms) {
     this.#samples = samples;
-    this.#first_ms = now_ms - HOUR_MS;
-    for (const chart of this.#charts) chart.draw(samples, this.#first_ms);
+    const span_ms = Math.min(Math.max(now_ms - (samples[0]?.at_ms ?? now_ms), SPAN_MIN_MS), HOUR_MS);
+    this.#axis = { first_ms: now_ms - span_ms, span_ms };
+    for (const chart of this.#charts) chart.draw(samples, this.#axis);
     this.#at(this.#read);
   }
 
@@ -101,14 +102,14 @@ export class Charts {
     this.#read = time_ms;
     const sample = time_ms === null ? this.#samples.at(-1)
       : this.#samples.reduce((best, one) => (!best || Math.abs(one.at_ms - time_ms) < Math.abs(best.at_ms - time_ms) ? one : best), null);
-    for (const chart of this.#charts) chart.read(sample, this.#first_ms, time_ms !== null);
-    const moment = !sample ? 'The server has no figures yet: one comes every 10 s.' : time_ms === null ? 'now; a line is a quarter of an hour; point at a curve to read it earlier' : `at ${new Date(sample.at_ms).toLocaleTimeString()}`;
+    for (const chart of this.#charts) chart.read(sample, this.#axis, time_ms !== null);
+    const moment = !sample ? 'The server has no figures yet: one comes every 10 s.' : time_ms === null ? `now; the left edge is ${Math.round(this.#axis.span_ms / 60000)} min ago; point at a curve to read it there` : `at ${new Date(sample.at_ms).toLocaleTimeString()}`;
     write(this.#moment, moment);
   }
 
   #point(event) {
     const plot = event.target.closest('.plot')?.getBoundingClientRect();
-    if (plot) this.#at(this.#first_ms + HOUR_MS * (event.clientX - plot.left) / plot.width);
+    if (plot) this.#at(this.#axis.first_ms + this.#axis.span_ms * (event.clientX - plot.left) / plot.width);
   }
 
   #key(event) {

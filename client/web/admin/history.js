@@ -4,7 +4,10 @@ import { span, whole } from '../page/words.js';
 import { attempt, confirm, field, say } from './ask.js';
 import { bytes_of, text_of } from './wire.js';
 
+const GAP_S = 60;
 const EVERY_MS = 5000, PROGRESS_MS = 500;
+/** Edits of one answer (limits::history_lines_max). */
+const EDITS_MAX = 200;
 const HALF_HEIGHT_M = 512, HALF_WIDTH_M = 4096, NEAR_SURFACE_M = 64;
 const SINCE = [['10 minutes ago', 600], ['an hour ago', 3600], ['a day ago', 86400], ['the beginning', 0]];
 /** UndoMode of proto/access.proto. */
@@ -18,6 +21,28 @@ export function by_of({ by, name, session }) {
   const undo = /^undo (\d+)/.exec(by);
   if (undo) return `undo:${undo[1]}`;
   return name || (session === undefined ? by : `session:${session}`);
+}
+
+/**
+ * Edits that follow each other by one person, as one row: what follows from an edit is that person's, too, and there are many.
+ * Of each: how many of its `kinds`, the ticks of the `first` and the `last`, and the box that all lie in.
+ */
+export function grouped(edits, gap_ticks) {
+  const groups = [];
+  for (const edit of edits) {
+    const group = groups.at(-1);
+    if (group?.by !== edit.by || group.first - edit.tick > gap_ticks) {
+      groups.push({ ...edit, kinds: { [edit.kind]: 1 }, first: edit.tick, last: edit.tick });
+      continue;
+    }
+    group.kinds[edit.kind] = (group.kinds[edit.kind] ?? 0) + 1;
+    group.bricks += edit.bricks;
+    group.pieces += edit.pieces;
+    group.first = edit.tick;
+    group.lo_m = group.lo_m.map((one, i) => Math.min(one, edit.lo_m[i]));
+    group.hi_m = group.hi_m.map((one, i) => Math.max(one, edit.hi_m[i]));
+  }
+  return groups;
 }
 
 /** What a preview says, in words. */
@@ -41,7 +66,7 @@ export class History {
   #session;
   #on;
   #rate_hz = 60;
-  #edits = [];
+  #groups = [];
   #timer = 0;
   #progress_timer = 0;
   #preview = null;
@@ -77,7 +102,7 @@ export class History {
     for (const input of [this.#who, this.#since, this.#tick]) input.addEventListener('change', () => this.#filtered());
     this.#everywhere.addEventListener('click', () => this.choose(null));
     this.#stop.addEventListener('click', () => attempt(() => this.#undo(STOP), 'The undo stops.'));
-    for (const end of ['pointerleave', 'focusout']) this.#list.addEventListener(end, () => this.#on.marks({ lit: -1 }));
+    for (const end of ['pointerleave', 'focusout']) this.#list.addEventListener(end, () => this.#on.marks({ lit: null }));
     this.element.append(form, make('div', { className: 'row heading' }, make('h3', {}, 'Who edited there'), this.#state), this.#list);
     this.choose(null);
   }
@@ -154,28 +179,30 @@ export class History {
   }
 
   #show(edits, tick) {
-    const ago = (edit) => `${span(Math.max(tick - edit.tick, 0) / this.#rate_hz)} ago`;
+    const ago = (group) => `${span(Math.max(tick - group.last, 0) / this.#rate_hz)} ago`;
     const shown = JSON.stringify(edits);
-    write(this.#state, edits.length === 0 ? 'Nobody, as far as this server remembers.' : `${edits.length}${edits.length >= 200 ? ' newest' : ''} edits`);
+    write(this.#state, edits.length === 0 ? 'Nobody, as far as this server remembers.' : `${edits.length}${edits.length >= EDITS_MAX ? ' newest' : ''} edits`);
     if (shown !== this.#list.dataset.shown) {
       this.#list.dataset.shown = shown;
-      this.#edits = edits;
+      this.#groups = grouped(edits, GAP_S * this.#rate_hz);
       const focused = [...this.#list.querySelectorAll('button')].indexOf(document.activeElement);
-      this.#list.replaceChildren(...edits.map((edit, i) => this.#item(edit, i)));
+      this.#list.replaceChildren(...this.#groups.map((group) => this.#item(group)));
       if (focused >= 0) this.#list.querySelectorAll('button')[focused]?.focus({ preventScroll: true });
-      this.#on.marks({ edits: edits.map(flat), lit: -1 });
+      this.#on.marks({ edits: edits.map(flat), lit: null });
     }
-    this.#list.querySelectorAll('.ago').forEach((element, i) => write(element, ago(edits[i])));
+    this.#list.querySelectorAll('.ago').forEach((element, i) => write(element, ago(this.#groups[i])));
   }
 
-  #item(edit, i) {
-    const go = make('button', { type: 'button', className: 'edit', aria: { label: `${edit.by}, ${edit.kind}, ${edit.bricks} bricks: show on the map` } },
-      make('b', {}, edit.by), make('span', {}, `${edit.kind}, ${whole(edit.bricks)} bricks, ${whole(edit.pieces)} pieces`), make('span', { className: 'ago dim' }));
-    const back = make('button', { type: 'button', title: 'Preview an undo of this person’s edits', aria: { label: `Preview an undo of the edits of ${edit.by}` } }, 'Undo…');
-    go.addEventListener('click', () => this.#on.go(flat(this.#edits[i])));
-    for (const event of ['focus', 'pointerenter']) go.addEventListener(event, () => this.#on.marks({ lit: i }));
+  #item(group) {
+    const { by, bricks, pieces } = group;
+    const what = Object.entries(group.kinds).map(([kind, count]) => `${whole(count)} ${count === 1 ? kind.replace(/s$/, '') : kind}`).join(', ');
+    const go = make('button', { type: 'button', className: 'edit', aria: { label: `${by}: ${what}; show on the map` } },
+      make('b', { title: by }, by), make('span', { className: 'ago dim' }), make('span', {}, `${what}: ${whole(bricks)} bricks, ${whole(pieces)} pieces`));
+    const back = make('button', { type: 'button', title: 'Preview an undo of this person’s edits', aria: { label: `Preview an undo of the edits of ${by}` } }, 'Undo…');
+    go.addEventListener('click', () => this.#on.go(flat(group)));
+    for (const event of ['focus', 'pointerenter']) go.addEventListener(event, () => this.#on.marks({ lit: flat(group) }));
     back.addEventListener('click', () => {
-      this.#who.value = by_of(edit);
+      this.#who.value = by_of(group);
       this.#filtered();
       this.#ask_preview();
     });
@@ -230,7 +257,9 @@ export class History {
     if (!begun) return;
     say(`Undo ${begun.undo} takes back ${whole(begun.bricks)} bricks and ${whole(begun.pieces)} pieces.`);
     const box = begun.bricks > 0 ? flat(begun) : null;
-    this.#forget_preview();
+    this.#who.value = '';
+    this.#tick.value = '';
+    this.#filtered();
     this.#follow_run(box);
   }
 

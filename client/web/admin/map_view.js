@@ -34,7 +34,7 @@ export class MapView {
   #drag = null;      // {x, z, px, py, box, moved}: where it began
   #pinch = null;
   #corner = null;    // of a box that the keys began
-  #marks = { regions: [], edits: [], previews: [], chosen: null, lit: -1 };
+  #marks = { regions: [], edits: [], previews: [], chosen: null, lit: null };
   #drawing = false;
   #readout = make('p', { className: 'readout' });
   #scale = make('div', { className: 'scale', aria: { hidden: 'true' } });
@@ -125,7 +125,7 @@ export class MapView {
     this.draw();
   }
 
-  /** Boxes as {lo, hi}: `regions` with their `name` and `round`, `edits` of the history, `previews` of an undo; the `chosen` box or place; `lit`: the edit that is pointed at. */
+  /** Boxes as {lo, hi}: `regions` with their `name` and `round`, `edits` of the history, `previews` of an undo; the `chosen` box or place; `lit`: the row that is pointed at. */
   mark(marks) {
     Object.assign(this.#marks, marks);
     this.draw();
@@ -293,9 +293,9 @@ export class MapView {
       const [x, y] = this.#pixel({ x: (region.lo.x + region.hi.x) / 2, z: region.lo.z });
       this.#label(context, region.name, x, y - 6, INK.region);
     }
-    edits.forEach((edit, i) => { if (i !== lit) this.#outline(context, edit, INK.edit, { fill: 'rgb(255 210 122 / 12%)' }); });
+    for (const edit of edits) this.#outline(context, edit, INK.edit, { fill: 'rgb(255 210 122 / 12%)' });
     for (const preview of previews) this.#outline(context, preview, INK.preview, { fill: 'rgb(255 122 102 / 30%)', width: 2 });
-    if (edits[lit]) this.#outline(context, edits[lit], '#fff3d6', { fill: 'rgb(255 243 214 / 35%)', width: 3 });
+    if (lit) this.#outline(context, lit, '#fff3d6', { fill: 'rgb(255 243 214 / 35%)', width: 3 });
     for (const box of [chosen, growing]) if (box) this.#outline(context, box, INK.chosen, { width: 2, dash: box === growing ? [4, 4] : [] });
   }
 

@@ -71,7 +71,7 @@ export class Overview {
     const refused = status.refusals.reduce((sum, { count }) => sum + Number(count), 0);
     const saving = text_of(status.saving);
     write(this.#saved, `${saving ? `Saved up to tick ${whole(Number(status.savedTick))} of ${whole(Number(status.tick))} (${saving}).` : 'The world ends with the server: it has no file.'} `
-      + `${whole(refused)} requests and sessions were refused since the start.`);
+      + `Refused since the start: ${whole(refused)}.`);
     this.#saved.toggleAttribute('data-bad', saving === 'retrying');
   }
 

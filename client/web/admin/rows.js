@@ -31,7 +31,10 @@ export class Rows {
         this.#shown.set(one, shown);
       }
       shown.row = row;
-      for (const [cell, text] of shown.texts) write(cell, text(row));
+      for (const [cell, text] of shown.texts) {
+        write(cell, text(row));
+        if (cell.classList.contains('name')) cell.title = text(row);
+      }
       if (this.#body.children[place] !== shown.line) this.#body.insertBefore(shown.line, this.#body.children[place] ?? null);
     });
     this.#none.hidden = rows.length > 0;

@@ -28,6 +28,7 @@ class Row {
     const id = `setting-${name}`;
     this.#input = choices ? make('select', { id }, ...choices.map((one) => make('option', { value: String(one) }, String(one))))
       : make('input', { id, type: 'text', maxLength: TEXT_BYTES_MAX, autocomplete: 'off', spellcheck: false, inputMode: least === undefined ? 'text' : 'decimal' });
+    this.#now = this.#input.value;
     const bounds = make('small', { id: `${id}-bounds` }, bounds_of(setting));
     this.#input.setAttribute('aria-describedby', bounds.id);
     this.element = make('form', { className: 'setting' }, make('label', { htmlFor: id }, name), make('p', { className: 'dim' }, help), make('div', { className: 'row' }, this.#input, this.#set), bounds, this.#words);
