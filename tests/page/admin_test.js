@@ -28,6 +28,7 @@ before(async () => {
   admin = made_token('admin', 'Host');
   carver = made_token('carver', 'Vera');
   server = await host(options());
+  await run('scree-bot', ['--port', String(server.port), '--token', carver, '--carves', '4', '--rate', '4', '--seed', '7', '--linger']);
   browser = await launch();
 });
 after(async () => {
@@ -106,7 +107,6 @@ test('without a token, with a wrong one and with a carver’s, nothing is shown 
 });
 
 test('an administrator sees the server, in two sizes', async () => {
-  await run('scree-bot', ['--port', String(server.port), '--token', carver, '--carves', '4', '--rate', '4', '--seed', '7', '--linger']);
   const visitor = await visit(server.port, { name: 'Ben' });
   for (const [name, size] of Object.entries({ wide: WIDE, phone: PHONE })) {
     const { page, complaints, close } = await open(size);
