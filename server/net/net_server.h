@@ -181,7 +181,7 @@ class NetServer {
   NetStats stats() const;
   /// The latency of requests that a tick answered, since the start. From any thread.
   LatencyCounts latency() const;
-  /// Of the ticks since the last call. From any thread.
+  /// As of the ticks since the last call. From any thread.
   NetLoad load() const;
   /// Positions of the clients' eyes as of the last tick that was sent; metres. From any thread.
   std::vector<glm::vec3> eyes_m() const;
