@@ -2,6 +2,10 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
+import { path_of, round_above } from './admin/charts.js';
+import { scale_of } from './admin/map_view.js';
+import { light_of } from './admin/paint.js';
+import { ROCK, SIDE, Tile, Tiles, UNKNOWN, VOID, level_for, spacing_of, tile_m } from './admin/tiles.js';
 import { AddressBar, at_port, format, parse } from './page/address.js';
 import { Backoff } from './page/backoff.js';
 import { all, brief } from './page/figures.js';
@@ -568,4 +572,64 @@ test('scripts of a game hear what comes, and send bytes', () => {
   assert.deepEqual(sent, [['shop', [0xc3, 0xbc]], ['shop', [2, 1]], ['shop', [8]]]);
   assert.throws(() => game.on('else', () => {}), TypeError);
   assert.throws(() => game.send('shop', 7), TypeError);
+});
+
+/** Gives each sample that the tile asks for a height, until it is complete; how many it asked for. */
+function fill(tile, height) {
+  let asked = 0;
+  for (let index = [...tile.left][0]; index !== undefined; index = [...tile.left][0]) {
+    tile.set(index, ROCK, height, 1);
+    ++asked;
+  }
+  return asked;
+}
+
+test('a tile of the map asks for each sample once, the coarse ones first', () => {
+  const tile = new Tile(1, 0, 0);
+  assert.equal(tile.left.size, 4);
+  for (const index of [...tile.left]) tile.set(index, ROCK, 5);
+  assert.equal(tile.known(SIDE * SIDE - 1), 16 * SIDE + 16);
+  assert.equal(fill(tile, 7), SIDE * SIDE - 4);
+  assert.ok(tile.complete);
+  assert.equal(tile.known(SIDE * SIDE - 1), SIDE * SIDE - 1);
+  const coarse = new Tile(6, 0, 0);
+  assert.equal(fill(coarse, 7), SIDE * SIDE / 4);
+});
+
+test('a tile that is asked for anew keeps what is known, and ends what it had begun first', () => {
+  const tile = new Tile(0, 2, -1);
+  assert.deepEqual(tile.place(0), { x: 2 * tile_m(0) + 0.25, z: -tile_m(0) + 0.25 });
+  tile.set([...tile.left][0], VOID);
+  tile.renew();
+  assert.equal(tile.round, 0);
+  while (tile.round === 0) tile.set([...tile.left][0], ROCK, 3);
+  assert.equal(tile.left.size, 4);
+  assert.ok(tile.states.every((state) => state !== UNKNOWN));
+  fill(tile, 4);
+  assert.ok(tile.complete && tile.round === 1);
+});
+
+test('tiles are found by place on both sides of the origin, and asked for anew where something changed', () => {
+  const tiles = new Tiles();
+  const seen = tiles.within(0, { lo: { x: -1, z: -1 }, hi: { x: 1, z: 1 } }, true);
+  assert.deepEqual(seen.map(({ key }) => key), ['0/-1/-1', '0/0/-1', '0/-1/0', '0/0/0']);
+  for (const tile of seen) fill(tile, tile.x + 10);
+  assert.deepEqual(tiles.at(-0.1, 3), { height: 9, material: 1 });
+  assert.equal(tiles.at(100, 0), null);
+  assert.equal(tiles.sample(0, -1, 0).height, 9);
+  tiles.renew({ lo: { x: 2, z: 2 }, hi: { x: 3, z: 3 } });
+  assert.deepEqual(seen.map(({ complete }) => complete), [true, true, true, false]);
+});
+
+test('the map has round scales, levels by zoom, and light from the north-west', () => {
+  assert.deepEqual(scale_of(0.5, 160), { metres: 50, pixels: 100, text: '50 m' });
+  assert.equal(scale_of(20, 160).text, '2 km');
+  for (const per_pixel of [0.05, 0.4, 3]) assert.ok(Math.abs(Math.log2(spacing_of(level_for(per_pixel)) / (8 * per_pixel))) <= 1);
+  assert.ok(light_of(0, 1, 0, 1, 2) > light_of(0, 0, 0, 0, 2) && light_of(1, 0, 1, 0, 2) < light_of(0, 0, 0, 0, 2));
+});
+
+test('a curve breaks where samples are missing, and its top is a round number', () => {
+  assert.deepEqual([0, 0.3, 7, 10, 11].map(round_above), [1, 0.5, 10, 10, 20]);
+  const samples = [0, 10000, 90000].map((at_ms) => ({ at_ms, ms: 1 }));
+  assert.equal(path_of(samples, ({ ms }) => ms, { first_ms: 0, span_ms: 100000 }, 2).replace(/[^ML]/g, ''), 'MLM');
 });

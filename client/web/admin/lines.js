@@ -11,7 +11,7 @@ const rank = (level) => Math.max(LEVELS.indexOf(String(level).toLowerCase().repl
 
 export const LOG = {
   kind: 'log', title: 'Log', none: 'The log has no lines yet.',
-  cells: ({ time, level, part, session, message }) => [['at', time_of(time)], ['level', level ?? ''], ['part', part ?? ''], ['text', `${session === undefined ? '' : `#${session} `}${message ?? ''}`]],
+  cells: ({ time, level, part, session, message }) => [['at', time_of(time)], ['level', level ?? ''], ['part', part ?? ''], ['text', `${session === undefined || String(message).startsWith(`session ${session}`) ? '' : `#${session} `}${message ?? ''}`]],
   level: ({ level }) => rank(level), levels: ['everything', 'info', 'warn', 'error'],
 };
 export const AUDIT = {

@@ -68,18 +68,22 @@ function ask_token(why) {
   if (document.activeElement !== $('token')) $('token').focus();
 }
 
+/** A token that does not hold is kept no longer: the server takes each attempt with one for a guess. */
+const is_void = (name) => name.startsWith('token_') && name !== 'token_missing' && name !== 'token_guesses';
+
 /** Says how the connection is. */
 function tell() {
-  const { phase, why, retry_at_ms } = session;
+  const { phase, why, why_name, retry_at_ms } = session;
   const left_s = Math.max(Math.ceil((retry_at_ms - performance.now()) / 1000), 0);
   const words = {
     off: 'Not connected', connecting: 'Asking the server', joined: 'Connected', refused: 'Not let in',
-    lost: `The connection is lost, next attempt in ${left_s} s.${why ? ` ${why}` : ''}`,
+    lost: `The connection is lost, next attempt in ${left_s} s${why ? ` (${why})` : ''}`,
   };
   write($('state'), words[phase]);
   $('state').dataset.well = { joined: 'yes', connecting: '' }[phase] ?? 'no';
   $('retry').hidden = phase !== 'lost';
   document.body.toggleAttribute('data-lost', phase === 'lost' || phase === 'connecting');
+  if (phase === 'refused' && is_void(why_name)) token.keep('');
   if (phase === 'refused' && $('ask').hidden) ask_token(why);
 }
 

@@ -10,7 +10,7 @@ const EVERY_MS = 3000;
 const MINUTES_MAX = 5256000, REASON_BYTES_MAX = 256;
 
 const who = ({ session, name }) => (name ? `${name} (session ${session})` : `session ${session}`);
-const minutes_field = { name: 'minutes', label: 'For so many minutes', type: 'number', min: 0, max: MINUTES_MAX, step: 1, value: '60', help: '0: until it is lifted' };
+const minutes_field = { name: 'minutes', label: 'For so many minutes', type: 'number', required: true, min: 0, max: MINUTES_MAX, step: 1, value: '60', help: '0: until it is lifted' };
 const reason_field = (help) => ({ name: 'reason', label: 'Reason', maxLength: REASON_BYTES_MAX, placeholder: 'may be empty', help });
 
 export class People {
@@ -71,7 +71,7 @@ export class People {
 
   #ban_form() {
     const address = make('input', { type: 'text', required: true, maxLength: 64, placeholder: '203.0.113.9', autocomplete: 'off', spellcheck: false });
-    const minutes = make('input', { type: 'number', min: 0, max: MINUTES_MAX, step: 1, value: '60' });
+    const minutes = make('input', { type: 'number', required: true, min: 0, max: MINUTES_MAX, step: 1, defaultValue: '60' });
     const reason = make('input', { type: 'text', maxLength: REASON_BYTES_MAX });
     const form = make('form', { className: 'row fields' }, field('Ban an address', address), field('Minutes (0: until lifted)', minutes), field('Reason', reason), make('button', { type: 'submit' }, 'Ban'));
     form.addEventListener('submit', async (event) => {

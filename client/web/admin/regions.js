@@ -98,7 +98,7 @@ class RegionForm {
   #teams = make('input', { type: 'text', placeholder: 'red', autocomplete: 'off' });
   #tells = make('input', { type: 'checkbox' });
   #counts = make('input', { type: 'checkbox' });
-  #lasts = make('input', { type: 'number', min: 0, max: LASTS_MAX_S, step: 'any', value: '0' });
+  #lasts = make('input', { type: 'number', min: 0, max: LASTS_MAX_S, step: 'any', defaultValue: '0' });
   #words = make('p', { className: 'refused', role: 'alert' });
   #fields;
 
