@@ -48,9 +48,7 @@ Result<void> LiveServer::State::open() {
                 hex_of(given) + " (--ground)");
   pass_on_hooks();
   TRY(open_history());
-  TRY(open_audit());
-  config.net.status = [this](const NetFigures& figures) { return status(figures); };
-  config.net.metrics = [this](const NetFigures& figures) { return metrics(figures); };
+  TRY(open_records());
   config.net.health = [this] { return health(); };
   config.net.checked = [this](double now_s) { check_heartbeat(now_s); };
   config.net.takes_cursors = !config.record_path.empty();
@@ -218,12 +216,15 @@ void LiveServer::State::tell_memory_limit() const {
           wanted_mb, limit_mb);
 }
 
-/// A replay, and a world that ends with its server, have no file of it.
-Result<void> LiveServer::State::open_audit() {
+/// What operators and administrators read. A replay, and a world that ends with its server, have no file of
+/// what administrators did.
+Result<void> LiveServer::State::open_records() {
   const bool kept = saved_world != nullptr && !saved_world->is_temporary();
   audit = std::make_unique<AuditTrail>(TRY(AuditTrail::open(kept ? saved_world->path() + ".audit" : "")));
   config.net.records = {[this](LinesOf of) { return lines(of); },
                         [this](const std::string& who, const std::string& act) { audit->add(who, act); }};
+  config.net.status = [this](const NetFigures& figures) { return status(figures); };
+  config.net.metrics = [this](const NetFigures& figures) { return metrics(figures); };
   return {};
 }
 

@@ -46,7 +46,7 @@ struct LiveServer::State {
   Result<void> open_recorder();
   Result<void> open_events();
   Result<void> open_history();
-  Result<void> open_audit();
+  Result<void> open_records();
   void tell_memory_limit() const;
   std::vector<std::string> lines(LinesOf of) const;
   std::vector<std::string> setting_lines() const;

@@ -238,11 +238,7 @@ Result<void> HistoryFile::put(const Author& author) {
 Result<void> HistoryFile::put(const EditRow& edit) {
   auto& last = state_->last_undo;
   if (is_undo(edit.author) && last && last->second.author == edit.author) {
-    EditRow all = last->second;
-    all.lo = {std::min(all.lo.x, edit.lo.x), std::min(all.lo.y, edit.lo.y), std::min(all.lo.z, edit.lo.z)};
-    all.hi = {std::max(all.hi.x, edit.hi.x), std::max(all.hi.y, edit.hi.y), std::max(all.hi.z, edit.hi.z)};
-    all.bricks += edit.bricks;
-    all.pieces += edit.pieces;
+    const EditRow all = together(last->second, edit);
     const std::array<int64_t, 5> columns{last->first, key_of(all.lo), key_of(all.hi), all.bricks, all.pieces};
     TRY(state_->database.run(state_->extend_edit, columns));
     last->second = all;

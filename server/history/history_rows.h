@@ -1,6 +1,7 @@
 // What a history keeps: who edited, what, where, and what bricks were before. Plain values.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -43,6 +44,15 @@ struct EditRow {
   uint32_t bricks = 0;
   uint32_t pieces = 0;  ///< that it made
 };
+
+/// One row for both, of the first's tick.
+inline EditRow together(EditRow all, const EditRow& more) {
+  all.lo = {std::min(all.lo.x, more.lo.x), std::min(all.lo.y, more.lo.y), std::min(all.lo.z, more.lo.z)};
+  all.hi = {std::max(all.hi.x, more.hi.x), std::max(all.hi.y, more.hi.y), std::max(all.hi.z, more.hi.z)};
+  all.bricks += more.bricks;
+  all.pieces += more.pieces;
+  return all;
+}
 
 /// A run of edits of a brick by one author, and what the brick was before the first.
 struct ImageRow {

@@ -97,7 +97,7 @@ void Administration::set(ClientSession& session, uint32_t request, SettingsReque
   }
   std::string changes;
   for (const SettingValue& setting : asked.settings) changes += " " + setting.name + "=" + setting.value;
-  if (requests_.pass(session, {session.id(), request, asked})) note_asked(session, request, "sets" + changes);
+  if (requests_.pass(session, {session.id(), request, asked})) note_later(session, request, "sets" + changes);
 }
 
 Result<void> Administration::find_here(const ClientSession& session, SettingsRequest& asked) const {
@@ -132,7 +132,14 @@ void Administration::note(const std::string& author, const std::string& act, uin
   if (records_.acted) records_.acted(author, act);
 }
 
-void Administration::note_asked(const ClientSession& session, uint32_t request, std::string act) {
+void Administration::note_asked(const ClientSession& session, uint32_t request, const Request& body) {
+  if (const auto* set = std::get_if<SetRegionRequest>(&body))
+    note_later(session, request, "sets the region " + set->region.name);
+  if (const auto* gone = std::get_if<RemoveRegionRequest>(&body))
+    note_later(session, request, "removes the region " + gone->name);
+}
+
+void Administration::note_later(const ClientSession& session, uint32_t request, std::string act) {
   asked_[{session.id(), request}] = {author_of(session), std::move(act)};
 }
 
@@ -206,7 +213,7 @@ AdminListMessage Administration::flight(const ListFlightRequest& request) const 
   return message;
 }
 
-/// Of the newest as many as were asked for, and as the text holds.
+/// The newest, as many as were asked for and as the text holds.
 AdminListMessage Administration::lines(const ListLinesRequest& request) const {
   AdminListMessage message;
   if (!records_.lines) return message;

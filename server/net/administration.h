@@ -43,18 +43,21 @@ class Administration {
         publisher_(publisher) {}
 
   /// From now on.
-  void set_flight(FlightReports flight) { flight_ = std::move(flight); }
-  void set_records(HostRecords records) { records_ = std::move(records); }
+  void set_reports(FlightReports flight, HostRecords records) {
+    flight_ = std::move(flight);
+    records_ = std::move(records);
+  }
   /// Handles a request. The error is a wrong admin token's, and ends the session.
   tl::expected<void, Refused> administer(ClientSession& session, const AdminMessage& message);
-  /// A request that is noted once a tick has carried it out, in these words.
-  void note_asked(const ClientSession& session, uint32_t request, std::string act);
+  /// A request is on its way to the world. One that changes regions is noted once a tick has carried it out.
+  void note_asked(const ClientSession& session, uint32_t request, const Request& body);
   /// Notes those that this tick carried out.
   void note_done(const TickDelta& delta);
   /// Takes what was changed in the file of bans by hand, and ends the sessions that it refuses.
   void read_bans_again();
 
  private:
+  void note_later(const ClientSession& session, uint32_t request, std::string act);
   void set(ClientSession& session, uint32_t request, SettingsRequest asked);
   /// A spawn that is "here", or "here SESSION", as the place of that person's eye.
   Result<void> find_here(const ClientSession& session, SettingsRequest& asked) const;

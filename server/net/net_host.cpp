@@ -43,13 +43,6 @@ PublisherConfig publisher_config(const NetConfig& config) {
           config.models};
 }
 
-/// What administrators and directors do with regions, in words; empty: it is something else.
-std::string act_on_regions(const Request& body) {
-  if (const auto* set = std::get_if<SetRegionRequest>(&body)) return "sets the region " + set->region.name;
-  if (const auto* gone = std::get_if<RemoveRegionRequest>(&body)) return "removes the region " + gone->name;
-  return {};
-}
-
 /// Where strangers come by a proxy or under a name, a connection from loopback may be anybody's: then it has
 /// no more rights than another.
 Door::Rules door_rules(const NetConfig& config) {
@@ -82,8 +75,7 @@ NetHost::NetHost(const NetConfig& config, CommandQueue& commands)
       publisher_(publisher_config(config_), workers_),
       flush_queue_(context_, workers_, config_.tick_rate_hz),
       timer_(context_) {
-  administration_.set_flight(config_.flight);
-  administration_.set_records(config_.records);
+  administration_.set_reports(config_.flight, config_.records);
 }
 
 Result<void> NetHost::listen() {
@@ -257,9 +249,7 @@ tl::expected<void, Refused> NetHost::ask(ClientSession& session, uint32_t reques
   if (!entry.administers || !shape_of(body)) {
     const auto from = look_from_person(publisher_.state(), service_, session.id(), body, entry);
     if (from || config_.replay) {
-      if (requests_.ask(session, request, body))
-        if (std::string act = act_on_regions(body); !act.empty())
-          administration_.note_asked(session, request, std::move(act));
+      if (requests_.ask(session, request, body)) administration_.note_asked(session, request, body);
     } else {
       ++figures_.counts().requests;
       requests_.refuse(session, request, from.error());

@@ -15,7 +15,17 @@ namespace scree {
 /// What a fault is about: everything; what was promised to those who are there; newcomers.
 enum class HealthLevel : uint8_t { life, promise, place };
 
-enum class HealthKind : uint8_t { simulation, saving, recording, events, stopping, starting, full, backups, history };
+enum class HealthKind : uint8_t {
+  simulation,
+  saving,
+  recording,
+  events,
+  stopping,
+  starting,
+  full,
+  backups,
+  history
+};
 
 struct HealthRow {
   std::string_view name;

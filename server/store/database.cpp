@@ -94,7 +94,7 @@ Result<Database> Database::create(const std::string& path) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored))
     return fail(path + " exists already: choose another name, or move it away");
-  // Of a file that SQLite makes it does not say why the system refused.
+  // SQLite does not say why the system refused a file that it makes itself.
   constexpr mode_t as_sqlite = S_IRUSR | S_IWUSR | S_IRGRP | S_IROTH;
   const int file = ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, as_sqlite);
   if (file < 0) {
