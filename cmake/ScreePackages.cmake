@@ -11,6 +11,8 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXE
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)  # of the one library with a soversion
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 set(CPACK_THREADS 2)  # xz makes the same of any number above 1
 set(CPACK_COMPONENTS_ALL)
@@ -62,8 +64,6 @@ scree_package(client libscree-client0 libs "client of Scree's servers, shared li
   "${SCREE_WORDS}
 By this library, programs in any language join a server and keep an exact
 copy of its world.")
-set(CPACK_DEBIAN_CLIENT_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_CLIENT_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 scree_package(dev libscree-client-dev libdevel "client of Scree's servers, for programs that are built"
   "${SCREE_WORDS}
 This has the header of the client for programs in C, and its packages for

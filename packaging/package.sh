@@ -69,6 +69,7 @@ for component in "${components[@]}"; do
       install -D -m 644 "$source/packaging/server/scree@.service" "$stage/server/lib/systemd/system/scree@.service"
       install -D -m 644 "$source/packaging/server/world.toml" "$stage/server/share/doc/scree-server/examples/world.toml"
       ;;
+    cpp) install -D -m 644 "$source/packaging/cpp/libscree-dev.lintian-overrides" "$stage/cpp/share/lintian/overrides/libscree-dev" ;;
     web) [[ -e $source/build/web/dist/index.html ]] || { echo 'package.sh: the page is not built' >&2 && exit 1; } ;;
   esac
 done
@@ -78,10 +79,22 @@ trap 'rm -rf "$work"' EXIT
 (cd "$build" && cpack --config CPackConfig.cmake -B "$work" -D CPACK_PACKAGE_VERSION="$version" \
   -D CPACK_DEBIAN_COMPRESSION_TYPE="$compression" -D CPACK_COMPONENTS_ALL="$(IFS=';' && echo "${components[*]}")" \
   >"$work/cpack.log" 2>&1) || { cat "$work/cpack.log" >&2 && exit 1; }
+
+# with_trigger PACKAGE: CPack has a shared library's package call ldconfig in scripts, where Debian's asks for its trigger.
+with_trigger() {
+  local folder=$work/control
+  dpkg-deb --raw-extract "$1" "$folder"
+  rm "$folder"/DEBIAN/post{inst,rm}
+  install -m 644 "$source/packaging/client/triggers" "$folder/DEBIAN/triggers"
+  dpkg-deb --root-owner-group -Z"$compression" --build "$folder" "$1" >"$work/cpack.log"
+  rm -r "$folder"
+}
+
 install -d "$out"
 for component in "${components[@]}"; do
   name=$(package_of "$component")
   rm -f "$out/${name}"_*.deb
+  [[ $component != client ]] || with_trigger "$work/${name}"_*.deb
   mv "$work/${name}"_*.deb "$out/"
   (cd "$out" && du -k --apparent-size "${name}"_*.deb)
 done
