@@ -21,9 +21,10 @@ if [[ -n ${6:-} && -e $6/scree.pyi ]]; then
   export PYTHONPATH=$6 PYTHONDONTWRITEBYTECODE=1
   clients+=("$5 $here/same_edits.py")
 fi
-mkdir "$folder/web"
+page=(--web off)
 if [[ -n ${8:-} ]] && packed=$(compgen -G "$8/scree-client-*.tgz") && [[ -d $7/node_modules ]]; then
-  mkdir "$folder/web/scree-client"
+  mkdir -p "$folder/web/scree-client"
+  page=(--web "$folder/web")
   tar -xzf "$packed" -C "$folder/web/scree-client" --strip-components=1
   cp "$here"/../package/{edits.html,edits.js,carried_out.js} "$folder/web"
   cp "$folder/web/edits.html" "$folder/web/index.html"
@@ -31,7 +32,7 @@ if [[ -n ${8:-} ]] && packed=$(compgen -G "$8/scree-client-*.tgz") && [[ -d $7/n
 fi
 printf 'by %s\n' "${clients[@]##*/}"
 
-"$server" --port 0 --terrain flat --anonymous builder --reach 0 --web "$folder/web" >"$folder/server.out" 2>"$folder/server.log" &
+"$server" --port 0 --terrain flat --anonymous builder --reach 0 "${page[@]}" >"$folder/server.out" 2>"$folder/server.log" &
 started+=($!)
 port=
 for ((i = 0; i < 300; ++i)); do

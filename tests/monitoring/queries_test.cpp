@@ -110,7 +110,7 @@ TEST_F(MonitoringQueries, of_the_dashboard_are_of_figures_that_a_server_serves) 
 
 TEST_F(MonitoringQueries, of_the_alerts_are_of_figures_that_a_server_serves) {
   const auto queries = alert_queries();
-  EXPECT_EQ(queries.size(), 19U);
+  EXPECT_EQ(queries.size(), 20U);
   expect_served(queries);
 }
 
