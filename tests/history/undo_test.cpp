@@ -1,4 +1,5 @@
 // Who did what, and taking it back: the vandal's edits go, the others' stay, and no mass is lost.
+#include <algorithm>
 #include <map>
 
 #include "server/formats/world_value.h"
@@ -138,6 +139,25 @@ TEST(Undo, of_an_undo_brings_the_edits_back) {
   ASSERT_TRUE(begun.has_value()) << begun.error().message;
   hill.finish_undo();
   EXPECT_EQ(bricks_of(hill.world), built);
+}
+
+/// Lines of the history about the first undo, which takes back so many blocks.
+ptrdiff_t lines_of_undo(int blocks) {
+  HistoryWorld hill;
+  hill.join(1, "Ann");
+  for (int i = 0; i < blocks; ++i)
+    hill.ask_world(1, FillRequest{box({3.0F * static_cast<float>(i), 1.0F, 0.0F}, {1.0F, 1.0F, 1.0F})});
+  hill.settle();
+  EXPECT_TRUE(hill.ask(UndoRequest{.mode = UndoMode::refuse_conflicts, .by = "Ann"}).has_value());
+  hill.finish_undo();
+  const auto said = hill.ask(HistoryRequest{.by = "undo:1"});
+  EXPECT_TRUE(said.has_value()) << said.error().message;
+  return said ? std::ranges::count(*said, '\n') : 0;
+}
+
+TEST(Undo, is_one_line_of_the_history_however_many_ticks_it_takes) {
+  EXPECT_GT(lines_of_undo(1), 0);
+  EXPECT_EQ(lines_of_undo(20), lines_of_undo(1));
 }
 
 TEST(Undo, takes_back_within_a_box_alone) {
