@@ -32,7 +32,7 @@ lintian --fail-on error,warning --allow-root "$made"/*.deb || fail 'lintian find
 
 # The service. Units that it needs are systemd's own.
 dpkg-deb -x "$made"/scree-server_*.deb "$made/server"
-unit=$made/server/lib/systemd/system/scree@.service
+unit=$made/server/usr/lib/systemd/system/scree@.service
 sed "s|/usr/bin/scree-server|$made/server&|" "$unit" >"$made/scree@world.service"
 said=$(systemd-analyze verify --man=no "$made/scree@world.service" 2>&1) || fail "the unit is not in order: $said"
 [[ -z $said ]] || fail "systemd says of the unit: $said"
@@ -45,7 +45,7 @@ while read -r program; do
     [[ -s $(find "$build/packaging" -path "*/share/$part") ]] || fail "$program has no $part"
   done
   bash -n "$(find "$build/packaging" -path "*/completions/$program")"
-  gzip -dc "$(find "$build/packaging" -name "$program.1.gz")" | grep -qE '^\.B |^\\fB' || fail "the page of $program says nothing"
+  grep -qE '^\.B |^\\fB' <(gzip -dc "$(find "$build/packaging" -name "$program.1.gz")") || fail "the page of $program says nothing"
 done < <(sed -nE 's/^scree_install_programs\([a-z]+ (.*)\)/\1/p' "$source/cmake/ScreeInstall.cmake" | tr ' ' '\n')
 # completed WORDS…: what bash offers for the last word.
 completed() {
