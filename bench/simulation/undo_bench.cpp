@@ -9,6 +9,7 @@
 #include "bench/support/scratch.h"
 #include "server/history/edit_history.h"
 #include "server/work/limits.h"
+#include "shared/base/limits.h"
 #include "shared/base/random.h"
 #include "shared/base/timing.h"
 
@@ -160,12 +161,13 @@ void measure_crowd(const BenchOptions& options, const ScratchFolder& scratch, Be
 void measure_large(const BenchOptions& options, const ScratchFolder& scratch, BenchReport& report) {
   WorldConfig config;
   Remembered large(config, scratch / "large.history");
-  const int side = options.quick ? 3 : 8;
+  const int side = options.quick ? 3 : 14;
   uint32_t request = 0;
   for (int x = 0; x < side; ++x)
     for (int z = 0; z < side; ++z) {
-      const glm::vec3 at{static_cast<float>(x) * 30.0F, 10.0F, static_cast<float>(z) * 30.0F};
-      large.step({{undo_vandal, ++request, FillRequest{box(at, {12.0F, 12.0F, 12.0F})}}});
+      const glm::vec3 at{static_cast<float>(x) * 20.0F, 6.0F, static_cast<float>(z) * 20.0F};
+      const glm::vec3 half_m(limits::edit_reach_max_m);
+      large.step({{undo_vandal, ++request, FillRequest{box(at, half_m)}}});
       for (int i = 0; i < 10; ++i) large.step();
     }
   large.settle();
