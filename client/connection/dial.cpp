@@ -4,6 +4,7 @@
 #include <sys/un.h>
 #include <utility>
 
+#include "client/connection/come_again.h"
 #include "client/connection/limits.h"
 #include "client/connection/token_way.h"
 #include "shared/base/text.h"

@@ -87,7 +87,8 @@ std::vector<BackupFolder::Backup> BackupFolder::list() const {
 
 Result<void> BackupFolder::keep_newest(size_t keep, uint64_t now_unix_s) const {
   std::vector<Backup> all = list();
-  std::ranges::rotate(all, std::ranges::upper_bound(all, now_unix_s, {}, &Backup::unix_s));
+  const auto later = std::ranges::upper_bound(all, now_unix_s, {}, &Backup::unix_s);
+  std::rotate(all.begin(), later, all.end());  // clang 14 lacks std::ranges::rotate
   for (size_t i = 0; i + keep < all.size(); ++i) {
     std::error_code error;
     fs::remove(all[i].path, error);

@@ -70,7 +70,7 @@ std::vector<std::string> continuations(const CLI::App& app, const Typing& typing
   Words words = all_words(app, typing, settings);
   std::erase_if(words, [&](const std::string& word) { return !word.starts_with(typing.word); });
   std::ranges::sort(words);
-  words.erase(std::ranges::unique(words).begin(), words.end());
+  words.erase(std::unique(words.begin(), words.end()), words.end());  // clang 14 lacks std::ranges::unique
   return words;
 }
 
