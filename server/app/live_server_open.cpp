@@ -47,8 +47,8 @@ Result<void> LiveServer::State::open() {
     return fail(config.world_path + config.replay.path + ": its terrain is generated, not the ground " +
                 hex_of(given) + " (--ground)");
   pass_on_hooks();
+  TRY(open_records());  // first: it makes no file, so nothing is left where it is refused
   TRY(open_history());
-  TRY(open_records());
   config.net.health = [this] { return health(); };
   config.net.checked = [this](double now_s) { check_heartbeat(now_s); };
   config.net.takes_cursors = !config.record_path.empty();

@@ -185,6 +185,32 @@ TEST_F(AdminRecords, acts_of_administrators_are_kept_over_a_restart) {
   EXPECT_TRUE(text && holds(*text, "takes back edits of Ann"));
 }
 
+TEST_F(AdminRecords, regions_are_noted_once_the_world_has_them) {
+  start();
+  SetRegionRequest set;
+  set.region.name = "gate";
+  const auto done = ask_world(target, set);
+  ASSERT_TRUE(done) << done.error().message;
+  ASSERT_TRUE(ask_world(target, RemoveRegionRequest{"gate"}));
+  static_cast<void>(ask_world(target, RemoveRegionRequest{"gate"}));  // refused: there is none
+  const std::vector<Json> acts = read(LinesOf::audit);
+  ASSERT_EQ(acts.size(), 2U);
+  EXPECT_EQ(acts[0]["act"], "sets the region gate");
+  EXPECT_EQ(acts[1]["act"], "removes the region gate");
+}
+
+TEST_F(AdminRecords, a_server_that_cannot_keep_them_leaves_no_files) {
+  fs::create_directory(folder / "hill.world.audit");
+  LiveConfig config;
+  config.world.terrain = flat_terrain;
+  config.world_path = folder / "hill.world";
+  const auto started = LiveServer::start(config);
+  ASSERT_FALSE(started);
+  EXPECT_TRUE(holds(started.error().message, "hill.world.audit: it is a folder"));
+  EXPECT_FALSE(fs::exists(folder / "hill.world"));
+  EXPECT_FALSE(fs::exists(folder / "hill.world.history"));
+}
+
 TEST_F(AdminRecords, settings_have_bounds_choices_and_help) {
   start();
   bool has_choice = false, has_number = false, has_text = false;
