@@ -81,11 +81,15 @@ inline glm::vec3 vec3_of(const float v[3]) {
 inline void write_vec3(glm::vec3 from, float to[3]) {
   for (int i = 0; i < 3; ++i) to[i] = from[i];
 }
+inline void write_rotation(const glm::quat& from, float to[4]) {
+  to[0] = from.x;
+  to[1] = from.y;
+  to[2] = from.z;
+  to[3] = from.w;
+}
 inline void write_pose(const Pose& from, float position[3], float rotation[4]) {
   write_vec3(from.position_m, position);
-  const glm::quat& q = from.rotation;
-  const float turned[4] = {q.x, q.y, q.z, q.w};
-  std::copy_n(turned, 4, rotation);
+  write_rotation(from.rotation, rotation);
 }
 inline bool is_finite(const float* values, size_t count) {
   return std::all_of(values, values + count, [](float v) { return std::isfinite(v); });

@@ -41,45 +41,27 @@ void add_world(scree_client& client, Mirror& mirror, scree_status& status) {
   write_vec3(client.walk->walker().feet_m(), status.feet_m);
 }
 
-/// Pieces, then props, then the bodies of persons, each by id.
-class BodyList {
- public:
-  BodyList(const scree_client& client, const Mirror& mirror, double tick, scree_body* to, size_t room)
-      : mirror_(mirror), tick_(tick), to_(to), room_(room) {
-    for (const auto& [id, motion] : mirror.pieces()) add(0, id, pose_of(motion));
-    if (const Predictions* const shown = client.client.predictions())
-      for (const auto& [id, volume] : shown->pieces()) add(0, id, birth_pose(*volume));
-    add_props(false);
-    add_props(true);
-  }
-  size_t count() const { return count_; }
+/// Calls add(kind, id, pose) for pieces, then props, then the bodies of persons, each by id.
+template <typename Add>
+void each_body(const scree_client& client, double tick, Add&& add) {
+  const Mirror& mirror = *client.client.mirror();
+  const auto pose_of = [&](const BetweenPoses& motion) {
+    return tick < 0.0 ? motion.to : mirror.pose_at(motion, tick);
+  };
+  for (const auto& [id, motion] : mirror.pieces()) add(0, id, pose_of(motion));
+  if (const Predictions* const shown = client.client.predictions())
+    for (const auto& [id, volume] : shown->pieces())
+      add(0, id,
+          Pose{volume->centre_voxels * mirror.terrain().voxel_size_m, glm::quat(1.0F, 0.0F, 0.0F, 0.0F)});
+  for (const bool persons : {false, true})
+    for (const auto& [id, motion] : mirror.props())
+      if (mirror.persons().contains(id) == persons) add(persons ? 2 : 1, id, pose_of(motion));
+}
 
- private:
-  void add_props(bool persons) {
-    for (const auto& [id, motion] : mirror_.props())
-      if (mirror_.persons().contains(id) == persons) add(persons ? 2 : 1, id, pose_of(motion));
-  }
-  Pose pose_of(const BetweenPoses& motion) const {
-    return tick_ < 0.0 ? motion.to : mirror_.pose_at(motion, tick_);
-  }
-  Pose birth_pose(const Volume& volume) const {
-    return {volume.centre_voxels * mirror_.terrain().voxel_size_m, {1.0F, 0.0F, 0.0F, 0.0F}};
-  }
-  void add(uint32_t kind, uint32_t id, const Pose& pose) {
-    if (count_++ >= room_) return;
-    scree_body body{};
-    body.kind = kind;
-    body.id = id;
-    write_pose(pose, body.position, body.rotation);
-    to_[count_ - 1] = body;
-  }
-
-  const Mirror& mirror_;
-  double tick_;
-  scree_body* to_;
-  size_t room_;
-  size_t count_ = 0;
-};
+scree_result counted(size_t count, size_t room, size_t* to) {
+  *to = count;
+  return count <= room ? done : fail(SCREE_TOO_SMALL, "there are more bodies than room");
+}
 
 QueryMask mask_of(uint32_t mask) {
   return {.terrain = (mask & SCREE_MASK_TERRAIN) != 0,
@@ -159,7 +141,15 @@ scree_status status_of(scree_client& client) {
 }
 
 size_t bodies_of(const scree_client& client, double tick, scree_body* to, size_t room) {
-  return BodyList(client, *client.client.mirror(), tick, to, room).count();
+  size_t count = 0;
+  each_body(client, tick, [&](uint32_t kind, PieceId id, const Pose& pose) {
+    if (count++ >= room) return;
+    scree_body& body = to[count - 1];
+    body.id = id;
+    body.kind = kind;
+    write_pose(pose, body.position, body.rotation);
+  });
+  return count;
 }
 
 }  // namespace scree
@@ -205,11 +195,27 @@ scree_result scree_client_status(scree_client* client, scree_status* status) {
 
 scree_result scree_client_bodies(scree_client* client, double tick, scree_body* bodies, size_t room,
                                  size_t* count) {
-  return asked(client, count != nullptr && (bodies != nullptr || room == 0) && std::isfinite(tick),
-               [&](Mirror& /*mirror*/) {
-                 *count = bodies_of(*client, tick, bodies, room);
-                 return *count <= room ? done : fail(SCREE_TOO_SMALL, "there are more bodies than room");
-               });
+  return asked(
+      client, count != nullptr && (bodies != nullptr || room == 0) && std::isfinite(tick),
+      [&](Mirror& /*mirror*/) { return counted(bodies_of(*client, tick, bodies, room), room, count); });
+}
+
+scree_result scree_client_body_columns(scree_client* client, double tick, const scree_body_columns* columns,
+                                       size_t room, size_t* count) {
+  const auto given = read_struct(columns);
+  return asked(client, given && count != nullptr && std::isfinite(tick), [&](Mirror& /*mirror*/) {
+    const scree_body_columns to = *given;
+    size_t found = 0;
+    each_body(*client, tick, [&](uint32_t kind, PieceId id, const Pose& pose) {
+      const size_t row = found++;
+      if (row >= room) return;
+      if (to.ids != nullptr) to.ids[row] = id;
+      if (to.kinds != nullptr) to.kinds[row] = static_cast<uint8_t>(kind);
+      if (to.positions != nullptr) write_vec3(pose.position_m, to.positions + 3 * row);
+      if (to.rotations != nullptr) write_rotation(pose.rotation, to.rotations + 4 * row);
+    });
+    return counted(found, room, count);
+  });
 }
 
 scree_result scree_client_prop(scree_client* client, uint32_t id, scree_prop* prop) {

@@ -53,8 +53,9 @@ std::vector<SlowTickRow> ticks_for(const FlightRecorder& flight, const ListFligh
 
 std::vector<PartyRow> parties_of(const FlightRecorder& flight) {
   std::vector<PartyRow> rows;
-  for (const PartyWork& work : flight.parties())
+  for (PartyWork& work : flight.parties())
     rows.push_back({.party = work.party,
+                    .name = std::move(work.name),
                     .clock_us_per_s = static_cast<float>(work.clock_us_per_s),
                     .price_us_per_s = static_cast<float>(work.price_us_per_s),
                     .pieces = work.pieces,

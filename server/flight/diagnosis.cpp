@@ -130,10 +130,11 @@ std::string words_of(const FlightTick& tick, const Diagnosis& found, const Fligh
       return work_words(tick, found, names);
     case Culprit::crowd:
       return fmt::format(
-          "{} of {} pieces with {} contacts lie within {:.0f} m at {}, most of {}: the stage {} took {:.0f} "
-          "ms",
-          tick.crowd.pieces, tick.pieces, tick.contacts, limits::flight_crowd_m,
-          place_text(tick.crowd.place_m), whom(tick.crowd.party, 0, names), row_of(found.stage).name,
+          "{} pieces with {} contacts, {} of them of {}: they lie closest at {}, {} within {:.0f} m; the "
+          "stage {} took "
+          "{:.0f} ms",
+          tick.pieces, tick.contacts, tick.crowd.party_pieces, whom(tick.crowd.party, 0, names),
+          place_text(tick.crowd.place_m), tick.crowd.pieces, limits::flight_crowd_m, row_of(found.stage).name,
           tick.stage_ms[index_of(found.stage)]);
     case Culprit::disk:
       return disk_words(tick);

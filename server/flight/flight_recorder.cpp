@@ -90,28 +90,24 @@ void describe(const TickDelta& delta, FlightTick& tick) {
 }
 
 FlightCrowd crowd_of(const TickDelta& delta, const PartyCounts& parties) {
+  if (delta.pieces.size() < limits::flight_crowd_pieces) return {};
   struct Box {
     uint32_t pieces = 0;
     glm::vec3 first_m{0.0F};
-    std::map<uint64_t, uint32_t> by_party;
   };
   std::map<std::tuple<int, int, int>, Box> boxes;
+  std::map<uint64_t, uint32_t> by_party;
   for (const PieceState& piece : delta.pieces) {
     const glm::vec3 at_m = dequantise(piece.pose).position_m;
     const auto side = [](float metres) { return floor_to_int(metres / limits::flight_crowd_m); };
     Box& box = boxes[{side(at_m.x), side(at_m.y), side(at_m.z)}];
     if (box.pieces++ == 0) box.first_m = at_m;
-    ++box.by_party[parties.party_of(piece.id)];
+    ++by_party[parties.party_of(piece.id)];
   }
-  const auto fullest = std::ranges::max_element(boxes, {}, [](const auto& one) { return one.second.pieces; });
-  if (fullest == boxes.end()) return {};
-  const Box& box = fullest->second;
-  const auto least =
-      std::max(limits::flight_crowd_pieces,
-               static_cast<uint32_t>(limits::flight_crowd_share * static_cast<float>(delta.pieces.size())));
-  if (box.pieces < least) return {};
-  const auto most = std::ranges::max_element(box.by_party, {}, [](const auto& one) { return one.second; });
-  return {box.pieces, box.first_m, most->first};
+  const Box& box =
+      std::ranges::max_element(boxes, {}, [](const auto& one) { return one.second.pieces; })->second;
+  const auto most = std::ranges::max_element(by_party, {}, [](const auto& one) { return one.second; });
+  return {box.pieces, box.first_m, most->first, most->second};
 }
 
 FlightRecorder::FlightRecorder(FlightConfig config)
@@ -245,7 +241,10 @@ std::vector<SlowEpisode> FlightRecorder::worst(uint64_t since_unix_ms, size_t mo
 
 std::vector<PartyWork> FlightRecorder::parties() const {
   const std::scoped_lock lock(mutex_);
-  return parties_.all(seconds_at(last_tick_));
+  std::vector<PartyWork> rows = parties_.all(seconds_at(last_tick_));
+  const FlightNames known = names();
+  for (PartyWork& row : rows) row.name = known.session(row.party);
+  return rows;
 }
 
 size_t FlightRecorder::bytes_max() {

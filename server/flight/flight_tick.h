@@ -25,11 +25,12 @@ struct FlightCause {
   glm::vec3 place_m{0.0F};
 };
 
-/// Where most pieces lie, of a tick that was slow.
+/// Where pieces lie closest, and whose they are, of a tick that was slow.
 struct FlightCrowd {
-  uint32_t pieces = 0;  ///< 0: nowhere many
+  uint32_t pieces = 0;  ///< there; 0: there are few in all
   glm::vec3 place_m{0.0F};
-  uint64_t party = 0;  ///< whose most of them are
+  uint64_t party = 0;         ///< whose most of all pieces are
+  uint32_t party_pieces = 0;  ///< its pieces
 };
 
 struct FlightTick {
@@ -66,7 +67,7 @@ struct FlightTick {
   /// By how much it made the game late.
   float late_ms() const { return began_late_ms + (wall_ms > tick_ms ? wall_ms - tick_ms : 0.0F); }
 };
-static_assert(sizeof(FlightTick) <= 272);
+static_assert(sizeof(FlightTick) <= 280);
 static_assert(sizeof(FlightCause) <= 56);
 
 }  // namespace scree

@@ -87,6 +87,14 @@ TEST_F(ConsoleTest, help_is_a_line_too) {
     EXPECT_TRUE(holds(said, part)) << part << " in " << said;
 }
 
+TEST_F(ConsoleTest, help_with_what_there_is_not_is_an_error) {
+  for (const char* const words : {"nonsense", "kick nonsense", "region nonsense"}) {
+    const auto [status, said] = run("help " + std::string(words) + "\n");
+    EXPECT_EQ(status, 1) << words;
+    EXPECT_TRUE(holds(said, "there is no subcommand nonsense")) << said;
+  }
+}
+
 TEST_F(ConsoleTest, comes_by_a_token_as_other_subcommands_do) {
   const std::string port = "--host 127.0.0.1 --port " + std::to_string(server->port());
   EXPECT_EQ(run("set impacts=false\n", port + " --token " + admin_secret).first, 0);

@@ -91,12 +91,12 @@ TEST(Diagnosis, a_needle_forest_is_named_by_its_place_and_its_maker) {
   FlightTick tick = working(120.0F, TickStage::bodies);
   tick.pieces = 300;
   tick.contacts = 9000;
-  tick.crowd = {250, {10.0F, 2.0F, -30.0F}, 7};
+  tick.crowd = {250, {10.0F, 2.0F, -30.0F}, 7, 280};
   EXPECT_EQ(said(tick),
-            "crowd: 250 of 300 pieces with 9000 contacts lie within 4 m at (10, 2, -30), most of Ann "
-            "(session 7): the stage bodies took 119 ms");
+            "crowd: 300 pieces with 9000 contacts, 280 of them of Ann (session 7): they lie closest at "
+            "(10, 2, -30), 250 within 4 m; the stage bodies took 119 ms");
   tick.crowd = {};
-  EXPECT_TRUE(holds(said(tick), "work: the stage bodies")) << "they lie everywhere";
+  EXPECT_TRUE(holds(said(tick), "work: the stage bodies")) << "there are few";
 }
 
 TEST(Diagnosis, a_slow_disk_is_named_by_what_waited_for_it) {
@@ -256,9 +256,12 @@ TEST_F(FlightRecorderTest, pieces_count_for_who_broke_them_and_a_crowd_is_found)
   const auto rows = recorder->slow(0);
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_EQ(rows[0].diagnosis.culprit, Culprit::crowd);
-  EXPECT_TRUE(holds(rows[0].words, "30 of 40 pieces")) << rows[0].words;
+  EXPECT_TRUE(
+      holds(rows[0].words, "40 of them of Ann (session 7): they lie closest at (9, 1, 1), 30 within 4 m"))
+      << rows[0].words;
   EXPECT_EQ(rows[0].name, "Ann");
   EXPECT_EQ(work_of(7).pieces, 40U);
+  EXPECT_EQ(work_of(7).name, "Ann");
 }
 
 TEST_F(FlightRecorderTest, slow_ticks_are_lines_of_a_file_and_a_storm_of_them_is_bounded) {

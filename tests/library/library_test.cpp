@@ -12,7 +12,43 @@
 namespace scree {
 namespace {
 
-TEST_F(LibraryTest, a_carve_is_answered_its_pieces_fall_and_merge_and_both_hashes_agree) {
+class LibraryBodies : public LibraryTest {
+ protected:
+  /// That the columns have what the rows have, and that a column may be left out.
+  void expect_columns(const std::vector<scree_body>& rows) {
+    const size_t room = rows.size();
+    std::vector<uint32_t> ids(room);
+    std::vector<uint8_t> kinds(room);
+    std::vector<float> positions(3 * room), rotations(4 * room);
+    scree_body_columns columns{.size = sizeof columns,
+                               .ids = ids.data(),
+                               .kinds = kinds.data(),
+                               .positions = positions.data(),
+                               .rotations = rotations.data()};
+    size_t count = 0;
+    EXPECT_EQ(scree_client_body_columns(client, -1.0, &columns, room - 1, &count), SCREE_TOO_SMALL);
+    EXPECT_EQ(count, room);
+    ASSERT_EQ(scree_client_body_columns(client, -1.0, &columns, room, &count), SCREE_OK);
+    for (size_t i = 0; i < room; ++i) {
+      EXPECT_EQ(ids[i], rows[i].id);
+      EXPECT_EQ(kinds[i], rows[i].kind);
+      EXPECT_TRUE(std::equal(rows[i].position, rows[i].position + 3, positions.data() + 3 * i));
+      EXPECT_TRUE(std::equal(rows[i].rotation, rows[i].rotation + 4, rotations.data() + 4 * i));
+    }
+    scree_body_columns ids_alone{.size = sizeof columns,
+                                 .ids = ids.data(),
+                                 .kinds = nullptr,
+                                 .positions = nullptr,
+                                 .rotations = nullptr};
+    std::fill(ids.begin(), ids.end(), 0);
+    ASSERT_EQ(scree_client_body_columns(client, -1.0, &ids_alone, room, &count), SCREE_OK);
+    EXPECT_EQ(ids.back(), rows.back().id);
+    ids_alone.size = 1;
+    EXPECT_EQ(scree_client_body_columns(client, -1.0, &ids_alone, room, &count), SCREE_INVALID);
+  }
+};
+
+TEST_F(LibraryBodies, a_carve_is_answered_its_pieces_fall_and_merge_and_both_hashes_agree) {
   join();
   EXPECT_EQ(seen[SCREE_EVENT_JOINED], 1);
   EXPECT_EQ(status().connected, 1U);
@@ -28,6 +64,7 @@ TEST_F(LibraryTest, a_carve_is_answered_its_pieces_fall_and_merge_and_both_hashe
   bodies.resize(count);
   EXPECT_EQ(scree_client_bodies(client, -1.0, bodies.data(), count, &count), SCREE_OK);
   for (const scree_body& body : bodies) EXPECT_LT(std::abs(body.position[0]), 40.0F);
+  expect_columns(bodies);
   const auto agrees = [&] {
     const scree_status now = status();
     return now.pieces == 0 && now.server_hash != 0 && now.field_hash == now.server_hash;

@@ -37,6 +37,7 @@ class Console {
   }
   int run_line(const std::string& line);
   int run_words(std::vector<std::string> words) const;
+  std::string unknown_of(const std::vector<std::string>& words) const;
   LineEditor::Offer offer(std::string_view line);
   const std::vector<std::string>& setting_names();
 
@@ -57,11 +58,25 @@ int Console::run_line(const std::string& line) {
   }
   if (words->front() == console_help) {
     words->erase(words->begin());
+    if (const std::string unknown = unknown_of(*words); !unknown.empty())
+      return complain(Error{"there is no subcommand " + unknown + " to help with"}, exit_usage);
     words->emplace_back("--help");
   }
   const int status = run_words(std::move(*words));
   std::fflush(stdout);
   return status;
+}
+
+/// The first of these that names no subcommand of the one before it; empty: all do.
+std::string Console::unknown_of(const std::vector<std::string>& words) const {
+  CLI::App app("", "");
+  const AdminApp commands(app, settings_);
+  const CLI::App* within = &app;
+  for (const std::string& word : words) {
+    within = within->get_subcommand_no_throw(word);
+    if (within == nullptr) return word;
+  }
+  return {};
 }
 
 /// The app is made for each line, for it keeps what it has parsed.

@@ -1,30 +1,22 @@
-// Poses of bodies as columns, out of the engine's rows.
-import { structs } from './layout.js';
+// Poses of bodies as columns, which the engine writes.
 
-const { at: ID } = structs.scree_body.members.id, { at: KIND } = structs.scree_body.members.kind;
-const { at: POSITION } = structs.scree_body.members.position, { at: ROTATION } = structs.scree_body.members.rotation;
-if (ID !== 0 || KIND !== 4 || POSITION !== 8 || ROTATION !== 20) throw new Error('the package takes bodies to lie otherwise');
+const BYTES = 4 + 12 + 16 + 1;
+let room = 64; // for as many as there were, in any client
 
-/** Columns of the rows at a place. */
-export function split_bodies(engine, at, count, bytes) {
-  const words = bytes / 4;
-  const whole = engine.view(Uint32Array, at, count * words), parts = engine.view(Float32Array, at, count * words);
-  const bodies = {
-    count, kinds: new Uint8Array(count), ids: new Uint32Array(count), positions: new Float32Array(3 * count),
-    rotations: new Float32Array(4 * count),
-  };
-  const { ids, kinds, positions, rotations } = bodies;
-  // Written out: a loop over the parts takes several times as long.
-  for (let i = 0, from = 0; i < count; ++i, from += words) {
-    ids[i] = whole[from];
-    kinds[i] = whole[from + 1];
-    positions[3 * i] = parts[from + 2];
-    positions[3 * i + 1] = parts[from + 3];
-    positions[3 * i + 2] = parts[from + 4];
-    rotations[4 * i] = parts[from + 5];
-    rotations[4 * i + 1] = parts[from + 6];
-    rotations[4 * i + 2] = parts[from + 7];
-    rotations[4 * i + 3] = parts[from + 8];
+/** Columns of what `fill` writes: (columns, room, count), places in the engine's memory. */
+export function read_bodies(engine, fill) {
+  for (;;) {
+    const struct = engine.size_of('scree_body_columns');
+    const at = engine.room(struct + 4 + room * BYTES);
+    const ids = at + struct + 4, positions = ids + 4 * room, rotations = positions + 12 * room, kinds = rotations + 16 * room;
+    engine.write('scree_body_columns', at, { size: struct, ids, kinds, positions, rotations });
+    const full = fill(at, room, at + struct);
+    const count = engine.word(at + struct);
+    if (count > room) room = 2 * count;
+    else if (engine.check(full))
+      return {
+        count, kinds: engine.copy(Uint8Array, kinds, count), ids: engine.copy(Uint32Array, ids, count),
+        positions: engine.copy(Float32Array, positions, 3 * count), rotations: engine.copy(Float32Array, rotations, 4 * count),
+      };
   }
-  return bodies;
 }

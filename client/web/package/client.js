@@ -1,5 +1,5 @@
 // A client: an engine, its socket, and the timer by which both go on.
-import { split_bodies } from './bodies.js';
+import { read_bodies } from './bodies.js';
 import { Connection, session_url } from './connection.js';
 import { Engine, ScreeError, no_engine, whole } from './engine.js';
 import { EventQueue, event_at } from './events.js';
@@ -22,8 +22,9 @@ const KINDS_OF_HIT = ['terrain', 'piece', 'body'];
 /** "tick_rate_hz" to "tickRate": without the unit, which the types tell. */
 function plain(struct) {
   const value = {};
-  for (const [name, member] of Object.entries(struct)) {
+  for (const name of struct.names) {
     if (name === 'size') continue;
+    const member = struct[name];
     const key = name.replace(/_(m|hz|j|kg_m3)$/, '').replace(/_(\w)/g, (_, letter) => letter.toUpperCase());
     if (TRUTHS.has(name)) value[key] = member !== 0;
     else value[key] = typeof member === 'bigint' && !name.endsWith('_hash') ? Number(member) : member;
@@ -85,7 +86,7 @@ export class Client {
       }, texts);
       engine.check(engine.call.scree_client_create(at, at + bytes));
     });
-    this.#client = engine.view(Uint32Array, at + bytes, 1)[0];
+    this.#client = engine.word(at + bytes);
   }
 
   // ---- the engine's steps
@@ -115,7 +116,7 @@ export class Client {
     const engine = this.#engine, bytes = engine.size_of('scree_event');
     while (!this.#over) {
       const at = engine.room(bytes);
-      engine.view(Uint32Array, at, 1)[0] = bytes;
+      engine.set_word(at, bytes);
       if (!engine.check(engine.call.scree_client_next(this.#client, at))) return;
       const event = event_at(engine, at);
       if (event.kind === 'reply') this.#answer(event);
@@ -230,7 +231,7 @@ export class Client {
     const at = this.#engine.room(4);
     if (!this.#engine.with_texts((texts) => this.#engine.check(find(texts.add(name), at))))
       throw new ScreeError('invalid', `there is no ${what} "${name}"`);
-    return this.#engine.view(Uint32Array, at, 1)[0];
+    return this.#engine.word(at);
   }
 
   // ---- other messages
@@ -296,26 +297,18 @@ export class Client {
     if (material === undefined) throw new ScreeError('invalid', 'a material is a name or a number');
     const number = this.#material(material), at = this.#engine.room(8);
     this.#engine.check(this.#engine.call.scree_client_carried(this.#alive(), number, at));
-    return Number(this.#engine.view(BigInt64Array, at, 1)[0]);
+    return Number(this.#engine.memory.getBigInt64(at, true));
   }
 
   drawTick() {
     const at = this.#engine.room(8);
     this.#engine.check(this.#engine.call.scree_client_draw_tick(this.#alive(), at));
-    return this.#engine.view(Float64Array, at, 1)[0];
+    return this.#engine.memory.getFloat64(at, true);
   }
 
   bodies(tick = -1) {
-    const engine = this.#engine, client = this.#alive(), bytes = engine.size_of('scree_body');
-    let room = 64, count = 0, at = 0;
-    do {
-      room = Math.max(room, count);
-      at = engine.room(8 + room * bytes);
-      const result = engine.call.scree_client_bodies(client, tick, at + 8, room, at);
-      if (result !== values.SCREE_TOO_SMALL) engine.check(result);
-      count = engine.view(Uint32Array, at, 1)[0];
-    } while (count > room);
-    return split_bodies(engine, at + 8, count, bytes);
+    const client = this.#alive();
+    return read_bodies(this.#engine, (columns, room, count) => this.#engine.call.scree_client_body_columns(client, tick, columns, room, count));
   }
 
   // ---- questions about space
@@ -340,9 +333,9 @@ export class Client {
       engine.view(Float32Array, at, 3).set(triple(place, 'a place'));
       const result = engine.call.scree_client_overlap(client, at, radius, mask_of(of), at + 12, at + 20, room, at + 16);
       if (result !== values.SCREE_TOO_SMALL) engine.check(result);
-      count = engine.view(Uint32Array, at + 16, 1)[0];
+      count = engine.word(at + 16);
     } while (count > room);
-    return { terrain: engine.view(Uint32Array, at + 12, 1)[0] === 1, ids: engine.copy(Uint32Array, at + 20, count) };
+    return { terrain: engine.word(at + 12) === 1, ids: engine.copy(Uint32Array, at + 20, count) };
   }
 
   distances(places) {
@@ -394,8 +387,8 @@ export class Client {
 
   /** A struct that a function fills; null: there is none. */
   #filled(name, fill, at = this.#engine.room(this.#engine.size_of(name))) {
-    this.#engine.view(Uint32Array, at, 1)[0] = this.#engine.size_of(name);
-    return this.#engine.check(fill(at)) ? this.#engine.read(name, at) : null;
+    this.#engine.set_word(at, this.#engine.size_of(name));
+    return this.#engine.check(fill(at)) ? this.#engine.struct(name, at) : null;
   }
 
   #hit(ask, at) {

@@ -1,11 +1,16 @@
 // One instance of scree_client.wasm: its memory, its structs by name, and the few functions that it imports. The layout of
-// structs is made of scree/client.h by the build (layout.js). Nothing here keeps a view of the memory: it moves when it grows.
+// structs is made of scree/client.h by the build (layout.js). The memory moves when it grows: views of it hold until the next call.
 import { structs, values } from './layout.js';
 
-const NUMBER_OF = {
-  int8: [Int8Array, 1], uint8: [Uint8Array, 1], int32: [Int32Array, 4], uint32: [Uint32Array, 4],
-  float: [Float32Array, 4], double: [Float64Array, 8], int64: [BigInt64Array, 8], uint64: [BigUint64Array, 8],
-  text: [Uint32Array, 4], pointer: [Uint32Array, 4],
+/** How numbers of a type are read and written in memory. */
+function number_type(name, bytes) {
+  const get = `get${name}`, set = `set${name}`;
+  return { bytes, get: (memory, at) => memory[get](at, true), set: (memory, at, number) => memory[set](at, number, true) };
+}
+const TYPES = {
+  int8: number_type('Int8', 1), uint8: number_type('Uint8', 1), int32: number_type('Int32', 4), uint32: number_type('Uint32', 4),
+  float: number_type('Float32', 4), double: number_type('Float64', 8), int64: number_type('BigInt64', 8),
+  uint64: number_type('BigUint64', 8), text: number_type('Uint32', 4), pointer: number_type('Uint32', 4),
 };
 /** Whole numbers that a member of that type can be. */
 const WHOLE = { int8: [-128, 127], uint8: [0, 255], int32: [-(2 ** 31), 2 ** 31 - 1], uint32: [0, 2 ** 32 - 1] };
@@ -44,29 +49,47 @@ function number_for(type, given, what) {
   return given;
 }
 
+/** By the name of a struct: what reads its members, each when it is asked for. Texts are read, 64 bits are BigInts, pointers are places. */
+const VIEWS = {};
+for (const [name, { members }] of Object.entries(structs)) {
+  VIEWS[name] = class {
+    constructor(engine, at) {
+      this.engine = engine;
+      this.at = at;
+    }
+  };
+  VIEWS[name].prototype.names = Object.keys(members).filter((member) => !structs[members[member].type]);
+  for (const member of VIEWS[name].prototype.names) {
+    const { at: offset, type, count } = members[member];
+    const { bytes, get } = TYPES[type];
+    const one = type === 'text' ? (engine, at) => engine.text(get(engine.memory, at)) : (engine, at) => get(engine.memory, at);
+    const read = count === 1 ? one : (engine, at) => Array.from({ length: count }, (_, i) => one(engine, at + i * bytes));
+    Object.defineProperty(VIEWS[name].prototype, member, { get() { return read(this.engine, this.at + offset); } });
+  }
+}
+
 /** What the module imports: a clock, random bytes, and where it would print before it ends. */
-function imports(memory_of) {
-  const view = () => new DataView(memory_of().buffer);
+function imports(engine) {
   let words = '';
   const end = () => { throw new ScreeError('failed', words.trim() || 'the client has met an error of its own'); };
   return {
     clock_time_get(clock, _precision, at) {
       const now_ms = clock === 0 ? Date.now() : performance.now();
-      view().setBigUint64(at, BigInt(Math.round(now_ms * 1e6)), true);
+      engine.memory.setBigUint64(at, BigInt(Math.round(now_ms * 1e6)), true);
       return 0;
     },
     random_get(at, bytes) {
-      globalThis.crypto.getRandomValues(new Uint8Array(memory_of().buffer, at, bytes));
+      globalThis.crypto.getRandomValues(engine.view(Uint8Array, at, bytes));
       return 0;
     },
     fd_write(_file, parts, count, written) {
       let total = 0;
       for (let i = 0; i < count; ++i) {
-        const at = view().getUint32(parts + 8 * i, true), bytes = view().getUint32(parts + 8 * i + 4, true);
-        words = (words + decoder.decode(new Uint8Array(memory_of().buffer, at, bytes))).slice(-2000);
+        const at = engine.word(parts + 8 * i), bytes = engine.word(parts + 8 * i + 4);
+        words = (words + decoder.decode(engine.view(Uint8Array, at, bytes))).slice(-2000);
         total += bytes;
       }
-      view().setUint32(written, total, true);
+      engine.set_word(written, total);
       return 0;
     },
     proc_exit: end,
@@ -79,13 +102,14 @@ function imports(memory_of) {
 export class Engine {
   /** Functions of the module: scree_… of scree/client.h, and those of the socket. */
   call;
+  #memory = new DataView(new ArrayBuffer(0));
   #room = 0;        // memory for what a call takes and gives, of #room_bytes
   #room_bytes = 0;
 
   /** `module`: a WebAssembly.Module of scree_client.wasm. */
   static async create(module) {
     const engine = new Engine();
-    const given = imports(() => engine.call.memory);
+    const given = imports(engine);
     const wanted = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
       // What a system would have beside these is "not supported".
@@ -96,9 +120,24 @@ export class Engine {
     return engine;
   }
 
+  /** All memory. What grew has left its buffer without bytes. */
+  get memory() {
+    if (this.#memory.buffer.byteLength === 0) this.#memory = new DataView(this.call.memory.buffer);
+    return this.#memory;
+  }
+
   /** The numbers at a place, as a view that holds until the next call. */
   view(Type, at, count) {
-    return new Type(this.call.memory.buffer, at, count);
+    return new Type(this.memory.buffer, at, count);
+  }
+
+  /** A whole number of 32 bits. */
+  word(at) {
+    return this.memory.getUint32(at, true);
+  }
+
+  set_word(at, number) {
+    this.memory.setUint32(at, number, true);
   }
 
   /** A copy of numbers; null at 0. */
@@ -107,8 +146,8 @@ export class Engine {
   }
 
   text(at) {
-    if (at === 0) return '';
-    const bytes = new Uint8Array(this.call.memory.buffer);
+    if (at === 0 || this.memory.getUint8(at) === 0) return '';
+    const bytes = new Uint8Array(this.memory.buffer);
     return decoder.decode(bytes.subarray(at, bytes.indexOf(0, at)));
   }
 
@@ -136,16 +175,9 @@ export class Engine {
     return structs[name].size;
   }
 
-  /** A struct as an object with its members' names; texts are read, 64 bits are BigInts, pointers are places. */
-  read(name, at) {
-    const value = {};
-    for (const [member, { at: offset, type, count }] of Object.entries(structs[name].members)) {
-      const [Type] = NUMBER_OF[type];
-      const numbers = this.view(Type, at + offset, count);
-      if (type === 'text') value[member] = this.text(numbers[0]);
-      else value[member] = count === 1 ? numbers[0] : Array.from(numbers);
-    }
-    return value;
+  /** A struct: its members by name, read from memory when they are asked for, until the next call; `names` are all of them. */
+  struct(name, at) {
+    return new VIEWS[name](this, at);
   }
 
   /** Sets members of a struct. Texts go to `texts`, which frees them. */
@@ -156,9 +188,9 @@ export class Engine {
         this.write(type, at + offset, given, texts);
         continue;
       }
-      const [Type] = NUMBER_OF[type];
+      const { bytes, set } = TYPES[type];
       const numbers = type === 'text' ? [texts.add(given)] : (count === 1 ? [given] : given).map((one) => number_for(type, one, member));
-      this.view(Type, at + offset, count).set(numbers);
+      for (let i = 0; i < count && i < numbers.length; ++i) set(this.memory, at + offset + i * bytes, numbers[i]);
     }
   }
 

@@ -51,7 +51,7 @@ for (const [name, value] of Object.entries(enums.scree_event_kind)) {
 
 /** The event at a place of the engine's memory. */
 export function event_at(engine, at) {
-  const told = engine.read('scree_event', at);
+  const told = engine.struct('scree_event', at);
   const kind = NAMES.get(told.kind);
   return { kind, ...ROWS[kind](told, engine) };
 }

@@ -7,7 +7,7 @@ const METHODS = ['nets', 'dual', 'cubes'];
 
 /** The mesh at a place of the engine's memory. */
 export function mesh_at(engine, at) {
-  const mesh = engine.read('scree_mesh', at);
+  const mesh = engine.struct('scree_mesh', at);
   const vertices = mesh.vertex_count;
   return {
     kind: ['terrain', 'piece', 'prop'][mesh.kind],
@@ -29,7 +29,7 @@ export function single_mesh(engine, client, make) {
   const bytes = engine.size_of('scree_mesh');
   const at = engine.room(bytes + 12);
   engine.view(Uint8Array, at, bytes).fill(0);
-  engine.view(Uint32Array, at, 1)[0] = bytes;
+  engine.set_word(at, bytes);
   if (!engine.check(make(at, at + bytes))) return null;
   try {
     return mesh_at(engine, at);
@@ -52,7 +52,7 @@ export class Mesher {
     engine.with_texts((texts) => engine.write('scree_mesher_options', at, members, texts));
     engine.check(engine.call.scree_mesher_create(client, at, at + bytes));
     this.#engine = engine;
-    this.#mesher = engine.view(Uint32Array, at + bytes, 1)[0];
+    this.#mesher = engine.word(at + bytes);
     this.#left = left;
   }
 
@@ -72,14 +72,14 @@ export class Mesher {
   #take(meshes) {
     const bytes = this.#engine.size_of('scree_mesh');
     const at = this.#engine.room(bytes);
-    this.#engine.view(Uint32Array, at, 1)[0] = bytes;
+    this.#engine.set_word(at, bytes);
     while (this.#engine.check(this.#engine.call.scree_mesher_next(this.#mesher, at))) meshes.push(mesh_at(this.#engine, at));
   }
 
   get complete() {
     const at = this.#engine.room(4);
     this.#engine.check(this.#engine.call.scree_mesher_complete(this.#mesher, at));
-    return this.#engine.view(Uint32Array, at, 1)[0] === 1;
+    return this.#engine.word(at) === 1;
   }
 
   close() {

@@ -102,5 +102,5 @@ export function send_request(engine, client, name, given, look_up) {
   engine.check(engine.call.scree_request_init(at, bytes, kind));
   engine.with_texts((texts) => engine.write('scree_request', at, members, texts));
   engine.check(engine.call.scree_client_request(client, at, 0, 0, number));
-  return engine.view(Uint32Array, number, 1)[0];
+  return engine.word(number);
 }

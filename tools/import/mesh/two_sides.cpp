@@ -125,7 +125,7 @@ class PolygonSides {
 }  // namespace
 
 Corners corners_of(Triangle t, uint32_t index) {
-  std::ranges::rotate(t, std::ranges::min_element(t));
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
   const bool odd = t[1] > t[2];
   if (odd) std::swap(t[1], t[2]);
   return {t, odd, index};

@@ -277,6 +277,16 @@ typedef struct scree_body {
  * many there are. SCREE_TOO_SMALL: more than `room`. */
 SCREE_API scree_result scree_client_bodies(scree_client* client, double tick, scree_body* bodies, size_t room,
                                            size_t* count);
+/** The same as columns, each with `room` for bodies, as a GPU takes them. What is null is left out. */
+typedef struct scree_body_columns {
+  uint32_t size;
+  uint32_t* ids;
+  uint8_t* kinds;
+  float *positions, *rotations; /**< three and four a body */
+} scree_body_columns;
+SCREE_API scree_result scree_client_body_columns(scree_client* client, double tick,
+                                                 const scree_body_columns* columns, size_t room,
+                                                 size_t* count);
 /** The tick, with its fraction, at which to draw now; of a client with SCREE_SMOOTH. */
 SCREE_API scree_result scree_client_draw_tick(scree_client* client, double* tick);
 
