@@ -76,9 +76,10 @@ void EndpointOptions::declare_socket(CLI::App& app) {
                            "--token-file", "--insecure-token"})
     of_network_.push_back(app.get_option(name));
   app.add_option(
-      "--socket", endpoint_.socket,
-      fmt::format("file of the server's --admin-socket, instead of host, port and token (variable: {})",
-                  socket_variable));
+         "--socket", endpoint_.socket,
+         fmt::format("file of the server's --admin-socket, instead of host, port and token (variable: {})",
+                     socket_variable))
+      ->check([](const std::string& file) { return std::string(file.empty() ? "no file is named" : ""); });
 }
 
 Result<void> EndpointOptions::choose_socket() {
@@ -146,6 +147,8 @@ Result<void> EndpointOptions::complete() {
   }
   if (!token_path_.empty()) {
     auto token = TRY(read_secret(token_path_, limits::access_token_bytes_max));
+    if (token.empty())
+      return fail(fmt::format("--token-file: {} has no token in its first line", token_path_));
     endpoint_.token = std::move(token);
   }
   if (endpoint_.token.empty()) return {};

@@ -52,7 +52,7 @@ tl::expected<void, Refused> Authorizer::may_administer(Role role, const Caller& 
   const std::string_view what =
       is_control
           ? "only its own machine may control it, and only without --proxy, --web-host and --web-origin"
-          : "nobody may administer it";
+          : "nobody may administer it by the network";
   return refuse(
       Refusal::no_admin_token,
       fmt::format("this server was started without an admin token: {} (--admin-token-file, --token-key)",

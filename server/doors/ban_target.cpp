@@ -6,6 +6,7 @@
 #include "proto/limits.h"
 #include "server/doors/limits.h"
 #include "shared/base/overloaded.h"
+#include "shared/base/small_letters.h"
 #include "shared/base/text.h"
 
 namespace scree {
@@ -64,9 +65,10 @@ Result<BanTarget> BanTarget::read(const std::string& text) {
 
 bool BanTarget::fits(const BanSubject& subject, const std::optional<IpAddress>& address) const {
   return std::visit(
-      Overloaded{[&](const IpNetwork& network) { return address && network.holds(*address); },
-                 [&](const Name& name) { return name.name == subject.name; },
-                 [&](const Token& token) { return subject.token_id != 0 && token.id == subject.token_id; }},
+      Overloaded{
+          [&](const IpNetwork& network) { return address && network.holds(*address); },
+          [&](const Name& name) { return in_small_letters(name.name) == in_small_letters(subject.name); },
+          [&](const Token& token) { return subject.token_id != 0 && token.id == subject.token_id; }},
       target_);
 }
 

@@ -10,6 +10,7 @@
 #include "auth/replace_file.h"
 #include "server/doors/limits.h"
 #include "shared/base/regular_file.h"
+#include "shared/base/small_letters.h"
 
 namespace scree {
 
@@ -115,8 +116,11 @@ Result<void> Bans::add(const std::string& key, const Ban& ban, uint64_t now_s) {
 
 Result<void> Bans::lift(const std::string& key) {
   static_cast<void>(read_again());
-  if (bans_.erase(key) == 0) return fail(key + " is not banned");
-  targets_.erase(key);
+  const auto is_meant = [small = in_small_letters(key)](const auto& ban) {
+    return in_small_letters(ban.first) == small;
+  };
+  if (std::erase_if(bans_, is_meant) == 0) return fail(key + " is not banned");
+  std::erase_if(targets_, is_meant);
   return write();
 }
 

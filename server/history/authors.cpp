@@ -7,16 +7,11 @@
 
 #include "auth/access_token.h"
 #include "server/history/limits.h"
+#include "shared/base/small_letters.h"
 
 namespace scree {
 
 namespace {
-
-std::string in_small_letters(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 /// The number behind a prefix; nothing where the text is another.
 std::optional<uint64_t> number_behind(const std::string& text, std::string_view prefix, int base) {
@@ -54,7 +49,8 @@ std::vector<AuthorId> Authors::named(const std::string& by) const {
   std::vector<AuthorId> found;
   const auto session = number_behind(by, "session:", 10), token = number_behind(by, "token:", 16),
              address = number_behind(by, "address:", 16), undo = number_behind(by, "undo:", 10);
-  const std::string name = in_small_letters(by);
+  constexpr std::string_view name_prefix = "name:";
+  const std::string name = in_small_letters(by.starts_with(name_prefix) ? by.substr(name_prefix.size()) : by);
   for (const auto& [id, author] : authors_) {
     const bool meant = session   ? id == *session
                        : token   ? author.token_id == *token && *token != 0

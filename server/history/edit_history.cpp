@@ -66,7 +66,9 @@ Result<void> EditHistory::State::load() {
 
 Result<std::unique_ptr<EditHistory>> EditHistory::open(const HistoryConfig& config, TerrainThen then) {
   auto file = HistoryFile::open(config.path, config.world, config.tick);
-  TRY(file);
+  if (!file)
+    return fail(file.error().message +
+                ": the history of edits is not to be used. Without the file a new one begins");
   auto state = std::make_unique<State>(config, std::move(*file), std::move(then));
   TRY(state->load());
   state->thread = std::thread([s = state.get()] { s->run(); });

@@ -51,24 +51,37 @@ Tick EditHistory::State::ago(uint32_t seconds) const {
 
 Result<std::string> EditHistory::State::answer(const HistoryRequest& request) {
   std::vector<AuthorId> by;
-  if (!request.by.empty()) by = authors.named(request.by);
-  if (!request.by.empty() && by.empty()) return fail("nobody of that name has edited: " + request.by);
+  if (!request.by.empty()) by = TRY(authors_named(request.by));
   const Tick since = request.since_s == 0 ? 0 : ago(request.since_s);
+  size_t by_itself = 0;
   const auto wanted = [&](const EditRow& edit) {
     if (edit.tick < since) return false;
     if (!by.empty() && std::ranges::find(by, edit.author) == by.end()) return false;
-    return !request.at_m || is_near(edit, *request.at_m, request.radius_m, config.voxel_size_m);
+    if (request.at_m && !is_near(edit, *request.at_m, request.radius_m, config.voxel_size_m)) return false;
+    if (edit.author == 0) ++by_itself;
+    return edit.author != 0;
   };
-  const auto edits = TRY(file->edits(wanted, limits::history_lines_max));
-  return text_of(edits, TRY(file->known_since()), authors, units(), request.as_json);
+  auto edits = TRY(file->edits(wanted, limits::history_lines_max + 1));
+  const bool more = edits.size() > limits::history_lines_max;
+  if (more) edits.pop_back();
+  return text_of(edits, {more, by_itself}, TRY(file->known_since()), authors, units(), request.as_json);
+}
+
+Result<std::vector<AuthorId>> EditHistory::State::authors_named(const std::string& by) const {
+  std::vector<AuthorId> named = authors.named(by);
+  if (named.empty())
+    return fail(
+        by +
+        " has edited nothing here: say whose edits by name:NAME, session:NUMBER, token:ID, address:HASH "
+        "or undo:NUMBER");
+  return named;
 }
 
 Result<UndoTerms> EditHistory::State::terms_of(const UndoRequest& request) const {
   UndoTerms terms;
   terms.over_others = request.mode == UndoMode::over_others;
   if (!request.by.empty()) {
-    for (const AuthorId author : authors.named(request.by)) terms.authors.insert(author);
-    if (terms.authors.empty()) return fail("nobody of that name has edited: " + request.by);
+    for (const AuthorId author : TRY(authors_named(request.by))) terms.authors.insert(author);
   } else if (request.to_tick == 0) {
     return fail("say whose edits are taken back, or to which tick");
   }

@@ -46,6 +46,8 @@ struct EditHistory::State {
   HistoryUnits units() const;
   Result<std::string> answer(const HistoryRequest& request);
   Result<std::string> answer(const UndoRequest& request, const std::string& who);
+  /// An error where nobody is meant.
+  Result<std::vector<AuthorId>> authors_named(const std::string& by) const;
   Result<UndoTerms> terms_of(const UndoRequest& request) const;
   Result<void> take_terrain_then(const UndoRequest& request, UndoPlan& plan) const;
   void plan_again(UndoRun& run);

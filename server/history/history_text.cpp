@@ -57,12 +57,14 @@ double m3_of(MassUnits mass, const HistoryUnits& units) {
 
 }  // namespace
 
-std::string text_of(const std::vector<EditRow>& edits, Tick known_since, const Authors& authors,
-                    const HistoryUnits& units, bool as_json) {
+std::string text_of(const std::vector<EditRow>& edits, const LeftOut& left_out, Tick known_since,
+                    const Authors& authors, const HistoryUnits& units, bool as_json) {
   if (as_json) {
     ordered_json all;
     all["tick"] = units.now;
     all["known_since_tick"] = known_since;
+    all["more"] = left_out.more;
+    all["by_the_world_itself"] = left_out.by_itself;
     all["edits"] = ordered_json::array();
     for (const EditRow& edit : edits) {
       ordered_json one{
@@ -81,12 +83,17 @@ std::string text_of(const std::vector<EditRow>& edits, Tick known_since, const A
     }
     return all.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   }
-  if (edits.empty()) return "nobody edited there, as far as this server remembers\n";
+  if (edits.empty() && left_out.by_itself == 0)
+    return "nobody edited there, as far as this server remembers\n";
   std::string text;
   for (const EditRow& edit : edits)
     text += fmt::format("tick {:>8}, {:>7} ago  {:<9} {:<28} {:>4} bricks, {} pieces, {}\n", edit.tick,
                         time_ago(edit.tick, units), kind_of(edit.kind), authors.words_of(edit.author),
                         edit.bricks, edit.pieces, words_of_box(edit.lo, edit.hi, units));
+  if (left_out.by_itself > 0)
+    text += fmt::format("besides, rock moved by itself {} times, as slides do\n", left_out.by_itself);
+  if (left_out.more)
+    text += fmt::format("these are the newest {}; --at, --by and --since ask for fewer\n", edits.size());
   if (known_since > 0)
     text += fmt::format("older edits than {} are forgotten (--history-mb)\n", time_ago(known_since, units));
   return text;
@@ -113,14 +120,15 @@ std::string text_of(const UndoSummary& s, const HistoryUnits& units, bool as_jso
   }
   std::string text =
       s.number ? fmt::format("undo {} takes back ", *s.number) : std::string("this would take back ");
-  text += fmt::format("{} bricks and {} pieces of {}, since {} ago\n", s.bricks, s.pieces,
-                      s.authors.empty() ? "everybody" : fmt::format("{}", fmt::join(s.authors, ", ")),
-                      time_ago(s.since, units));
+  text +=
+      fmt::format("{} bricks and {} pieces of {}, {}\n", s.bricks, s.pieces,
+                  s.authors.empty() ? "everybody" : fmt::format("{}", fmt::join(s.authors, ", ")),
+                  s.since == 0 ? "of all that is remembered" : "since " + time_ago(s.since, units) + " ago");
   if (s.bricks > 0) text += "they lie within " + words_of_box(s.lo, s.hi, units) + "\n";
   if (s.held > 0) {
-    text += fmt::format("others edited {} of its bricks since:", s.held);
-    for (const auto& [who, bricks] : s.holders) text += fmt::format(" {}, {} bricks", who, bricks);
-    text += "; what they did last stays with --keep-others, and goes with --over-others\n";
+    text += fmt::format("others edited {} of its bricks since:\n", s.held);
+    for (const auto& [who, bricks] : s.holders) text += fmt::format("  {}: {} bricks\n", who, bricks);
+    if (!s.number) text += "what they did last stays with --keep-others, and goes with --over-others\n";
   }
   if (s.earlier > 0)
     text += fmt::format("of {} bricks the same persons' edits of up to a minute before go, too\n", s.earlier);

@@ -17,8 +17,13 @@ struct HistoryUnits {
   Tick now = 0;
 };
 
-std::string text_of(const std::vector<EditRow>& edits, Tick known_since, const Authors& authors,
-                    const HistoryUnits& units, bool as_json);
+/// What a list of edits leaves out.
+struct LeftOut {
+  bool more = false;     ///< older ones that fit, too
+  size_t by_itself = 0;  ///< edits of the world itself, such as slides, as old as those in the list
+};
+std::string text_of(const std::vector<EditRow>& edits, const LeftOut& left_out, Tick known_since,
+                    const Authors& authors, const HistoryUnits& units, bool as_json);
 
 /// What an undo takes back, or would. `number`: of the one that begins; nothing: it is a preview.
 struct UndoSummary {

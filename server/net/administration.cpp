@@ -46,6 +46,17 @@ std::string words_of(const UndoRequest& undo) {
   return words;
 }
 
+/// Which undo it is, and what it takes back: the first line of the answer in words, the number of that in
+/// JSON.
+std::string result_in(const std::string& answer) {
+  if (!answer.starts_with('{')) return ": " + answer.substr(0, answer.find('\n'));
+  constexpr std::string_view key = "\"undo\":";
+  const size_t at = answer.find(key);
+  if (at == std::string::npos) return {};
+  const size_t from = at + key.size();
+  return ": undo " + answer.substr(from, answer.find_first_not_of("0123456789", from) - from);
+}
+
 std::string name_in_brackets(const SessionEntry* entry) {
   return entry == nullptr || entry->name.empty() ? std::string() : " (" + entry->name + ")";
 }
@@ -152,6 +163,15 @@ void Administration::note_done(const TickDelta& delta) {
   }
 }
 
+void Administration::note_answered(uint64_t session, const ServerMessage& answer) {
+  if (const auto* const refused = std::get_if<ReplyMessage>(&answer))
+    asked_.erase({session, refused->request});
+  const auto* const list = std::get_if<AdminListMessage>(&answer);
+  if (list == nullptr) return;
+  const auto asked = asked_.extract({session, list->request});
+  if (!asked.empty()) note(asked.mapped().author, asked.mapped().act + result_in(list->text), session);
+}
+
 void Administration::act(ClientSession& session, const AdminMessage& message) {
   ++counts_.requests;
   if (!sessions_.at(session.id()).requests.try_spend(steady_now_s()))
@@ -163,8 +183,12 @@ void Administration::act(ClientSession& session, const AdminMessage& message) {
   };
   const auto history = [&](const HistoryAct& asked) {
     const auto* const undo = std::get_if<UndoRequest>(&asked);
+    if (undo != nullptr && undo->show_session != 0 && sessions_.find(undo->show_session) == nullptr)
+      return requests_.refuse(
+          session, message.request,
+          {Refusal::admin_invalid, fmt::format("there is no session {}", undo->show_session)});
     if (ask_history_ && undo != nullptr && changes_world(*undo))
-      note(author_of(session), words_of(*undo), session.id());
+      note_later(session, message.request, words_of(*undo));
     if (ask_history_) return ask_history_(session.id(), message.request, asked, author_of(session));
     requests_.refuse(session, message.request,
                      {Refusal::admin_invalid, "this server remembers no edits (--history-mb)"});
@@ -275,9 +299,12 @@ Result<void> Administration::ban(const BanRequest& ban, const std::string& autho
   const uint64_t now_s = unix_now_s();
   const uint64_t until_s = ban.minutes == 0 ? 0 : now_s + ban.minutes * seconds_per_minute;
   Result<void> added = authorizer_.bans().add(key, {until_s, ban.reason}, now_s);
+  const std::string whom = ban.session == 0 ? std::string()
+                                            : fmt::format(" of session {}{}", ban.session,
+                                                          name_in_brackets(sessions_.find(ban.session)));
   const std::string until =
       until_s == 0 ? "until that is lifted" : "until " + iso_time(until_s * ms_per_second);
-  note(author, with_reason(fmt::format("bans {} {}", key, until), ban.reason));
+  note(author, with_reason(fmt::format("bans {}{} {}", key, whom, until), ban.reason), ban.session);
   end_banned();
   return added;
 }

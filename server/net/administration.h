@@ -53,6 +53,8 @@ class Administration {
   void note_asked(const ClientSession& session, uint32_t request, const Request& body);
   /// Notes those that this tick carried out.
   void note_done(const TickDelta& delta);
+  /// The host answers later than a tick; an undo is noted once it has begun.
+  void note_answered(uint64_t session, const ServerMessage& answer);
   /// Takes what was changed in the file of bans by hand, and ends the sessions that it refuses.
   void read_bans_again();
 

@@ -16,6 +16,7 @@ void NetHost::set_access(std::shared_ptr<const Access> access) {
 }
 
 void NetHost::send(uint64_t session, const ServerMessage& message) {
+  administration_.note_answered(session, message);
   if (const SessionEntry* const entry = sessions_.find(session)) entry->session->send(message);
 }
 

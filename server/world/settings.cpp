@@ -8,6 +8,7 @@
 
 #include "server/work/limits.h"
 #include "server/world/limits.h"
+#include "shared/base/check.h"
 #include "shared/base/kind_table.h"
 #include "shared/base/limits.h"
 #include "shared/base/listed.h"
@@ -210,10 +211,14 @@ constexpr std::array table{
 }
 static_assert(decltype(members(std::declval<const WorldConfig&>()))::value == table.size());
 
+/// The shortest text that is read as this number: without an exponent, where that has room.
 std::string text_of(double number) {
   std::array<char, 32> text{};
-  return {text.data(),
-          std::to_chars(text.data(), text.data() + text.size(), number, std::chars_format::fixed).ptr};
+  char* const end = text.data() + text.size();
+  auto printed = std::to_chars(text.data(), end, number, std::chars_format::fixed);
+  if (printed.ec != std::errc()) printed = std::to_chars(text.data(), end, number);
+  CHECK(printed.ec == std::errc());
+  return {text.data(), printed.ptr};
 }
 
 Result<double> parse_number(std::string_view value, const NumberBounds& bounds) {
@@ -222,7 +227,25 @@ Result<double> parse_number(std::string_view value, const NumberBounds& bounds) 
   const bool is_number = error == std::errc() && end == value.data() + value.size();
   const bool within = number >= bounds.min && number <= bounds.max;
   if (!is_number || !within || (bounds.whole && number != std::floor(number))) return fail("out of bounds");
-  return number;
+  return number + 0.0;  // no −0
+}
+
+Result<void> read(const Setting& setting, std::string_view value, WorldConfig& config) {
+  if (setting.is_text()) {
+    if (const Result<void> done = setting.text.parse(config, value); !done)
+      return fail("is " + setting.may_be() + "; " + done.error().message);
+    return {};
+  }
+  if (setting.choices.empty()) {
+    const Result<double> number = parse_number(value, setting.bounds);
+    if (!number) return fail("is " + setting.may_be());
+    setting.put(config, *number);
+    return {};
+  }
+  const auto found = std::ranges::find(setting.choices, value);
+  if (found == setting.choices.end()) return fail("is " + setting.may_be());
+  setting.put(config, static_cast<double>(found - setting.choices.begin()));
+  return {};
 }
 
 }  // namespace
@@ -235,22 +258,10 @@ std::string Setting::may_be() const {
   return listed(choices);
 }
 
+/// A world has what its files and its clients read: the value as it is printed, which may have fewer digits.
 Result<void> Setting::parse(std::string_view value, WorldConfig& config) const {
-  if (is_text()) {
-    if (const Result<void> done = text.parse(config, value); !done)
-      return fail("is " + may_be() + "; " + done.error().message);
-    return {};
-  }
-  if (choices.empty()) {
-    const Result<double> number = parse_number(value, bounds);
-    if (!number) return fail("is " + may_be());
-    put(config, *number);
-    return {};
-  }
-  const auto found = std::ranges::find(choices, value);
-  if (found == choices.end()) return fail("is " + may_be());
-  put(config, static_cast<double>(found - choices.begin()));
-  return {};
+  TRY(read(*this, value, config));
+  return read(*this, print(config), config);
 }
 
 std::string Setting::print(const WorldConfig& config) const {

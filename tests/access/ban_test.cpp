@@ -40,6 +40,7 @@ TEST(BanTarget, networks_hold_their_addresses_and_no_others) {
 
 TEST(BanTarget, names_and_tokens_are_the_very_same) {
   EXPECT_TRUE(fits("name:Ann", {"10.0.0.1", "Ann"}));
+  EXPECT_TRUE(fits("name:Ann", {"10.0.0.1", "aNN"}));
   EXPECT_FALSE(fits("name:Ann", {"10.0.0.1", "Anna"}));
   EXPECT_FALSE(fits("name:Ann", {"10.0.0.1"}));
   EXPECT_TRUE(fits("name:Ann%20B%25", {"10.0.0.1", "Ann B%"}));

@@ -166,8 +166,14 @@ TEST_F(AdminRecords, acts_of_administrators_are_kept_over_a_restart) {
   ASSERT_TRUE(ban_address(target, {.address = "192.0.2.7", .minutes = 5, .reason = "griefing"}));
   ASSERT_TRUE(lift_ban(target, {"192.0.2.7"}));
   static_cast<void>(ask_history(target, UndoRequest{.mode = UndoMode::preview, .by = "Ann"}));  // a look
-  static_cast<void>(
-      ask_history(target, UndoRequest{.mode = UndoMode::keep_others, .by = "Ann", .since_s = 60}));
+  EXPECT_FALSE(ask_history(target, UndoRequest{.mode = UndoMode::keep_others, .by = "Ann"})) << "not noted";
+  EXPECT_FALSE(ask_history(target, UndoRequest{.mode = UndoMode::stop})) << "not noted";
+  ASSERT_TRUE(ask_world(target, CarveRequest{.shape = sphere({0.0F, 0.0F, 0.0F}, 1.5F)}));
+  const auto undone = ask_history(
+      target,
+      UndoRequest{
+          .mode = UndoMode::over_others, .to_tick = 1, .lo_m = glm::vec3(-20.0F), .hi_m = glm::vec3(20.0F)});
+  ASSERT_TRUE(undone) << undone.error().message;
   start(folder / "hill.world");
   std::vector<std::string> acts;
   for (const Json& act : read(LinesOf::audit)) {
@@ -179,10 +185,12 @@ TEST_F(AdminRecords, acts_of_administrators_are_kept_over_a_restart) {
   EXPECT_EQ(acts[0], "sets air-drag=5");
   EXPECT_TRUE(acts[1].starts_with("bans 192.0.2.7 until ") && acts[1].ends_with(": griefing")) << acts[1];
   EXPECT_EQ(acts[2], "lifts the ban of 192.0.2.7");
-  EXPECT_EQ(acts[3], "takes back edits of Ann of the last 60 s, keeping what others edited since");
+  EXPECT_TRUE(acts[3].starts_with("takes back edits, to tick 1 in the box -20,-20,-20 to 20,20,20") &&
+              holds(acts[3], ": undo 1 takes back "))
+      << acts[3];
   EXPECT_EQ(read(LinesOf::audit, 1).size(), 1U);
   const auto text = lines_text(*list_lines(target, {LinesOf::audit, 1}), LinesOf::audit);
-  EXPECT_TRUE(text && holds(*text, "takes back edits of Ann"));
+  EXPECT_TRUE(text && holds(*text, "undo 1 takes back"));
 }
 
 TEST_F(AdminRecords, regions_are_noted_once_the_world_has_them) {

@@ -7,9 +7,12 @@
 #include "server/formats/recording_codec.h"
 #include "server/world/limits.h"
 #include "server/world/recorded_values.h"
+#include "server/world/settings.h"
 #include "server/world/world.h"
 #include "shared/base/edit_reach.h"
 #include "shared/base/limits.h"
+#include "shared/base/spawn.h"
+#include "shared/base/water.h"
 #include "tests/support/rounds.h"
 
 namespace scree {
@@ -117,6 +120,27 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 /// A later release may have another built-in palette.
+TEST(WorldConfig, what_is_set_is_what_files_and_clients_read) {
+  for (const SettingValue& setting : SettingValues{{"reach", "1e-31"},
+                                                   {"reach", "1e-40"},
+                                                   {"reach", "1e-320"},
+                                                   {"reach", "-0"},
+                                                   {"reach", "3.3333333333"},
+                                                   {"requests-per-second", "1.000000000001"},
+                                                   {water_setting, "1.234567"},
+                                                   {spawn_setting, "1.23456,10,3.33333"},
+                                                   {spawn_setting, "1e-31,1,1"}}) {
+    WorldConfig config = world_of(0.25F, 60), again = config;
+    ASSERT_TRUE(set(config, setting)) << setting.value;
+    ASSERT_TRUE(set_all(again, print(config))) << setting.value;
+    EXPECT_TRUE(again == config) << setting.name << "=" << setting.value;
+    EXPECT_TRUE(World(config).config() == config) << setting.name << "=" << setting.value;
+  }
+  WorldConfig of_host = world_of(0.25F, 60);
+  of_host.water = 1.234567F;
+  EXPECT_EQ(World(of_host).config().water, 1.23F);
+}
+
 TEST(WorldConfig, a_header_names_the_built_in_palette_too) {
   const RecordedHeader header = to_recorded(WorldConfig{});
   ASSERT_NE(header.palette, nullptr);

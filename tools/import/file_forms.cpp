@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "shared/base/small_letters.h"
+
 namespace scree {
 
 namespace {
@@ -42,10 +44,7 @@ constexpr UnreadForm unread_forms[] = {
 }  // namespace
 
 std::string ending_of(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::ranges::transform(ending, ending.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
+  return in_small_letters(std::filesystem::path(path).extension().string());
 }
 
 bool is_mesh_file(const std::string& path) {

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "client/admin/console/limits.h"
+#include "shared/base/small_letters.h"
 #include "shared/base/xdg_folder.h"
 
 namespace scree {
@@ -49,8 +50,7 @@ std::string admin_history_path() {
 }
 
 bool may_hold_secret(std::string_view line) {
-  std::string lower(line);
-  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string lower = in_small_letters(std::string(line));
   return lower.find("token") != std::string::npos || lower.find("scree1.") != std::string::npos;
 }
 

@@ -2,6 +2,7 @@
 // and lists, asks about and changes the bodies of its world. Exit status: 0 success, 1 failure or refusal, 2
 // wrong usage.
 #include <CLI/CLI.hpp>
+#include <cstdio>
 
 #include "client/admin/programs/admin_app.h"
 #include "client/admin/programs/console_command.h"
@@ -31,5 +32,9 @@ int main(int argc, char** argv) {
   if (asks_health) endpoint.drop_token();
   if (const auto completed = endpoint.complete(); !completed)
     return scree::complain(completed.error(), asks_health ? scree::exit_failed : scree::exit_usage);
-  return console->parsed() ? scree::run_console(server, commands.settings()) : commands.run(server);
+  const int status =
+      console->parsed() ? scree::run_console(server, commands.settings()) : commands.run(server);
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+    return scree::complain(scree::Error{"the output cannot be written"}, scree::exit_failed);
+  return status;
 }

@@ -17,6 +17,7 @@ namespace {
 
 /// For the names of settings, while a person waits for a completion.
 constexpr std::chrono::milliseconds names_within{1000};
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 /// As completion leaves them; a backslash keeps one.
 std::string without_last_spaces(std::string line) {
@@ -121,7 +122,10 @@ int Console::run_on_terminal() {
   for (const std::string& line : history.lines()) editor.remember(line);
   while (!over_) {
     const LineEditor::Typed typed = editor.read();
-    if (typed.end == LineEditor::End::dropped) continue;
+    if (typed.end == LineEditor::End::dropped) {
+      std::printf("\n");
+      continue;
+    }
     if (typed.end == LineEditor::End::closed) {
       std::printf("\n");
       break;
@@ -138,11 +142,13 @@ int Console::run_script() {
   size_t number = 0;
   int status = 0;
   for (std::string line; !over_ && std::getline(std::cin, line);) {
-    ++number;
+    if (++number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    if (line.ends_with('\r')) line.pop_back();  // of a script from another system
     if (run_line(line) == 0) continue;
     std::fprintf(stderr, "scree-admin: line %zu failed\n", number);
     status = exit_failed;
   }
+  if (std::ferror(stdin) != 0) return complain(Error{"the script cannot be read to its end"}, exit_failed);
   return status;
 }
 

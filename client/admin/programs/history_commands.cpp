@@ -1,5 +1,6 @@
 // history, undo and restore: who edited the world, and taking that back.
 #include <chrono>
+#include <cmath>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -37,7 +38,7 @@ CLI::Option* add_since(CLI::App* command, HistoryWords& words, const std::string
       ->transform(CLI::AsNumberWithUnit(
           std::map<std::string, double>{{"s", 1.0}, {"m", 60.0}, {"h", 3600.0}, {"d", 86400.0}},
           CLI::AsNumberWithUnit::CASE_SENSITIVE, "TIME"))
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(CLI::Range(1e-3, 1e9));
 }
 
 void add_box(CLI::App* command, HistoryWords& words) {
@@ -56,7 +57,7 @@ Printed print_history(const Result<std::string>& said, bool as_json) {
 }
 
 uint32_t whole_seconds(double seconds) {
-  return seconds > 0.0 ? static_cast<uint32_t>(seconds + 0.999) : 0;
+  return static_cast<uint32_t>(std::ceil(seconds));
 }
 
 Printed print_edits(const AdminServer& server, const HistoryWords& words, bool as_json) {
@@ -72,7 +73,7 @@ std::optional<UndoMode> asked_of_person(const std::string& conflict) {
   std::cerr << rules_lines(conflict)
             << "keep what others did last, or take back theirs, too? [keep/over/no] ";
   std::string line;
-  std::getline(std::cin, line);
+  if (!read_line_unless_interrupted(line)) return std::nullopt;
   if (line == "keep") return UndoMode::keep_others;
   if (line == "over") return UndoMode::over_others;
   return std::nullopt;
@@ -132,14 +133,9 @@ void add_taking_back(CLI::App* command, const std::shared_ptr<HistoryWords>& wor
   add_box(command, *words);
   CLI::Option* const preview =
       command->add_flag("--preview", words->preview, "only says what would be taken back");
-  CLI::Option* const keep = command->add_flag("--keep-others", words->keep_others,
-                                              "what others edited since stays, where they were the last");
-  command->add_flag("--over-others", words->over_others, "what others edited since is taken back, too")
-      ->excludes(keep)
-      ->excludes(preview);
   bounded(command->add_option("--show", words->show_session,
                               "marks the places for half a minute on the screen of this session"),
-          whole_within(1, INT64_MAX))
+          whole_within(1, whole_most))
       ->needs(preview);
   command->add_flag("!--no-wait", words->wait, "returns when it begins, not when it is over");
   table.push_back({command, [words](const AdminServer& server, bool as_json) -> Printed {
@@ -151,7 +147,8 @@ void add_taking_back(CLI::App* command, const std::shared_ptr<HistoryWords>& wor
 
 void add_history_commands(CLI::App& app, WorldCommands& table) {
   const auto asked = std::make_shared<HistoryWords>();
-  const std::string whose = "whose: a name, session:NUMBER, token:ID, address:HASH or undo:NUMBER";
+  const std::string whose =
+      "whose: a name or name:NAME, session:NUMBER, token:ID, address:HASH or undo:NUMBER";
   CLI::App* const history = app.add_subcommand("history", "prints who edited the world, the newest first");
   asked->at = add_place(history, "--at", asked->at_m, "edits near this place: x y z, metres");
   bounded(history->add_option("--radius", asked->radius_m, "from there, metres"), {0.0, history_radius_max_m})
@@ -168,15 +165,25 @@ void add_history_commands(CLI::App& app, WorldCommands& table) {
       app.add_subcommand("undo", "takes back what somebody did: bricks become what they were, pieces go");
   undo->add_option("--by", undone->by, whose);
   add_since(undo, *undone, "what was done in the last time; without it: all that is remembered");
-  undo->add_flag("--stop", undone->stop, "ends the undo that goes on");
-  undo->add_flag("--progress", undone->progress, "says how far the last undo is");
   add_taking_back(undo, undone, table);
+  CLI::Option* const keep = undo->add_flag("--keep-others", undone->keep_others,
+                                           "what others edited since stays, where they were the last");
+  undo->add_flag("--over-others", undone->over_others, "what others edited since is taken back, too")
+      ->excludes(keep)
+      ->excludes(undo->get_option("--preview"));
+  std::vector<CLI::Option*> others = undo->get_options();
+  std::erase_if(others, [](const CLI::Option* option) { return option->check_lname("help"); });
+  CLI::Option* const stop = undo->add_flag("--stop", undone->stop, "ends the undo that goes on");
+  CLI::Option* const progress =
+      undo->add_flag("--progress", undone->progress, "says how far the last undo is")->excludes(stop);
+  for (CLI::Option* const option : others) option->excludes(stop)->excludes(progress);
 
   const auto restored = std::make_shared<HistoryWords>();
   restored->over_others = true;
   CLI::App* const restore =
       app.add_subcommand("restore", "makes the terrain in a box what it was after a tick");
-  bounded(restore->add_option("--to", restored->to_tick, "the tick"), whole_within(1, INT64_MAX))->required();
+  bounded(restore->add_option("--to", restored->to_tick, "the tick"), whole_within(1, whole_most))
+      ->required();
   add_taking_back(restore, restored, table);
   restore->get_option("--box")->required();
 }

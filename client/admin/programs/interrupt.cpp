@@ -1,6 +1,9 @@
 #include "client/admin/programs/interrupt.h"
 
 #include <csignal>
+#include <iostream>
+#include <poll.h>
+#include <unistd.h>
 
 namespace scree {
 
@@ -27,6 +30,18 @@ bool was_interrupted() {
 
 void forget_interrupt() {
   interrupted = 0;
+}
+
+bool read_line_unless_interrupted(std::string& line) {
+  constexpr int look_ms = 100;
+  pollfd input{STDIN_FILENO, POLLIN, 0};
+  while (!was_interrupted()) {
+    const int ready = ::poll(&input, 1, look_ms);
+    if (ready > 0) return static_cast<bool>(std::getline(std::cin, line));
+    if (ready < 0 && errno != EINTR) return false;
+  }
+  std::cerr << "\n";
+  return false;
 }
 
 }  // namespace scree

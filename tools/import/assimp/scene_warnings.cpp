@@ -7,6 +7,7 @@
 #include <cctype>
 #include <string_view>
 
+#include "shared/base/small_letters.h"
 #include "tools/import/assimp/scene_reader.h"
 
 namespace scree {
@@ -16,9 +17,8 @@ namespace {
 constexpr unsigned listened = Assimp::Logger::Warn | Assimp::Logger::Err;
 
 /// Others are on materials, textures and movements.
-bool is_on_shape(std::string line) {
-  std::ranges::transform(line, line.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+bool is_on_shape(const std::string& said) {
+  const std::string line = in_small_letters(said);
   constexpr std::array<std::string_view, 6> words = {"face",     "polygon", "triangle",
                                                      "vertices", "indices", "vertex index"};
   return std::ranges::any_of(words,

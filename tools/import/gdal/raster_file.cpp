@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "shared/base/regular_file.h"
+#include "shared/base/small_letters.h"
 #include "tools/import/gdal/ascii_grid.h"
 #include "tools/import/gdal/gdal_forms.h"
 #include "tools/import/gdal/gdal_library.h"
@@ -34,12 +35,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 6> archives{
                                                                                  {".tgz", "/vsitar/"},
                                                                                  {".tar.gz", "/vsitar/"},
                                                                                  {".gz", "/vsigzip/"}}};
-
-std::string in_small_letters(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
-}
 
 std::string listed_parts(const std::vector<Part>& parts) {
   std::string names;

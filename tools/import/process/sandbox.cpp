@@ -13,6 +13,7 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include "shared/base/small_letters.h"
 #include "tools/import/process/limits.h"
 #include "tools/import/process/system_calls.h"
 
@@ -90,12 +91,6 @@ Result<void> wall_off_files(const Readable& readable) {
   for (const std::string& folder : readable.folders) wall.allow_folder(folder);
   if (wall.raise()) return {};
   return fail(std::string("its reader cannot be confined: ") + std::strerror(errno));
-}
-
-std::string in_small_letters(std::string text) {
-  std::ranges::transform(text, text.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return text;
 }
 
 std::string folder_of(const std::string& path) {
