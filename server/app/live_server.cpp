@@ -142,7 +142,7 @@ bool LiveServer::State::step() {
   }
   std::shared_ptr<const TickDelta> delta = *next;
   if (!delta) {
-    log_of(LogPart::replay).info("the recording ends here");
+    if (config.told == nullptr) log_of(LogPart::replay).info("the recording ends here");
     end("");
     return false;
   }
@@ -152,6 +152,7 @@ bool LiveServer::State::step() {
   if (governor && is_chosen) governor->chosen(feed->world()->config().work_percent);
   if (trace) trace_tick(*trace, begin, *delta);
   std::vector<Event> noted = events ? events->drain(*delta) : std::vector<Event>();
+  tell_bus(delta);
   if (recorder) record(delta, std::move(admitted.commands), std::move(noted));
   const double record_ms = stopwatch.lap_ms();
   watch.part(&FlightTick::record_ms);
@@ -234,6 +235,11 @@ void LiveServer::State::govern(double length, TickSchedule::Delay delay) {
 void LiveServer::State::run() {
   ::pthread_setname_np(::pthread_self(), simulation_thread_name);
   if (!wait_for_clients()) return end("");
+  if (feed->paces_itself()) {
+    do heartbeat.beat(steady_now_s());
+    while (sleep_until(Clock::now()) && step());
+    return end("");
+  }
   TickSchedule schedule(Clock::now(), period);
   while (sleep_until(schedule.due())) {
     const Clock::time_point began = Clock::now();
@@ -297,6 +303,7 @@ void LiveServer::State::finish_files() {
   if (recorder) note(recorder->finish(std::max(0.0, until_s - steady_now_s())));
   if (events) note(events->finish());
   if (flight) note(flight->finish());
+  if (teller) teller->stop();
   if (trace) note(trace->write(config.trace_path));
 }
 
