@@ -40,8 +40,8 @@ void BusOptions::declare(CLI::App& app) {
                    "people ask: scree edge")
           ->needs(nats);
   for (const char* of_the_simulation :
-       {"--world", "--record", "--replay", "--events", "--terrain", "--materials", "--seed", "--voxel-size",
-        "--tick-rate", "--govern", "--rules", "--game", "--nats-stream-mb", "--nats-in-memory"})
+       {"--world", "--record", "--replay", "--events", "--terrain", "--seed", "--voxel-size", "--tick-rate",
+        "--govern", "--rules", "--game", "--nats-stream-mb", "--nats-in-memory"})
     as_edge->excludes(app.get_option(of_the_simulation));
   app.get_option("--replay")->excludes(nats);
   app.add_option("--edge-name", edge_name, "this edge's name, which no other has; default: a random one")

@@ -121,7 +121,7 @@ std::optional<Admitted> LiveServer::State::next_commands() {
 
 /// Runs one tick. False when it was the last.
 bool LiveServer::State::step() {
-  const Clock::time_point begin = Clock::now();
+  Clock::time_point begin = Clock::now();
   const double cpu_before_s = thread_cpu_s();
   Stopwatch stopwatch;
   parts = {};
@@ -135,6 +135,7 @@ bool LiveServer::State::step() {
   TickSpan ran{steady_now_s(), 0.0};
   const auto next = feed->next(admitted.commands);
   ran.done_s = steady_now_s();
+  begin += seconds(feed->waited_s());
   if (!next) {
     broken = true;
     end(next.error().message);
@@ -146,7 +147,7 @@ bool LiveServer::State::step() {
     end("");
     return false;
   }
-  parts[TickPart::simulation] = stopwatch.lap_ms();
+  parts[TickPart::simulation] = stopwatch.lap_ms() - 1e3 * feed->waited_s();
   watch.part(&FlightTick::world_ms);
   tell_settings(*delta);
   if (governor && is_chosen) governor->chosen(feed->world()->config().work_percent);

@@ -26,7 +26,6 @@ Result<void> LiveServer::State::open() {
   CHECK(!keeps || config.world.terrain.heights == nullptr || given != Digest{});
   if (config.told != nullptr) {
     TRY(open_edge());
-    spawn = config.told->spawn();
   } else if (!config.replay.path.empty()) {
     TRY(open_replay(spawn));
   } else if (auto opened = open_world(); !opened) {
@@ -56,7 +55,7 @@ Result<void> LiveServer::State::open() {
   TickDelta keyframe = world != nullptr         ? world->keyframe()
                        : config.told != nullptr ? std::move(*config.told->keyframe())
                                                 : TickDelta();
-  if (world == nullptr) keyframe.spawn = spawn;
+  if (spawn) keyframe.spawn = spawn;
   end_old_sessions(keyframe);
   tell_missing_models(keyframe.props_spawned, config.models.get());
   report.settings = keyframe.settings;  // ticks say only what changes

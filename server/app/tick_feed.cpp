@@ -30,6 +30,7 @@ class ToldFeed final : public TickFeed {
   explicit ToldFeed(std::shared_ptr<ToldSource> told) : told_(std::move(told)) {}
   Result<std::shared_ptr<const TickDelta>> next(std::span<const Command>) override { return told_->next(); }
   bool paces_itself() const override { return true; }
+  double waited_s() const override { return told_->waited_s(); }
 
  private:
   std::shared_ptr<ToldSource> told_;

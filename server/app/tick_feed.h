@@ -22,6 +22,8 @@ class TickFeed {
   virtual Result<std::shared_ptr<const TickDelta>> next(std::span<const Command> commands) = 0;
   /// Whether next() waits for the tick to come; else the server's clock says when it is due.
   virtual bool paces_itself() const { return false; }
+  /// Seconds that the last next() waited so.
+  virtual double waited_s() const { return 0.0; }
   /// The simulation behind it; null for all others.
   virtual World* world() { return nullptr; }
   /// Takes what somebody wants of a replay; an error for a simulation. From any thread.

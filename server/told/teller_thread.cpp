@@ -77,6 +77,8 @@ Result<void> WorldTeller::State::tell_tick(const TickDelta& delta) {
     if (kept) continue;
     count_lost(1);
     leave_gap(kept.error().message);
+    stream_is_open = false;  // no tick waits for the next answer
+    retry_s = steady_now_s() + limits::told_retry_s;
     return {};
   }
   tail_bytes += static_cast<double>(bytes.size());

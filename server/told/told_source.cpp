@@ -73,8 +73,11 @@ Result<std::shared_ptr<TickDelta>> ToldSource::jump() {
 
 /// Nothing: the simulation has begun anew.
 Result<std::shared_ptr<TickDelta>> ToldSource::move() {
+  waited_s_ = 0.0;
   if (pending_) return may_jump() ? jump() : world_.unchanged();
+  const double asked_s = steady_now_s();
   auto told = reader_->next(limits::edge_still_s);
+  waited_s_ = steady_now_s() - asked_s;
   look_whether_away(told.has_value());
   if (!told) return world_.unchanged();
   return std::visit(Overloaded{[&](ReadTick& tick) -> Result<std::shared_ptr<TickDelta>> {

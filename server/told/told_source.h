@@ -44,6 +44,8 @@ class ToldSource {
   /// simulation has begun anew, or what was told does not agree with its hash. Then an edge begins anew, too.
   std::shared_ptr<const TickDelta> next();
 
+  /// Seconds that the last next() waited for a tick.
+  double waited_s() const { return waited_s_; }
   /// Whether next() has come to its end.
   bool is_over() const { return is_over_; }
 
@@ -67,6 +69,7 @@ class ToldSource {
   PlayedWorld world_;
   std::optional<ReadKeyframe> pending_;  ///< waits for a tick with poses
   Tick number_ = 0;
+  double waited_s_ = 0.0;
   double came_s_ = 0.0;  ///< when the last tick came
   std::atomic<Tick> tick_ = 0;
   std::atomic<uint64_t> resyncs_ = 0;

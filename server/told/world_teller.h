@@ -21,8 +21,8 @@
 namespace scree {
 
 struct TellerConfig {
-  std::string world;          ///< its name on the bus (is_bus_name)
-  uint32_t stream_mb = 256;   ///< of the stream
+  std::string world;         ///< its name on the bus (is_bus_name)
+  uint32_t stream_mb = 256;  ///< of the stream
   /// Between two keyframes of a world that changes.
   double keyframe_s = limits::told_keyframe_s;
   uint64_t world_number = 0;  ///< as of WelcomeMessage::world

@@ -1,5 +1,5 @@
-// The bus beside a real server of NATS: it is found again by itself, keeps what its streams are to keep, and says
-// what is wrong.
+// The bus beside a real server of NATS: it is found again by itself, keeps what its streams are to keep, and
+// says what is wrong.
 #include "server/bus/bus.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ class Ear {
 TEST(Bus, a_server_that_is_away_at_the_start_is_found_later) {
   NatsProcess nats;
   nats.kill();
-  auto bus = Bus::connect({.url = nats.url(), .name = "test"});
+  auto bus = Bus::connect(bus_at(nats.url()));
   ASSERT_TRUE(bus) << bus.error().message;
   EXPECT_FALSE((*bus)->is_connected());
   EXPECT_FALSE((*bus)->fault().empty());
@@ -102,20 +102,22 @@ TEST(Bus, what_is_not_kept_is_counted) {
 
 TEST(Bus, a_user_needs_the_password_which_no_message_shows) {
   NatsProcess nats({"--user", "ann", "--pass", "the-secret"});
-  auto wrong = Bus::connect({.url = nats.url("ann:wrong"), .name = "test"});
+  auto wrong = Bus::connect(bus_at(nats.url("ann:wrong")));
   ASSERT_TRUE(wrong) << wrong.error().message;
-  auto right = Bus::connect({.url = nats.url("ann:the-secret"), .name = "test"});
+  auto right = Bus::connect(bus_at(nats.url("ann:the-secret")));
   ASSERT_TRUE(right);
   EXPECT_TRUE(comes([&] { return (*right)->is_connected(); }));
   EXPECT_FALSE((*wrong)->is_connected());
   EXPECT_EQ(without_password("nats://ann:the-secret@host:4222"), "nats://host:4222");
-  const auto none = Bus::connect({.url = "nats://ann:the-secret@:not-a-port", .name = "test"});
+  const auto none = Bus::connect(bus_at("nats://ann:the-secret@:not-a-port"));
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().message.find("the-secret"), std::string::npos) << none.error().message;
 }
 
 TEST(Bus, a_missing_file_of_credentials_is_refused_with_its_name) {
-  const auto bus = Bus::connect({.url = "nats://127.0.0.1:1", .credentials_path = "/no/such.creds"});
+  BusConfig config = bus_at("nats://127.0.0.1:1");
+  config.credentials_path = "/no/such.creds";
+  const auto bus = Bus::connect(config);
   ASSERT_FALSE(bus);
   EXPECT_NE(bus.error().message.find("/no/such.creds"), std::string::npos);
 }

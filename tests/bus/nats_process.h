@@ -35,12 +35,15 @@ class NatsProcess {
   explicit NatsProcess(std::vector<std::string> more = {}) : more_(std::move(more)) { start(); }
 
   void start() {
-    std::vector<std::string> command{NATS_SERVER, "-a", "127.0.0.1", "-p", std::to_string(port_),
-                                     "-js",       "-sd", folder_ / "streams"};
+    std::vector<std::string> command{NATS_SERVER,           "-a",  "127.0.0.1", "-p",
+                                     std::to_string(port_), "-js", "-sd",       folder_ / "streams"};
     command.insert(command.end(), more_.begin(), more_.end());
     program_ = std::make_unique<BackgroundProgram>(command, folder_ / "said");
   }
   void kill() { program_.reset(); }
+  /// It answers nothing, and its connections stay, until it goes on.
+  void hang() const { ::kill(program_->number(), SIGSTOP); }
+  void go_on() const { ::kill(program_->number(), SIGCONT); }
 
   std::string url(const std::string& user = "") const {
     return "nats://" + (user.empty() ? "" : user + "@") + "127.0.0.1:" + std::to_string(port_);
@@ -62,8 +65,15 @@ bool comes(const Condition& condition) {
   return condition();
 }
 
+inline BusConfig bus_at(const std::string& url) {
+  BusConfig config;
+  config.url = url;
+  config.name = "test";
+  return config;
+}
+
 inline std::shared_ptr<Bus> connected_bus(const NatsProcess& nats) {
-  auto bus = Bus::connect({.url = nats.url(), .name = "test"});
+  auto bus = Bus::connect(bus_at(nats.url()));
   EXPECT_TRUE(bus) << bus.error().message;
   EXPECT_TRUE(comes([&] { return (*bus)->is_connected(); })) << (*bus)->fault();
   return *bus;

@@ -14,7 +14,8 @@ template <typename Decode>
 void expect_bounded(const std::vector<uint8_t>& whole, const Decode& decode) {
   ASSERT_TRUE(decode(whole));
   for (size_t size = 0; size < whole.size(); ++size)
-    static_cast<void>(decode(std::vector<uint8_t>(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size))));
+    static_cast<void>(
+        decode(std::vector<uint8_t>(whole.begin(), whole.begin() + static_cast<ptrdiff_t>(size))));
   Random random(7);
   for (int i = 0; i < 3000; ++i) {
     std::vector<uint8_t> changed = whole;
@@ -25,16 +26,25 @@ void expect_bounded(const std::vector<uint8_t>& whole, const Decode& decode) {
   }
 }
 
+std::vector<uint8_t> empty_state(Tick tick) {
+  RecordedKeyframe keyframe;
+  keyframe.tick = tick;
+  return encode(keyframe);
+}
+
 TEST(ToldCodec, no_bytes_are_too_strange_for_a_decoder) {
-  expect_bounded(encode(ToldPart{3, 9, 1, 4, {1, 2, 3}}), [](const auto& b) { return decode_told_part(b).has_value(); });
+  expect_bounded(encode(ToldPart{3, 9, 1, 4, {1, 2, 3}}),
+                 [](const auto& b) { return decode_told_part(b).has_value(); });
   expect_bounded(encode(ToldWhole{3, 9, 1}), [](const auto& b) { return decode_told_whole(b).has_value(); });
   expect_bounded(encode(PipeMessage{3, 9, 1, {4, 5}, true}),
                  [](const auto& b) { return decode_pipe_message(b).has_value(); });
   RecordedFrame frame;
   frame.tick = 12;
-  frame.operations.push_back(CarveOperation{sphere({0.0F, 0.0F, 0.0F}, 1.0F)});
+  CarveOperation carve;
+  carve.shape = sphere({0.0F, 0.0F, 0.0F}, 1.0F);
+  frame.operations.emplace_back(carve);
   expect_bounded(encode_told(frame), [](const auto& b) { return decode_told(b).has_value(); });
-  ToldKeyframe keyframe{1, {1, 2}, encode(RecordedKeyframe{.tick = 3}), {{5, 6, {7}}}, {}};
+  ToldKeyframe keyframe{1, {1, 2}, empty_state(3), {{5, 6, {7}}}, {}};
   expect_bounded(encode(keyframe), [](const auto& b) {
     const auto told = decode_told_keyframe(b);
     if (told) static_cast<void>(parts_of(*told, 3, {}, {}));
@@ -48,8 +58,8 @@ TEST(ToldCodec, a_part_that_is_none_of_its_value_is_refused) {
   EXPECT_FALSE(decode_told_part(encode(ToldPart{1, 1, 4, 4, {}})));
   EXPECT_FALSE(decode_told_part(encode(ToldPart{1, 1, 0, 0, {}})));
   EXPECT_FALSE(decode_told_part(encode(ToldPart{1, 1, 0, limits::told_parts_max + 1, {}})));
-  EXPECT_FALSE(decode_told_part(
-      encode(ToldPart{1, 1, 0, 1, std::vector<uint8_t>(limits::told_part_bytes_max + 1)})));
+  EXPECT_FALSE(
+      decode_told_part(encode(ToldPart{1, 1, 0, 1, std::vector<uint8_t>(limits::told_part_bytes_max + 1)})));
   EXPECT_FALSE(decode_told_whole(encode(ToldWhole{1, 1, 0})));
   EXPECT_FALSE(decode_pipe_message(encode(PipeMessage{0, 1, 0, {}, false})));
   EXPECT_FALSE(decode_pipe_message(
@@ -78,12 +88,12 @@ TEST(ToldCodec, parts_in_order_are_the_value_and_others_are_dropped) {
 
 TEST(ToldCodec, a_keyframe_with_rows_of_other_places_is_refused) {
   const auto parts = [](const ToldKeyframe& keyframe) { return parts_of(keyframe, 3, {}, {}); };
-  const std::vector<uint8_t> state = encode(RecordedKeyframe{.tick = 3});
+  const std::vector<uint8_t> state = empty_state(3);
   EXPECT_TRUE(parts({1, {}, state, {}, {}}));
-  EXPECT_FALSE(parts({1, {}, encode(RecordedKeyframe{.tick = 4}), {}, {}}));
-  EXPECT_FALSE(parts({1, {}, state, {}, {{1, 2, 3}}}));                   // a piece that nobody names
-  EXPECT_FALSE(parts({1, {}, state, {{9, 0, {}}, {8, 0, {}}}, {}}));      // in no order
-  EXPECT_FALSE(parts({1, {}, state, {{~uint64_t{0}, 0, {}}}, {}}));       // of no place
+  EXPECT_FALSE(parts({1, {}, empty_state(4), {}, {}}));
+  EXPECT_FALSE(parts({1, {}, state, {}, {{1, 2, 3}}}));               // a piece that nobody names
+  EXPECT_FALSE(parts({1, {}, state, {{9, 0, {}}, {8, 0, {}}}, {}}));  // in no order
+  EXPECT_FALSE(parts({1, {}, state, {{~uint64_t{0}, 0, {}}}, {}}));   // of no place
 }
 
 }  // namespace

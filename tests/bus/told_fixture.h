@@ -32,12 +32,22 @@ inline Command told_carve(uint32_t n) {
   carve.seeds = 6;
   carve.random_seed = n;
   carve.impact_m = {x_m, 1.0F, z_m};
-  return {1, n + 1, carve};
+  Command command;
+  command.session = 1;
+  command.request = n + 1;
+  command.body = carve;
+  return command;
+}
+
+inline TellerConfig told_config() {
+  TellerConfig config;
+  config.world = told_name;
+  return config;
 }
 
 class ToldByHand {
  public:
-  explicit ToldByHand(std::shared_ptr<Bus> bus, uint64_t run = 77, TellerConfig config = {.world = told_name})
+  explicit ToldByHand(std::shared_ptr<Bus> bus, uint64_t run = 77, TellerConfig config = told_config())
       : world(told_world_config()) {
     auto started = WorldTeller::start(std::move(bus), config, {"test", told_world_config()}, run);
     EXPECT_TRUE(started) << started.error().message;
