@@ -34,7 +34,7 @@ void declare_access(CLI::App& app, AccessConfig& access) {
   app.add_option("--token-revoked", access.token_revoked_path, "file of the revoked tokens, one id a line")
       ->needs(tokens);
   app.add_option("--world-name", access.world,
-                 "this server's name, for tokens that are valid in one world only");
+                 "this world's name, for tokens that are valid in one world only, and on --nats");
   app.add_option("--bans", access.bans_path, "file that keeps bans; without it, bans end with the server");
 }
 

@@ -121,7 +121,7 @@ std::optional<Admitted> LiveServer::State::next_commands() {
 
 /// Runs one tick. False when it was the last.
 bool LiveServer::State::step() {
-  const Clock::time_point begin = Clock::now();
+  Clock::time_point begin = Clock::now();
   const double cpu_before_s = thread_cpu_s();
   Stopwatch stopwatch;
   parts = {};
@@ -135,6 +135,7 @@ bool LiveServer::State::step() {
   TickSpan ran{steady_now_s(), 0.0};
   const auto next = feed->next(admitted.commands);
   ran.done_s = steady_now_s();
+  begin += seconds(feed->waited_s());
   if (!next) {
     broken = true;
     end(next.error().message);
@@ -142,16 +143,17 @@ bool LiveServer::State::step() {
   }
   std::shared_ptr<const TickDelta> delta = *next;
   if (!delta) {
-    log_of(LogPart::replay).info("the recording ends here");
+    if (config.told == nullptr) log_of(LogPart::replay).info("the recording ends here");
     end("");
     return false;
   }
-  parts[TickPart::simulation] = stopwatch.lap_ms();
+  parts[TickPart::simulation] = stopwatch.lap_ms() - 1e3 * feed->waited_s();
   watch.part(&FlightTick::world_ms);
   tell_settings(*delta);
   if (governor && is_chosen) governor->chosen(feed->world()->config().work_percent);
   if (trace) trace_tick(*trace, begin, *delta);
   std::vector<Event> noted = events ? events->drain(*delta) : std::vector<Event>();
+  tell_bus(delta);
   if (recorder) {
     record(delta, std::move(admitted.commands), std::move(noted));
     watch.part(&FlightTick::record_ms);
@@ -234,6 +236,11 @@ void LiveServer::State::govern(double length, TickSchedule::Delay delay) {
 void LiveServer::State::run() {
   ::pthread_setname_np(::pthread_self(), simulation_thread_name);
   if (!wait_for_clients()) return end("");
+  if (feed->paces_itself()) {
+    do heartbeat.beat(steady_now_s());
+    while (sleep_until(Clock::now()) && step());
+    return end("");
+  }
   TickSchedule schedule(Clock::now(), period);
   while (sleep_until(schedule.due())) {
     const Clock::time_point began = Clock::now();
@@ -297,6 +304,7 @@ void LiveServer::State::finish_files() {
   if (recorder) note(recorder->finish(std::max(0.0, until_s - steady_now_s())));
   if (events) note(events->finish());
   if (flight) note(flight->finish());
+  if (teller) teller->stop();
   if (trace) note(trace->write(config.trace_path));
 }
 

@@ -22,6 +22,8 @@
 #include "server/net/net_server.h"
 #include "server/store/recording_ring.h"
 #include "server/store/world_saver.h"
+#include "server/told/told_source.h"
+#include "server/told/world_teller.h"
 #include "server/world/world.h"
 
 namespace scree {
@@ -37,12 +39,18 @@ struct LivePulse {
 };
 
 struct LiveConfig {
-  WorldConfig world;        ///< a replay takes its recording's instead
-  size_t sim_threads = 0;   ///< that step the bodies; 0: as many as the machine has cores
-  NetConfig net;            ///< terrain, tick rate and replay are filled in
-  ReplayOptions replay;     ///< plays a recording, when its path is not empty
-  std::string record_path;  ///< empty: no recording
-  RingLimit record_ring;    ///< how much of it is kept
+  WorldConfig world;       ///< a replay takes its recording's instead
+  size_t sim_threads = 0;  ///< that step the bodies; 0: as many as the machine has cores
+  NetConfig net;           ///< terrain, tick rate and replay are filled in
+  ReplayOptions replay;    ///< plays a recording, when its path is not empty
+  /// The bus by which the world is told to edges, or by which this server is one; null: none.
+  std::shared_ptr<Bus> bus;
+  bool bus_is_encrypted = false;
+  TellerConfig tell;                 ///< of a bus: the world's name there, and what is kept
+  std::shared_ptr<ToldSource> told;  ///< an edge's world; it has no other server
+  std::string edge_name;             ///< an edge's name on the bus
+  std::string record_path;           ///< empty: no recording
+  RingLimit record_ring;             ///< how much of it is kept
   std::string events_path;  ///< file of the log of events (live_events.h), that is appended to; empty: none
   std::string
       world_path;  ///< file that keeps the world (server/store/world_file.h); empty: it ends with the server

@@ -66,10 +66,9 @@ std::string LiveServer::State::status(const NetFigures& figures) const {
 /// Likewise.
 std::string LiveServer::State::metrics(const NetFigures& figures) const {
   if (!is_open) return {};
-  const std::vector<Figure> of_host = config.hooks.figures ? config.hooks.figures() : std::vector<Figure>();
   return metrics_text(report_now(figures.stats, figures.latency), figures,
                       {config.world.tick_rate_hz, config.net.replay, config.net.palette},
-                      {config.world.terrain.voxel_size_m, started_unix_s, of_host});
+                      {config.world.terrain.voxel_size_m, started_unix_s, figures_beside()});
 }
 
 void LiveServer::State::sample_figures(double now_s) {

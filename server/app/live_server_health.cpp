@@ -72,6 +72,7 @@ ServerHealth LiveServer::State::health() const {
   if (history)
     if (const StoreHealth health = history->status().health; !health.ok())
       found.add(HealthKind::history, writing_fault("the history of edits", health));
+  add_bus_faults(found);
   return found;
 }
 
@@ -91,6 +92,7 @@ void LiveServer::State::send_pulse(double now_s) {
 /// On the network thread, for the simulation's cannot say it of itself.
 void LiveServer::State::check_heartbeat(double now_s) {
   if (!is_open) return;
+  check_bus(now_s);
   if (figure_hour.is_due(now_s)) sample_figures(now_s);
   if (config.pacing != Pacing::real_time) return;
   {

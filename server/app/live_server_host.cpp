@@ -49,7 +49,8 @@ void LiveServer::State::refuse_missing_models(Admitted& admitted) {
 bool LiveServer::push(Command command) {
   CHECK_EQ(command.session, 0U, "the host's commands have no session");
   CHECK(!std::holds_alternative<LeaveRequest>(command.body), "the host is not a session, so it cannot leave");
-  return running() && !state_->config.net.replay && state_->commands.push(command);
+  return running() && !state_->config.net.replay && state_->config.told == nullptr &&
+         state_->commands.push(command);
 }
 
 }  // namespace scree

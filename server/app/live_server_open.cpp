@@ -24,22 +24,10 @@ Result<void> LiveServer::State::open() {
   std::optional<Spawn> spawn;  // of a replay
   const bool keeps = !config.record_path.empty() || !config.world_path.empty();
   CHECK(!keeps || config.world.terrain.heights == nullptr || given != Digest{});
-  if (!config.replay.path.empty()) {
-    if (!config.record_path.empty())
-      return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
-    if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
-    if (config.hooks.before)
-      return fail("a replay plays commands that are decided: it cannot have the hook `before`");
-    if (!config.events_path.empty())
-      return fail("a replay's events are its recording's: scree replay export (--events)");
-    auto replay = replay_feed(config.replay, ground_giver(config.replay.path, config.world),
-                              config.net.ticks_per_transform);
-    TRY(replay);
-    feed = std::move(replay->feed);
-    config.world = replay->world;
-    spawn = replay->spawn;
-    config.net.replay = true;
-    config.net.control = [this](const ControlReplayRequest& wish) { return feed->control(wish); };
+  if (config.told != nullptr) {
+    TRY(open_edge());
+  } else if (!config.replay.path.empty()) {
+    TRY(open_replay(spawn));
   } else if (auto opened = open_world(); !opened) {
     return opened;
   }
@@ -64,8 +52,10 @@ Result<void> LiveServer::State::open() {
   TRY(open_flight());
   // The port comes first: a server that cannot listen leaves no empty recording behind.
   World* const world = feed->world();
-  TickDelta keyframe = world == nullptr ? TickDelta() : world->keyframe();
-  if (world == nullptr) keyframe.spawn = spawn;
+  TickDelta keyframe = world != nullptr         ? world->keyframe()
+                       : config.told != nullptr ? std::move(*config.told->keyframe())
+                                                : TickDelta();
+  if (spawn) keyframe.spawn = spawn;
   end_old_sessions(keyframe);
   tell_missing_models(keyframe.props_spawned, config.models.get());
   report.settings = keyframe.settings;  // ticks say only what changes
@@ -75,6 +65,7 @@ Result<void> LiveServer::State::open() {
   net = std::move(*listening);
   if (config.hooks.started) config.hooks.started(host_acts());
   TRY(open_recorder());
+  TRY(open_bus());
   if (saved_world != nullptr) TRY(start_saving());
   if (world != nullptr) {
     tell_memory_limit();
@@ -85,6 +76,25 @@ Result<void> LiveServer::State::open() {
   if (!config.trace_path.empty()) trace = std::make_unique<Trace>();
   heartbeat.beat(steady_now_s());
   is_open = true;
+  return {};
+}
+
+/// Something else than this server decided what happens.
+Result<void> LiveServer::State::open_replay(std::optional<Spawn>& spawn) {
+  if (!config.record_path.empty())
+    return fail("a replay is not recorded again: copy " + config.replay.path + " instead (--record)");
+  if (!config.world_path.empty()) return fail("a replay has no world to keep (--world)");
+  if (config.hooks.before)
+    return fail("a replay plays commands that are decided: it cannot have the hook `before`");
+  if (!config.events_path.empty())
+    return fail("a replay's events are its recording's: scree replay export (--events)");
+  auto replay = TRY(replay_feed(config.replay, ground_giver(config.replay.path, config.world),
+                                config.net.ticks_per_transform));
+  feed = std::move(replay.feed);
+  config.world = replay.world;
+  spawn = replay.spawn;
+  config.net.replay = true;
+  config.net.control = [this](const ControlReplayRequest& wish) { return feed->control(wish); };
   return {};
 }
 

@@ -42,6 +42,7 @@ void LiveServer::State::tell_settings(const TickDelta& delta) const {
 }
 
 Result<void> LiveServer::change_settings(const SettingValues& changes) {
+  if (state_->config.told != nullptr) return fail("an edge has the settings of the simulating server");
   if (state_->config.net.replay) return fail("a replay has the settings of its recording");
   if (changes.size() > limits::settings_max) return fail("too many settings at once (limits.settings_max)");
   const std::scoped_lock lock(state_->mutex);

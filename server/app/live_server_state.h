@@ -27,6 +27,8 @@
 #include "server/app/tick_watch.h"
 #include "server/history/edit_history.h"
 #include "server/store/recorder.h"
+#include "server/told/edge_pipes.h"
+#include "server/told/pipe_door.h"
 #include "shared/base/log_limit.h"
 #include "shared/base/timing.h"
 #include "shared/base/wall_clock.h"
@@ -43,6 +45,13 @@ struct LiveServer::State {
 
   Result<void> open();
   Result<void> open_world();
+  Result<void> open_replay(std::optional<Spawn>& spawn);
+  Result<void> open_edge();
+  Result<void> open_bus();
+  void tell_bus(const std::shared_ptr<const TickDelta>& delta);
+  void check_bus(double now_s) const;
+  void add_bus_faults(ServerHealth& found) const;
+  std::vector<Figure> figures_beside() const;
   Result<void> open_recorder();
   Result<void> open_events();
   Result<void> open_history();
@@ -112,9 +121,13 @@ struct LiveServer::State {
   std::unique_ptr<FlightRecorder> flight;
   TickWatch watch;                         ///< used by the simulation thread only, as the next
   std::optional<Clock::time_point> due{};  ///< of the next tick; nothing: by hand
+  std::shared_ptr<EdgePipes> edge_pipes;   ///< null: this is no edge
+  std::unique_ptr<WorldTeller> teller;     ///< null: the world is not told
   std::unique_ptr<NetServer> net;
-  std::unique_ptr<TerrainAhead> ahead;  ///< null: a recording's ticks need no terrain
-  std::unique_ptr<Trace> trace;         ///< null: no trace
+  std::unique_ptr<PipeDoor> pipe_door;        ///< null: the world is not told
+  std::unique_ptr<BusSubscription> edge_ear;  ///< of edge_pipes
+  std::unique_ptr<TerrainAhead> ahead;        ///< null: a recording's ticks need no terrain
+  std::unique_ptr<Trace> trace;               ///< null: no trace
   std::thread thread;
   Heartbeat heartbeat;      ///< of the simulation's thread
   double pulse_at_s = 0.0;  ///< when the next pulse is due; used by the network thread only, as the next two

@@ -283,6 +283,8 @@ void refuse_shared_files(const Raw& raw, const std::string& config_path) {
                             NamedFile{"--token-key", access.token_key_path},
                             NamedFile{"--token-revoked", access.token_revoked_path},
                             NamedFile{"--bans", access.bans_path, true},
+                            NamedFile{"--nats-creds", raw.options.bus.bus.credentials_path},
+                            NamedFile{"--nats-ca", raw.options.bus.bus.ca_path},
                             NamedFile{"--world", live.world_path, true, true},
                             NamedFile{"--record", live.record_path, true, true},
                             NamedFile{"--events", live.events_path, true},
@@ -303,6 +305,7 @@ void declare(CLI::App& app, Raw& raw) {
   declare_backups(app, raw.options.live.backups);
   add_recordings(app, raw);
   raw.rules.declare(app, raw.options.rules);
+  raw.options.bus.declare(app);
   add_run(app, raw);
   declare_flight(app, raw.options.live);
   refuse_empty(app);
@@ -355,6 +358,7 @@ ServerOptionsRead read_server_options(int argc, const char* const* argv, Options
     refuse_shared_files(raw, named_file(*config));
     raw.doors.complete(raw.options.live.net, use == OptionsUse::start);
     raw.options.token_made = raw.doors.token_made();
+    raw.options.bus.complete(raw.options.live.net.access.world);
     raw.options.live.durability = *kind_named<Durability>(raw.durability);
     if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
     if (raw.end) raw.options.live.replay.at_end = AtEnd::end;

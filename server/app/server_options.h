@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "content/files/model_folder.h"
+#include "server/app/bus_options.h"
 #include "server/app/live_server.h"
 #include "server/app/option_value.h"
 #include "server/log/log_config.h"
@@ -20,6 +21,7 @@ struct ServerOptions {
   std::string report_path;        ///< empty: none
   std::string token_made;         ///< file of an admin token that was made; empty: none
   std::vector<ModelFile> models;  ///< live.models, for the log
+  BusOptions bus;
   LogConfig log;
   RulesOptions rules;               ///< without folders: there are none
   std::vector<OptionValue> values;  ///< every option, and where it comes from

@@ -62,7 +62,8 @@ void reload(LiveServer& server, ConfigReload& config) {
   notify_ready();
 }
 
-void wait_for_end(LiveServer& server, const sigset_t& signals, ConfigReload& config) {
+/// Whether a signal ended it.
+bool wait_for_end(LiveServer& server, const sigset_t& signals, ConfigReload& config) {
   const timespec period{0, poll_period_ns};
   while (server.running()) {
     const int signal = sigtimedwait(&signals, nullptr, &period);
@@ -72,8 +73,9 @@ void wait_for_end(LiveServer& server, const sigset_t& signals, ConfigReload& con
       continue;
     }
     log_of(LogPart::app).info("stopping ({})", signal == SIGINT ? "SIGINT" : "SIGTERM");
-    return;
+    return true;
   }
+  return false;
 }
 
 bool write_report(const LiveServer& server, const std::string& path) {
@@ -100,31 +102,24 @@ Result<void> load_rules(RulesOptions options, LiveConfig& live, std::unique_ptr<
   return {};
 }
 
-int run(const ServerOptions& options, ConfigReload config) {
-  const sigset_t signals = block_signals();
-  begin_log(options.log, "scree-server");
-  LiveConfig live = options.live;
-  std::unique_ptr<Rules> rules;  // outlives the server, which calls it
-  if (const auto loaded = load_rules(options.rules, live, rules); !loaded) {
-    log_of(LogPart::app).error("{}", loaded.error().message);
-    return failed;
-  }
-  live.pulse = notify_pulse;
+struct Served {
+  int status = failed;
+  bool by_signal = false;  ///< it ended
+};
+
+/// A server until it ends. A free port that it found stays for the next one of `live`.
+Served serve(const ServerOptions& options, LiveConfig& live, const sigset_t& signals, ConfigReload& config) {
   auto server = LiveServer::start(live);
   if (!server) {
     log_of(LogPart::app).error("{}", server.error().message);
-    return failed;
+    return {};
   }
-  tell_models(options.models);
-  if (!options.token_made.empty())
-    log_of(LogPart::app)
-        .warn("an admin token was made: it is the line in {}, which only this server's user can read",
-              options.token_made);
+  live.net.port = (*server)->port();
   std::printf("%s\n", listening_line((*server)->port(), options.live.net).c_str());
   std::fflush(stdout);
   notify_ready();
-  wait_for_end(**server, signals, config);
-  notify_stopping();
+  const bool by_signal = wait_for_end(**server, signals, config);
+  if (by_signal || live.told == nullptr) notify_stopping();
   const auto stopped = (*server)->stop();
   const bool reported = write_report(**server, options.report_path);
   const ServerReport report = (*server)->report();
@@ -132,7 +127,50 @@ int run(const ServerOptions& options, ConfigReload config) {
       .info("{} ticks, {} carves and dents, {} pieces made, {} merged, {} alive, ledger error {}",
             report.ticks, report.operations.of<CarveOperation>(), report.pieces_made, report.pieces_merged,
             report.pieces_alive, report.ledger.error());
-  return stopped && reported ? 0 : failed;
+  return {stopped && reported ? 0 : failed, by_signal};
+}
+
+bool is_told_to_end(const sigset_t& signals) {
+  const timespec now{0, 0};
+  for (int signal = 0; (signal = sigtimedwait(&signals, nullptr, &now)) > 0;)
+    if (signal != SIGHUP) return true;
+  return false;
+}
+
+/// An edge waits for its world, and begins anew whenever the simulating server does.
+int run_edge(const ServerOptions& options, LiveConfig& live, const sigset_t& signals, ConfigReload& config) {
+  for (;;) {
+    if (const auto told = await_world(live); !told) {
+      log_of(LogPart::bus).warn("{}", told.error().message);
+      if (is_told_to_end(signals)) return 0;
+      continue;
+    }
+    const Served served = serve(options, live, signals, config);
+    const bool begins_anew = live.told->is_over() && !served.by_signal;
+    live.told.reset();
+    if (!begins_anew) return served.status;
+  }
+}
+
+int run(const ServerOptions& options, ConfigReload config) {
+  const sigset_t signals = block_signals();
+  begin_log(options.log, "scree-server");
+  LiveConfig live = options.live;
+  std::unique_ptr<Rules> rules;  // outlives the server, which calls it
+  auto prepared = load_rules(options.rules, live, rules);
+  if (prepared) prepared = connect_bus(options.bus, live);
+  if (!prepared) {
+    log_of(LogPart::app).error("{}", prepared.error().message);
+    return failed;
+  }
+  tell_models(options.models);
+  if (!options.token_made.empty())
+    log_of(LogPart::app)
+        .warn("an admin token was made: it is the line in {}, which only this server's user can read",
+              options.token_made);
+  live.pulse = notify_pulse;
+  return options.bus.edge ? run_edge(options, live, signals, config)
+                          : serve(options, live, signals, config).status;
 }
 
 }  // namespace

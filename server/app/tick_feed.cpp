@@ -25,6 +25,17 @@ class LiveFeed final : public TickFeed {
   std::unique_ptr<World> world_;
 };
 
+class ToldFeed final : public TickFeed {
+ public:
+  explicit ToldFeed(std::shared_ptr<ToldSource> told) : told_(std::move(told)) {}
+  Result<std::shared_ptr<const TickDelta>> next(std::span<const Command>) override { return told_->next(); }
+  bool paces_itself() const override { return true; }
+  double waited_s() const override { return told_->waited_s(); }
+
+ private:
+  std::shared_ptr<ToldSource> told_;
+};
+
 class RecordedFeed final : public TickFeed {
  public:
   RecordedFeed(std::unique_ptr<ReplaySource> source, const PlayerOptions& options)
@@ -40,6 +51,10 @@ class RecordedFeed final : public TickFeed {
 
 std::unique_ptr<TickFeed> feed_of(std::unique_ptr<World> world) {
   return std::make_unique<LiveFeed>(std::move(world));
+}
+
+std::unique_ptr<TickFeed> feed_of(std::shared_ptr<ToldSource> told) {
+  return std::make_unique<ToldFeed>(std::move(told));
 }
 
 Result<ReplayFeed> replay_feed(const ReplayOptions& options, const GroundGiver& ground,

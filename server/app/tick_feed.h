@@ -1,4 +1,4 @@
-// The source of a server's ticks: the simulation, or a recording.
+// The source of a server's ticks: the simulation, a recording, or a world that another server tells.
 #pragma once
 
 #include <memory>
@@ -7,6 +7,7 @@
 
 #include "server/command/command.h"
 #include "server/replay/replay_player.h"
+#include "server/told/told_source.h"
 #include "server/world/tick_delta.h"
 #include "server/world/world.h"
 #include "shared/base/result.h"
@@ -19,7 +20,11 @@ class TickFeed {
 
   /// The next tick; null at the end.
   virtual Result<std::shared_ptr<const TickDelta>> next(std::span<const Command> commands) = 0;
-  /// The simulation behind it; null for a recording.
+  /// Whether next() waits for the tick to come; else the server's clock says when it is due.
+  virtual bool paces_itself() const { return false; }
+  /// Seconds that the last next() waited so.
+  virtual double waited_s() const { return 0.0; }
+  /// The simulation behind it; null for all others.
   virtual World* world() { return nullptr; }
   /// Takes what somebody wants of a replay; an error for a simulation. From any thread.
   virtual Result<void> control(const ControlReplayRequest&) {
@@ -28,6 +33,9 @@ class TickFeed {
 };
 
 std::unique_ptr<TickFeed> feed_of(std::unique_ptr<World> world);
+
+/// An edge's.
+std::unique_ptr<TickFeed> feed_of(std::shared_ptr<ToldSource> told);
 
 struct ReplayOptions {
   std::string path;  ///< empty: no replay

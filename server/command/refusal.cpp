@@ -63,6 +63,8 @@ constexpr Row rows[] = {
     {Refusal::host, "host"},
     {Refusal::model_missing, "model_missing"},
     {Refusal::replay, "replay"},
+    {Refusal::edge, "edge"},
+    {Refusal::simulator_away, "simulator_away"},
     {Refusal::requests_per_second, "requests_per_second"},
     {Refusal::commands_waiting, "commands_waiting"},
     {Refusal::reach, "reach"},

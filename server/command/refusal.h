@@ -66,6 +66,8 @@ enum class Refusal : uint8_t {
   model_missing,
   // The network side refuses a request.
   replay,
+  edge,
+  simulator_away,
   requests_per_second,
   commands_waiting,
   reach,

@@ -8,7 +8,7 @@
 
 namespace scree {
 
-enum class LogPart : uint8_t { app, world, content, net, web, admin, chat, store, replay, rules };
+enum class LogPart : uint8_t { app, world, content, net, web, admin, chat, store, replay, rules, bus };
 
 struct LogPartRow {
   std::string_view name;
@@ -37,6 +37,8 @@ constexpr LogPartRow row_of(LogPart part) {
       return {"replay", "a recording that is played"};
     case LogPart::rules:
       return {"rules", "rules of a game"};
+    case LogPart::bus:
+      return {"bus", "NATS: a world that is told, and edges"};
   }
   return {};
 }

@@ -68,6 +68,12 @@ bool Arrivals::enter(std::shared_ptr<Transport> transport) {
   return true;
 }
 
+void Arrivals::enter_apart(std::shared_ptr<Transport> transport) {
+  const std::string address = transport->address();
+  begin_session(std::move(transport), {.address = address, .relayed = true, .at_door = false},
+                next_session_++);
+}
+
 void Arrivals::turned_away(asio::ip::tcp::socket socket, const std::string& address, const Refused& refused) {
   count_turned_away(address, refused);
   if (!may_hold(steady_now_s())) return tell_and_close(std::move(socket), refused);

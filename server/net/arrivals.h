@@ -62,6 +62,7 @@ class Arrivals final : public EntranceHost {
 
   /// As of NetHost.
   bool enter(std::shared_ptr<Transport> transport);
+  void enter_apart(std::shared_ptr<Transport> transport);
   /// Begins a session under this number, which no other has; for a connection that has a place at the door.
   /// Bytes that came already may be answered before it returns.
   void begin_session(std::shared_ptr<Transport> transport, const Visitor& from, uint64_t id);

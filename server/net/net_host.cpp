@@ -164,6 +164,7 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
   if (config_.joined)
     config_.joined({session.id(), entry.name, grant.role, grant.team, grant.token_id,
                     hello.meets && !hello.administers, before.has_value(), hello.administers, session.ip()});
+  if (config_.way_back) config_.way_back->joined(session.id(), hello);
   ++figures_.counts().sessions_joined;
   figures_.counts().sessions_resumed += before ? 1 : 0;
   update_stats();
@@ -174,6 +175,8 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
 
 tl::expected<void, Refused> NetHost::receive(ClientSession& session, const ClientMessage& message) {
   using Done = tl::expected<void, Refused>;
+  if (config_.way_back)
+    if (const auto handed = hand_on(session, message)) return *handed;
   return std::visit(
       Overloaded{
           [](const HelloMessage&) -> Done {
@@ -263,21 +266,6 @@ tl::expected<void, Refused> NetHost::ask(ClientSession& session, uint32_t reques
   return {};
 }
 
-/// The client is of a later release, or made by somebody else.
-tl::expected<void, Refused> NetHost::skip(ClientSession& session, const UnknownMessage& unknown) {
-  ++figures_.counts().messages_unknown;
-  if (unknown.request) {
-    ++figures_.counts().requests;
-    const std::string why =
-        fmt::format("this server does not know {}: the client is of another release", unknown.value);
-    requests_.refuse(session, *unknown.request, {Refusal::value_unknown, why});
-    return {};
-  }
-  log_.say(log_of(LogPart::net, session.id()), LogLevel::info, "message_unknown",
-           fmt::format("session {}: a message of an unknown kind is skipped", session.id()));
-  return {};
-}
-
 tl::expected<void, Refused> NetHost::follow(ClientSession& session, const InterestMessage& interest) {
   const bool sees_nothing = sessions_.at(session.id()).administers;
   const auto radius_m = granted_radius(interest.eye_m, sees_nothing ? 0.0F : interest.interest_radius_m);
@@ -334,6 +322,7 @@ void NetHost::forget(uint64_t session) {
   publisher_.leave(session);
   talk_.leave(session);
   requests_.forget(session);
+  if (config_.way_back) config_.way_back->left(session);
 }
 
 // ---- time, and settings that change

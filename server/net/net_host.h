@@ -16,6 +16,7 @@
 #include <asio/io_context.hpp>
 #include <asio/steady_timer.hpp>
 #include <memory>
+#include <optional>
 
 #include "server/doors/authorizer.h"
 #include "server/doors/bytes_out.h"
@@ -49,6 +50,8 @@ class NetHost final : public SessionHost, public WebHost {
   /// A connection that something else than a socket carries, as if it had come in by the entrance. False: it
   /// was turned away.
   bool enter(std::shared_ptr<Transport> transport) { return arrivals_.enter(std::move(transport)); }
+  /// The same as of NetServer::enter().
+  void enter_apart(std::shared_ptr<Transport> transport) { arrivals_.enter_apart(std::move(transport)); }
   uint16_t port() const { return arrivals_.port(); }
   /// The network thread: returns after shut_down().
   void run();
@@ -66,6 +69,7 @@ class NetHost final : public SessionHost, public WebHost {
   void send(uint64_t session, const ServerMessage& message);
   void set_role(uint64_t session, Role role);
   void kick(uint64_t session, const std::string& reason);
+  void set_own_store(uint64_t session, uint64_t of_session);
   /// Hands all that is queued to the sockets.
   void flush() { flush_queue_.send_all(); }
   void shut_down();
@@ -96,6 +100,8 @@ class NetHost final : public SessionHost, public WebHost {
             const std::optional<Departed>& before);
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);
   tl::expected<void, Refused> skip(ClientSession& session, const UnknownMessage& unknown);
+  /// What an edge hands on; nothing: the message is this server's.
+  std::optional<tl::expected<void, Refused>> hand_on(ClientSession& session, const ClientMessage& message);
   void forget(uint64_t session);
 
   void tick_timer();

@@ -123,6 +123,19 @@ void NetServer::kick(uint64_t session, std::string reason) {
              [host = &impl_->host, session, reason = std::move(reason)] { host->kick(session, reason); });
 }
 
+void NetServer::set_own_store(uint64_t session, uint64_t of_session) {
+  asio::post(impl_->host.context(),
+             [host = &impl_->host, session, of_session] { host->set_own_store(session, of_session); });
+}
+
+void NetServer::post(std::function<void()> job) {
+  asio::post(impl_->host.context(), std::move(job));
+}
+
+void NetServer::enter(std::shared_ptr<Transport> transport) {
+  impl_->host.enter_apart(std::move(transport));
+}
+
 void NetServer::flush() {
   impl_->post([host = &impl_->host](bool) { host->flush(); });
   std::unique_lock lock(impl_->mutex);

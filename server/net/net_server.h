@@ -34,12 +34,14 @@
 #include "server/net/message_counts.h"
 #include "server/net/request_times.h"
 #include "server/net/server_health.h"
+#include "server/net/way_back.h"
 #include "server/publish/limits.h"
 #include "server/publish/publisher.h"
 #include "server/web/web_config.h"
 #include "server/world/service_limits.h"
 #include "shared/base/result.h"
 #include "shared/base/timing.h"
+#include "transport/transport.h"
 
 namespace scree {
 
@@ -126,6 +128,8 @@ struct NetConfig {
       ask_history;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplayRequest&)> control;
+  /// Of an edge: takes what persons ask of the world. Null: the world is this server's own.
+  std::shared_ptr<WayBack> way_back{};
   FlightReports flight{};
   HostRecords records{};
   bool takes_cursors = false;           ///< NetServer::cursors() has them: a recording keeps them
@@ -173,6 +177,13 @@ class NetServer {
   void send(uint64_t session, ServerMessage message);
   void set_role(uint64_t session, Role role);
   void kick(uint64_t session, std::string reason);
+  /// The session's own store is that of this session of the simulating server; as above.
+  void set_own_store(uint64_t session, uint64_t of_session);
+  /// Runs a job on the network thread; after stop() perhaps not. From any thread.
+  void post(std::function<void()> job);
+  /// A connection that something else than a socket carries. Its address is no IP address, and it has no
+  /// place at the door: whoever brings it bounds how many there are. On the network thread.
+  void enter(std::shared_ptr<Transport> transport);
 
   /// Waits until the network thread has handed all published ticks to the sockets.
   void flush();

@@ -93,6 +93,9 @@ bool Requests::pass(ClientSession& session, const Command& command) {
     return false;
   };
   if (replay_) return refused(Refusal::replay, "this server plays a recording: nothing in it can be changed");
+  if (is_edge_)
+    return refused(Refusal::edge,
+                   "this server is an edge: the world and its settings are changed at the simulating server");
   const double now_s = steady_now_s();
   if (!sessions_.at(session.id()).requests.try_spend(now_s))
     return refused(Refusal::requests_per_second,

@@ -21,6 +21,7 @@ class Requests {
         sessions_(sessions),
         counts_(counts),
         replay_(config.replay),
+        is_edge_(config.way_back != nullptr),
         reach_m_(config.service.reach_m),
         sight_(config.service.sight),
         tick_rate_hz_(config.tick_rate_hz) {}
@@ -53,6 +54,7 @@ class Requests {
   SessionTable& sessions_;
   NetStats& counts_;
   const bool replay_;
+  const bool is_edge_;
   double reach_m_;
   bool sight_;
   const double tick_rate_hz_;

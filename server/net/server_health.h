@@ -24,7 +24,8 @@ enum class HealthKind : uint8_t {
   starting,
   full,
   backups,
-  history
+  history,
+  bus
 };
 
 struct HealthRow {
@@ -52,6 +53,8 @@ constexpr HealthRow row_of(HealthKind kind) {
       return {"backups", HealthLevel::promise};
     case HealthKind::history:
       return {"history", HealthLevel::promise};
+    case HealthKind::bus:
+      return {"bus", HealthLevel::promise};
   }
   return {};
 }

@@ -78,7 +78,7 @@ const RecordingHeader& ReplaySource::header() const {
   return state_->header;
 }
 Tick ReplaySource::tick() const {
-  return state_->tick;
+  return state_->world.tick();
 }
 Tick ReplaySource::first_tick() const {
   return state_->start();
@@ -97,7 +97,7 @@ void ReplaySource::let_go() {
 }
 
 Result<std::vector<PlayerCursor>> ReplaySource::cursors() {
-  return state_->cursors.at(*state_->reader, state_->tick);
+  return state_->cursors.at(*state_->reader, state_->world.tick());
 }
 
 Result<std::shared_ptr<const MarksMessage>> ReplaySource::marks() {
@@ -112,64 +112,36 @@ Result<std::shared_ptr<const TickDelta>> ReplaySource::next() {
 
 Result<std::shared_ptr<const TickDelta>> ReplaySource::next(Tick count) {
   CHECK(count > 0);
-  if (std::exchange(state_->keyframe_due, false)) return state_->whole_state();
-  if (state_->tick >= last_tick()) return nullptr;
-  CHECK(state_->tick >= first_tick());
+  if (std::exchange(state_->keyframe_due, false)) return state_->world.whole_state();
+  if (state_->world.tick() >= last_tick()) return nullptr;
+  CHECK(state_->world.tick() >= first_tick());
   auto joint = TRY(state_->advance());
-  float work_us = state_->work_us;
-  for (; count > 1 && state_->tick < last_tick() && work_us < joint_work_max_us; --count) {
+  float work_us = state_->world.work_us();
+  for (; count > 1 && state_->world.tick() < last_tick() && work_us < joint_work_max_us; --count) {
     const auto more = TRY(state_->advance());
     append(*joint, *more);
-    work_us += state_->work_us;
+    work_us += state_->world.work_us();
   }
-  state_->tell_spawn(*joint);
+  state_->world.tell_spawn(*joint);
   return joint;
 }
 
 Result<std::shared_ptr<const TickDelta>> ReplaySource::jump(Tick to) {
   CHECK(to >= first_tick() && to <= last_tick());
   BricksBefore before;
-  const PieceTable pieces = state_->pieces;
-  const auto props = state_->props;
-  const PublishedJoints joints = state_->joints;
-  const PublishedStores stores = state_->stores;
-  const SettingValues settings = state_->settings;
-  const std::vector<PlacedStone> stones = state_->stones.all();
-  const auto regions = state_->regions;
-  const auto signs = state_->signs;
+  const PlayedMoment from = state_->world.moment();
   TRY(state_->go_to(to, before));
-  auto delta = state_->unchanged();
-  add_differences(state_->field, before, *delta);
-  for (const auto& [id, volume] : state_->pieces)
-    if (!pieces.contains(id)) delta->spawned.push_back({id, volume});
-  for (const auto& [id, one] : state_->props)
-    if (!props.contains(id)) delta->props_spawned.push_back({id, one.prop});
-  for (const auto& [id, joint] : state_->joints)
-    if (const auto known = joints.find(id); known == joints.end() || known->second != joint)
-      delta->joints_added.push_back({id, joint});
-  for (const auto& [id, joint] : joints)
-    if (!state_->joints.contains(id)) delta->joints_removed.push_back({id, JointEnd::removed});
-  if (*state_->regions != *regions) delta->regions = state_->regions;
-  if (*state_->signs != *signs) delta->signs = state_->signs;
-  for (const auto& [store, masses] : stores)
-    if (!state_->stores.contains(store)) delta->stores.push_back({store, {}});
-  for (const auto& [store, masses] : state_->stores)
-    if (const auto known = stores.find(store); known == stores.end() || known->second != masses)
-      delta->stores.push_back({store, masses});
-  std::ranges::sort(delta->stores, std::less<>(), &StoreContent::store);
-  delta->stones_gone = stones;
-  delta->stones = state_->stones.all();
-  if (state_->settings != settings) delta->settings = state_->settings;
-  state_->tell_spawn(*delta);
+  auto delta = state_->world.differences(from, before);
+  state_->world.tell_spawn(*delta);
   return delta;
 }
 
 Spawn ReplaySource::spawn() {
-  return state_->spawn();
+  return state_->world.spawn();
 }
 
 std::shared_ptr<const TickDelta> ReplaySource::same() const {
-  return state_->unchanged();
+  return state_->world.unchanged();
 }
 
 Result<std::optional<Tick>> ReplaySource::next_event(Tick after) {

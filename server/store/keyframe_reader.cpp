@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <fmt/format.h>
 
-#include "proto/limits.h"
-#include "proto/operation_codec.h"
 #include "server/store/schema.h"
 #include "server/store/world_schema.h"
 
@@ -77,10 +75,8 @@ const KeyframeReader::Row* KeyframeReader::latest(const std::vector<Row>& rows, 
 Result<std::vector<BrickPatch>> KeyframeReader::read_chunk(const Row& row, ChunkCoord chunk) {
   const auto data = TRY(database_->get(select_chunk_, static_cast<uint64_t>(row.id)));
   if (!data.has_value()) return damaged("a chunk's row was dropped", row.tick);
-  auto bricks = decode_bricks(*data);
+  auto bricks = bricks_of_row(*data, chunk);
   if (!bricks) return damaged(bricks.error().message, row.tick);
-  for (const BrickPatch& patch : *bricks)
-    if (chunk_of(patch.coord) != chunk) return damaged("a brick is in another chunk's row", row.tick);
   return bricks;
 }
 
@@ -124,47 +120,30 @@ Result<void> KeyframeReader::read_chunks(KeyframeParts& parts, Tick tick, const 
     const auto bricks = TRY(read_chunk(*row, chunk));
     parts.keyframe.bricks.insert(parts.keyframe.bricks.end(), bricks.begin(), bricks.end());
   }
-  std::ranges::sort(parts.keyframe.bricks, {}, &BrickPatch::coord);
-  std::ranges::sort(parts.known_chunks);
+  sort_parts(parts);
   return {};
 }
 
 Result<void> KeyframeReader::read_pieces(KeyframeParts& parts, const KnownParts& known) {
-  std::vector<PieceState> of_known;
-  size_t voxels = 0;
-  for (const PieceState& state : parts.keyframe.poses) {
-    if (known.has_piece(state.id)) {
-      of_known.push_back(state);
-      continue;
-    }
-    const auto data = TRY(database_->get(select_piece_, state.id));
-    if (!data.has_value()) return damaged(fmt::format("piece {} is missing", state.id), parts.keyframe.tick);
-    auto piece = decode_recorded_piece(*data);
-    if (!piece) return damaged(piece.error().message, parts.keyframe.tick);
-    if (piece->id != state.id) return damaged("a piece is in another one's row", parts.keyframe.tick);
-    piece->pose = state.pose;
-    voxels += piece->volume.window.codes.size();
-    if (voxels > limits::piece_voxels_max)
-      return damaged(
-          fmt::format("pieces of more than {} voxels (limits.piece_voxels_max)", limits::piece_voxels_max),
-          parts.keyframe.tick);
-    parts.keyframe.pieces.push_back(std::move(*piece));
-  }
-  parts.keyframe.poses = std::move(of_known);
+  std::optional<Error> unread;
+  const Tick tick = parts.keyframe.tick;
+  const auto added = add_piece_rows(parts, known, [&](PieceId piece) {
+    auto row = database_->get(select_piece_, piece);
+    if (!row) unread = row.error();
+    return row;
+  });
+  if (unread) return tl::unexpected(*unread);
+  if (!added) return damaged(added.error().message, tick);
   return {};
 }
 
 Result<KeyframeParts> KeyframeReader::read(Tick tick, const KnownParts& known) {
   const auto data = TRY(database_->get(select_state_, tick));
   if (!data.has_value()) return damaged("it is not there", tick);
-  auto keyframe = decode_recorded_keyframe(*data);
-  if (!keyframe) return damaged(keyframe.error().message, tick);
-  if (keyframe->tick != tick || !keyframe->bricks.empty() || !keyframe->pieces.empty())
-    return damaged("it is another one's", tick);
-  if (keyframe->settings.empty()) keyframe->settings = header_;
-  KeyframeParts parts{std::move(*keyframe), {}};
-  TRY(read_chunks(parts, tick, known));
-  TRY(read_pieces(parts, known));
+  auto parts = parts_of_state(*data, tick, header_);
+  if (!parts) return damaged(parts.error().message, tick);
+  TRY(read_chunks(*parts, tick, known));
+  TRY(read_pieces(*parts, known));
   return parts;
 }
 

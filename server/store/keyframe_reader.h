@@ -1,5 +1,5 @@
-// Reads the keyframes that KeyframeWriter wrote. Every byte is checked. Owned by a RecordingReader; one
-// thread at a time.
+// Reads the keyframes that KeyframeWriter wrote to a recording's tables. Every byte is checked. Owned by a
+// RecordingReader; one thread at a time.
 #pragma once
 
 #include <functional>
@@ -10,22 +10,10 @@
 
 #include "server/formats/recording_codec.h"
 #include "server/store/database.h"
+#include "server/store/keyframe_parts.h"
 #include "shared/field/coord.h"
 
 namespace scree {
-
-/// What somebody has already and need not be read.
-struct KnownParts {
-  std::function<bool(ChunkCoord chunk, uint64_t hash)> has_chunk = [](ChunkCoord, uint64_t) { return false; };
-  std::function<bool(PieceId piece)> has_piece = [](PieceId) { return false; };
-};
-
-/// A keyframe without what is known: the bricks of the other chunks, and the other pieces. `poses` are those
-/// of the pieces that are known.
-struct KeyframeParts {
-  RecordedKeyframe keyframe;
-  std::vector<ChunkCoord> known_chunks;  ///< ordered
-};
 
 class KeyframeReader {
  public:

@@ -1,64 +1,21 @@
 #include "server/store/keyframe_writer.h"
 
 #include <algorithm>
-#include <fmt/format.h>
 
 #include "proto/operation_codec.h"
 #include "server/formats/recording_codec.h"
 #include "server/store/limits.h"
-#include "server/store/schema.h"
-#include "server/store/world_schema.h"
 #include "server/world/recorded_values.h"
 #include "shared/base/check.h"
 
 namespace scree {
 
-namespace {
-
-std::string key_text(ChunkCoord chunk) {
-  return std::to_string(world_schema::chunk_key(chunk));
-}
-
-}  // namespace
-
-Result<KeyframeWriter> KeyframeWriter::create(Database& database, SettingValues header) {
-  KeyframeWriter writer(database);
-  writer.header_ = std::move(header);
-  const std::pair<Statement*, std::string> statements[] = {
-      {&writer.insert_chunk_, schema::insert_chunk()},
-      {&writer.put_piece_, schema::put_into("keyframe_pieces")},
-      {&writer.put_state_, schema::put_into("keyframe_states")}};
-  for (const auto& [statement, sql] : statements) {
-    auto prepared = TRY(database.prepare(sql));
-    *statement = std::move(prepared);
-  }
-  return writer;
-}
-
-Result<void> KeyframeWriter::resume() {
-  return database_->each_number("SELECT chunk, hash FROM keyframe_chunks ORDER BY tick, id",
-                                [this](std::span<const int64_t> row) -> Result<void> {
-                                  written_[world_schema::chunk_of_key(static_cast<uint64_t>(row[0]))] =
-                                      static_cast<uint64_t>(row[1]);
-                                  return {};
-                                });
-}
-
 /// As it was written last: it has not changed since.
 Result<void> KeyframeWriter::bring_in(ChunkCoord chunk, PublishedState& state) {
-  const auto damaged = [this] { return fail(database_->path() + ": the last row of a chunk is damaged"); };
-  std::optional<std::vector<BrickPatch>> bricks;
-  const auto add_row = [&](uint64_t, std::span<const uint8_t> data, bool whole) -> Result<void> {
-    auto decoded = decode_bricks(data);
-    if (!whole || !decoded) return damaged();
-    bricks = std::move(*decoded);
-    return {};
-  };
-  const std::string select = fmt::format(
-      "SELECT tick, data, checksum FROM keyframe_chunks WHERE chunk = {} ORDER BY tick DESC, id DESC LIMIT 1",
-      key_text(chunk));
-  TRY(database_->each(select, add_row));
-  if (!bricks || !state.page_in(chunk, *bricks)) return damaged();
+  const auto row = TRY(rows_->last_chunk(chunk));
+  const auto bricks = decode_bricks(row);
+  if (!bricks || !state.page_in(chunk, *bricks))
+    return fail(rows_->name() + ": the last row of a chunk is damaged");
   return {};
 }
 
@@ -109,7 +66,7 @@ Result<std::vector<BrickPatch>> KeyframeWriter::read_whole(const PublishedChunk&
   uint64_t hash = 0;
   for (const BrickPatch& brick : *bricks) hash += brick_hash(brick.coord, brick.brick, brick.materials);
   if (hash != published.hash || bricks->empty())
-    return fail(database_->path() + " cannot begin: a chunk was read that is not the world's");
+    return fail(rows_->name() + " cannot begin: a chunk was read that is not the world's");
   return bricks;
 }
 
@@ -128,16 +85,13 @@ Result<void> KeyframeWriter::put_chunk(const PublishedState& state, ChunkCoord c
     for (const auto& [coord, brick] : published.bricks)
       bricks.push_back({coord, brick.brick.get(), brick.materials});
   const std::vector<uint8_t> data = encode_bricks(bricks);
-  const int64_t keys[] = {static_cast<int64_t>(state.tick()),
-                          static_cast<int64_t>(world_schema::chunk_key(chunk)),
-                          static_cast<int64_t>(published.hash)};
-  TRY(database_->put(insert_chunk_, keys, data));
+  TRY(rows_->put_chunk(state.tick(), chunk, published.hash, data));
   written_[chunk] = published.hash;
   return {};
 }
 
 Result<void> KeyframeWriter::put_piece(PieceId id, const PublishedPiece& piece) {
-  return database_->put(put_piece_, id, encode_recorded_piece({id, *piece.volume, piece.pose}));
+  return rows_->put_piece(id, encode_recorded_piece({id, *piece.volume, piece.pose}));
 }
 
 Result<void> KeyframeWriter::put(const PublishedState& state) {
@@ -163,30 +117,7 @@ Result<void> KeyframeWriter::put(const PublishedState& state) {
   keyframe.field_hash = state.field_hash();
   keyframe.state_hash = state.state_hash();
   if (state.settings() != header_) keyframe.settings = state.settings();
-  return database_->put(put_state_, keyframe.tick, encode(keyframe));
-}
-
-Result<void> KeyframeWriter::drop_before(Tick tick, PieceId next_piece) {
-  const std::string at = std::to_string(tick);
-  std::string alive;
-  const auto add_row = [&](uint64_t, std::span<const uint8_t> data, bool) -> Result<void> {
-    const auto keyframe = TRY(decode_recorded_keyframe(data));
-    for (const PieceState& piece : keyframe.poses) {
-      if (!alive.empty()) alive += ',';
-      alive += std::to_string(piece.id);
-    }
-    return {};
-  };
-  if (auto read =
-          database_->each("SELECT tick, data, checksum FROM keyframe_states WHERE tick = " + at, add_row);
-      !read)
-    return read;
-  return database_->execute(
-      fmt::format("DELETE FROM keyframe_chunks WHERE tick < {} AND EXISTS (SELECT 1 FROM keyframe_chunks AS "
-                  "later WHERE later.chunk = keyframe_chunks.chunk AND later.tick > keyframe_chunks.tick AND "
-                  "later.tick <= {});DELETE FROM keyframe_pieces WHERE tick < {} AND tick NOT IN ({});DELETE "
-                  "FROM keyframe_states WHERE tick < {}",
-                  at, at, next_piece, alive, at));
+  return rows_->put_state(keyframe.tick, encode(keyframe));
 }
 
 }  // namespace scree

@@ -1,23 +1,24 @@
-// Writes a recording's keyframes, each as the rows of what changed since the one before (schema.h): a world
-// may be as large as it likes. Owned by a RecordingWriter; one thread at a time.
+// Writes keyframes, each as the rows of what changed since the one before (keyframe_rows.h): a world may be
+// as large as it likes. One thread at a time.
 #pragma once
 
 #include <cstdint>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
-#include "server/store/database.h"
+#include "server/store/keyframe_rows.h"
 #include "server/world/published_state.h"
 
 namespace scree {
 
 class KeyframeWriter {
  public:
-  /// `header`: how the settings stand at the recording's start. `database` must outlive it.
-  static Result<KeyframeWriter> create(Database& database, SettingValues header);
+  /// `header`: how the settings stood at the start of what the rows are of. `rows` must outlive it.
+  KeyframeWriter(KeyframeRows& rows, SettingValues header) : rows_(&rows), header_(std::move(header)) {}
 
-  /// Takes the rows that are there for written: a recording is gone on with.
-  Result<void> resume();
+  /// The chunk's latest row is there, and has this hash: a recording is gone on with.
+  void note_written(ChunkCoord chunk, uint64_t hash) { written_[chunk] = hash; }
 
   /// Puts the next tick into the state. Bricks that it lacks are read from the rows first; more than
   /// limits::recorded_bricks_max are dropped.
@@ -31,20 +32,14 @@ class KeyframeWriter {
   /// Whether a keyframe is due after the state's tick: not while the last one still holds.
   bool is_due(const PublishedState& state) const;
 
-  /// Drops what keyframes from that tick on do not need. There is a keyframe of the tick, when the next piece
-  /// to be made was `next_piece`.
-  Result<void> drop_before(Tick tick, PieceId next_piece);
-
  private:
-  explicit KeyframeWriter(Database& database) : database_(&database) {}
   Result<void> put_chunk(const PublishedState& state, ChunkCoord chunk);
   Result<std::vector<BrickPatch>> read_whole(const PublishedChunk& published, ChunkCoord chunk) const;
   Result<void> put_piece(PieceId id, const PublishedPiece& piece);
   Result<void> bring_in(ChunkCoord chunk, PublishedState& state);
   void page_out(PublishedState& state) const;
 
-  Database* database_;
-  Statement insert_chunk_, put_piece_, put_state_;
+  KeyframeRows* rows_;
   SettingValues header_;
   std::set<ChunkCoord> changed_;  ///< since the last keyframe
   ReadChunk read_;                ///< gives those of them of which the state has not all bricks

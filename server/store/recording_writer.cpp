@@ -10,6 +10,7 @@
 #include "server/formats/world_codec.h"
 #include "server/store/database.h"
 #include "server/store/event_deriver.h"
+#include "server/store/keyframe_tables.h"
 #include "server/store/keyframe_writer.h"
 #include "server/store/limits.h"
 #include "server/store/machine_writer.h"
@@ -51,6 +52,7 @@ struct RecordingWriter::State {
   Statement insert_commands;
   Statement insert_events;
   Statement put_moment;
+  std::optional<KeyframeTables> tables;
   std::optional<KeyframeWriter> keyframes;
   std::optional<EventDeriver> deriver;
   std::optional<MachineWriter> machine;
@@ -101,8 +103,8 @@ Result<void> RecordingWriter::State::prepare() {
   TRY(prepare(insert_commands, schema::insert_into("commands")));
   TRY(prepare(insert_events, schema::insert_into("events")));
   TRY(prepare(put_moment, schema::put_into("state_moments")));
-  auto writer = TRY(KeyframeWriter::create(database, print(header.world)));
-  keyframes = std::move(writer);
+  tables.emplace(TRY(KeyframeTables::create(database)));
+  keyframes.emplace(*tables, print(header.world));
   auto rows = TRY(MachineWriter::create(database));
   machine = std::move(rows);
   return {};
@@ -187,7 +189,7 @@ Result<void> RecordingWriter::State::drop_before(const RecordingRing::Part part)
     sql += fmt::format("DELETE FROM {} WHERE tick <= {};", table, tick);
   sql += fmt::format("DELETE FROM state_moments WHERE tick < {};", tick);
   TRY(database.execute(sql));
-  TRY(keyframes->drop_before(part.tick, part.next_piece));
+  TRY(tables->drop_before(part.tick, part.next_piece));
   TRY(count_bytes());
   ring.drop_before(part.tick, bytes);
   dropped = true;
@@ -281,7 +283,8 @@ Result<std::unique_ptr<RecordingWriter>> RecordingWriter::resume(const std::stri
   for (const char* table : {"frames", "commands", "events", "machine", "keyframe_states", "keyframe_chunks"})
     sql += fmt::format("DELETE FROM {} WHERE tick > {};", table, at);
   TRY(state->database.execute(sql));
-  TRY(state->keyframes->resume());
+  TRY(state->tables->each_chunk(
+      [&](ChunkCoord chunk, uint64_t hash) { state->keyframes->note_written(chunk, hash); }));
   state->ring.begin({0, 0}, 0);  // all that was there before
   TRY(state->count_bytes());
   TRY(state->put_start(start));

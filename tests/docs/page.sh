@@ -75,11 +75,12 @@ program_of() {
     'replay control') program=scree-admin consumed=2 subcommand=(replay) ;;
     'replay render') program=scree-render consumed=2 ;;
     'rules list' | 'rules reload' | 'rules console') program=scree-admin consumed=2 subcommand=(rules "$2") ;;
+    'edge '*) program=scree-server ;;
     'bench studies') program=scree-studies consumed=2 ;;
     'bench paper' | 'bench matrix' | 'bench peers' | 'bench scale') program=scree-studies ;;
   esac
   case $1 in
-    server | viewer | bot | replay | world | scene | import | export | place | rules | admin | token | bench | pictures) ;;
+    server | edge | viewer | bot | replay | world | scene | import | export | place | rules | admin | token | bench | pictures) ;;
     *) return 1 ;;
   esac
 }

@@ -94,9 +94,11 @@ std::vector<Layer> server_layers() {
       {"server/rules/sandbox/", {"shared/base/"}},
       {"server/rules/api/", {"server/rules/"}},
       {"server/rules/", {"server/host/", "server/store/", "server/rules/sandbox/"}},
+      {"server/bus/", {"shared/base/"}},
+      {"server/told/", {"server/replay/", "server/net/", "server/bus/"}},
       {"server/app/",
-       {"server/net/", "server/replay/", "server/rules/", "server/history/", "server/flight/", "ground/",
-        "content/files/"}},
+       {"server/net/", "server/replay/", "server/rules/", "server/history/", "server/flight/", "server/told/",
+        "ground/", "content/files/"}},
   };
 }
 
@@ -180,6 +182,7 @@ const std::vector<Library>& libraries() {
        std::regex("(btBullet|Bullet|bullet/|LinearMath/).*"),
        {"server/bodies/", "bench/peers/", "tests/bodies/"}},
       {"voro++", std::regex("voro\\+\\+.*"), {"server/fracture/", "bench/peers/", "tests/"}},
+      {"NATS", std::regex("nats/.*"), {"server/bus/"}},
       {"SQLite", std::regex("sqlite3.*"), {"server/store/", "tests/store/"}},
       {"GLFW", std::regex("GLFW/.*"), {"client/viewer/window/", "client/viewer/input/", "client/web/"}},
       {"Dear ImGui", std::regex("imgui.*"), {"client/viewer/window/", "client/viewer/signs/"}},

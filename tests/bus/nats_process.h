@@ -1,0 +1,82 @@
+// A server of NATS on loopback with streams of its own, which a test starts, kills and starts again.
+#pragma once
+
+#include <arpa/inet.h>
+#include <cstdint>
+#include <memory>
+#include <netinet/in.h>
+#include <string>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <vector>
+
+#include "server/bus/bus.h"
+#include "tests/support/background_program.h"
+#include "tests/support/patience.h"
+#include "tests/support/test_folder.h"
+
+namespace scree {
+
+/// A port that was free a moment ago.
+inline uint16_t free_port() {
+  const int socket = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in here{};
+  here.sin_family = AF_INET;
+  here.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t bytes = sizeof here;
+  EXPECT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&here), bytes), 0);
+  EXPECT_EQ(::getsockname(socket, reinterpret_cast<sockaddr*>(&here), &bytes), 0);
+  ::close(socket);
+  return ntohs(here.sin_port);
+}
+
+class NatsProcess {
+ public:
+  explicit NatsProcess(std::vector<std::string> more = {}) : more_(std::move(more)) { start(); }
+
+  void start() {
+    std::vector<std::string> command{NATS_SERVER,           "-a",  "127.0.0.1", "-p",
+                                     std::to_string(port_), "-js", "-sd",       folder_ / "streams"};
+    command.insert(command.end(), more_.begin(), more_.end());
+    program_ = std::make_unique<BackgroundProgram>(command, folder_ / "said");
+  }
+  void kill() { program_.reset(); }
+  /// It answers nothing, and its connections stay, until it goes on.
+  void hang() const { ::kill(program_->number(), SIGSTOP); }
+  void go_on() const { ::kill(program_->number(), SIGCONT); }
+
+  std::string url(const std::string& user = "") const {
+    return "nats://" + (user.empty() ? "" : user + "@") + "127.0.0.1:" + std::to_string(port_);
+  }
+  const TestFolder& folder() const { return folder_; }
+
+ private:
+  const TestFolder folder_;
+  const uint16_t port_ = free_port();
+  const std::vector<std::string> more_;
+  std::unique_ptr<BackgroundProgram> program_;
+};
+
+/// Whether it comes true within the tests' patience.
+template <typename Condition>
+bool comes(const Condition& condition) {
+  const auto end = std::chrono::steady_clock::now() + patience;
+  while (!condition() && std::chrono::steady_clock::now() < end) wait_a_moment();
+  return condition();
+}
+
+inline BusConfig bus_at(const std::string& url) {
+  BusConfig config;
+  config.url = url;
+  config.name = "test";
+  return config;
+}
+
+inline std::shared_ptr<Bus> connected_bus(const NatsProcess& nats) {
+  auto bus = Bus::connect(bus_at(nats.url()));
+  EXPECT_TRUE(bus) << bus.error().message;
+  EXPECT_TRUE(comes([&] { return (*bus)->is_connected(); })) << (*bus)->fault();
+  return *bus;
+}
+
+}  // namespace scree
