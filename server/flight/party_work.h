@@ -30,7 +30,7 @@ struct PartyWork {
   double price_us_per_s = 0.0;
   uint64_t requests = 0;  ///< that were carried out, since the party was first seen
   uint32_t pieces = 0;    ///< alive
-  std::string name;       ///< of the person who was there first, also after it left; empty: not known
+  std::string name{};     ///< of the person who was there first, also after it left; empty: not known
 };
 
 class PartyCounts {
