@@ -1,4 +1,4 @@
-// A connection to a bus: a server of NATS, which carries messages by subject to whoever listens, and keeps
+// A connection to a bus: a server of NATS, which carries messages by subject to those who listen, and keeps
 // those of a stream. Its library is seen by bus.cpp alone.
 //
 // The connection is made again by itself, from the start on: a bus that is away is no error, is_connected()
@@ -80,7 +80,7 @@ class Bus {
   /// Bytes of a message at most, as the server of NATS says; 0 before the first connection.
   size_t payload_max() const;
 
-  /// Sends to whoever listens now. An error where there is no connection.
+  /// Sends to those who listen now. An error where there is no connection.
   Result<void> send(const std::string& subject, std::span<const uint8_t> bytes);
   /// `subject` may be a pattern. It goes on after a lost connection.
   Result<std::unique_ptr<BusSubscription>> subscribe(const std::string& subject, Handler handler);

@@ -173,10 +173,8 @@ void NetHost::join(ClientSession& session, const HelloMessage& hello, float radi
                        before ? "goes on" : "joined", session.peer(), name_of(grant.role), radius_m));
 }
 
-tl::expected<void, Refused> NetHost::receive(ClientSession& session, const ClientMessage& message) {
+tl::expected<void, Refused> NetHost::carry_out(ClientSession& session, const ClientMessage& message) {
   using Done = tl::expected<void, Refused>;
-  if (config_.way_back)
-    if (const auto handed = hand_on(session, message)) return *handed;
   return std::visit(
       Overloaded{
           [](const HelloMessage&) -> Done {

@@ -100,6 +100,7 @@ class NetHost final : public SessionHost, public WebHost {
             const std::optional<Departed>& before);
   tl::expected<void, Refused> follow(ClientSession& session, const InterestMessage& interest);
   tl::expected<void, Refused> skip(ClientSession& session, const UnknownMessage& unknown);
+  tl::expected<void, Refused> carry_out(ClientSession& session, const ClientMessage& message);
   /// What an edge hands on; nothing: the message is this server's.
   std::optional<tl::expected<void, Refused>> hand_on(ClientSession& session, const ClientMessage& message);
   void forget(uint64_t session);

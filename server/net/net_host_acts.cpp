@@ -63,6 +63,12 @@ tl::expected<void, Refused> NetHost::skip(ClientSession& session, const UnknownM
   return {};
 }
 
+tl::expected<void, Refused> NetHost::receive(ClientSession& session, const ClientMessage& message) {
+  if (config_.way_back)
+    if (const auto handed = hand_on(session, message)) return *handed;
+  return carry_out(session, message);
+}
+
 /// Requests are bounded here as well, so that who asks too fast takes no part of the bus.
 std::optional<tl::expected<void, Refused>> NetHost::hand_on(ClientSession& session,
                                                             const ClientMessage& message) {

@@ -128,7 +128,7 @@ struct NetConfig {
       ask_history;
   /// Takes what somebody who may wants of a replay; on the network thread. Empty: this server plays none.
   std::function<Result<void>(const ControlReplayRequest&)> control;
-  /// Of an edge: takes what persons ask of the world. Null: the world is this server's own.
+  /// Takes what persons at an edge ask of the world. Null: the world is this server's own.
   std::shared_ptr<WayBack> way_back{};
   FlightReports flight{};
   HostRecords records{};
@@ -182,7 +182,7 @@ class NetServer {
   /// Runs a job on the network thread; after stop() perhaps not. From any thread.
   void post(std::function<void()> job);
   /// A connection that something else than a socket carries. Its address is no IP address, and it has no
-  /// place at the door: whoever brings it bounds how many there are. On the network thread.
+  /// place at the door: who brings it bounds how many there are. On the network thread.
   void enter(std::shared_ptr<Transport> transport);
 
   /// Waits until the network thread has handed all published ticks to the sockets.

@@ -37,6 +37,7 @@ EdgePipes::~EdgePipes() = default;
 
 Result<std::unique_ptr<BusSubscription>> EdgePipes::open(NetServer& net) {
   net_ = &net;
+  connections_ = bus_->connections();
   return bus_->subscribe(names_.down(config_.edge),
                          [this](const std::string&, std::span<const uint8_t> bytes) { heard(bytes); });
 }

@@ -16,10 +16,10 @@ inline constexpr double told_keyframe_s = 10.0;
 inline constexpr double told_still_keyframe_s = 60.0;
 /// A keyframe may take this share of the teller's thread; where it takes more, there are fewer of them.
 inline constexpr double told_keyframe_share = 0.1;
-/// Of the stream's bytes, what ticks may take between two keyframes: then the last keyframe and all behind it
-/// are never dropped.
+/// The share of the stream's bytes that ticks may take between two keyframes: then the last keyframe and all
+/// behind it are never dropped.
 inline constexpr double told_tail_share = 0.25;
-/// Of the stream's bytes, what a keyframe may take; above: it is not told, which is a fault.
+/// The share of the stream's bytes that a keyframe may take; above: it is not told, which is a fault.
 inline constexpr double told_keyframe_bytes_share = 0.4;
 
 /// Parts of a keyframe that are sent before waiting ticks are looked for again.
@@ -30,6 +30,8 @@ inline constexpr double told_retry_s = 0.5;
 
 /// How long a reader waits for a message before it looks at the connection, s.
 inline constexpr double told_wait_s = 0.1;
+/// Without a message, s: the stream is looked at.
+inline constexpr double told_silent_s = 1.0;
 /// Messages that wait in an edge for its reading thread. Above: later ones are lost, and read from the
 /// stream.
 inline constexpr size_t told_messages_max = 4096;

@@ -57,6 +57,9 @@ struct ToldReader::State {
   uint64_t connections = 0;
   bool is_behind = true;  ///< the stream has to be read
   double retry_s = 0.0;
+  double heard_s = 0.0;        ///< when the last message came, or the stream was read
+  uint64_t read_from = 0;      ///< where the keyframe begins from which the stream was read last
+  uint64_t next_sequence = 0;  ///< what follows of the stream behind that
   std::unique_ptr<BusSubscription> subscription;
   std::thread thread;
 
@@ -91,10 +94,13 @@ void ToldReader::State::run() {
     }
     look_at_bus();
     const double now_s = steady_now_s();
+    // A message that came before the subscription, or while it was made again, is seen by the stream alone.
+    if (now_s > heard_s + limits::told_silent_s) is_behind = true;
     if (is_behind && now_s >= retry_s && bus->is_connected()) {
       retry_s = now_s + limits::told_retry_s;
       const auto caught_up = catch_up();
       is_behind = !caught_up.has_value();
+      heard_s = steady_now_s();
       set_fault(caught_up ? std::string() : caught_up.error().message);
       continue;
     }
@@ -127,6 +133,7 @@ std::optional<std::vector<uint8_t>> ToldReader::State::next_message() {
   if (stopping || anew || messages.empty()) return std::nullopt;
   auto message = std::move(messages.front());
   messages.pop_front();
+  heard_s = steady_now_s();
   return message;
 }
 
@@ -189,7 +196,9 @@ Result<void> ToldReader::State::catch_up() {
   kept_ticks.reset();
   kept_keyframe.reset();
   const bool needs_keyframe = whole->run != run_number || tick < whole->tick;
-  return read_on(whole->begins, *whole, needs_keyframe);
+  const bool goes_on = !needs_keyframe && read_from == whole->begins;
+  read_from = whole->begins;
+  return read_on(goes_on ? next_sequence : whole->begins, *whole, needs_keyframe);
 }
 
 Result<void> ToldReader::State::read_on(uint64_t sequence, const ToldWhole& whole, bool needs_keyframe) {
@@ -201,6 +210,7 @@ Result<void> ToldReader::State::read_on(uint64_t sequence, const ToldWhole& whol
     const std::scoped_lock lock(mutex);
     if (stopping || anew) return fail("it is left off");
   }
+  next_sequence = sequence;
   if (needs_keyframe) return fail("the stream has no whole keyframe of this world");
   return {};
 }

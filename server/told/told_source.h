@@ -2,10 +2,9 @@
 // clients, who cannot see the difference. As in a replay the kernels apply the operations to a plain field,
 // and the hash of every tick is compared (PlayedWorld).
 //
-// The ticks have numbers of their own, without a gap from the first on, so that nobody is reset: while the
-// world is away they go on with the same state, and what was missed becomes one tick in which everything
-// differs at once. As long as nothing was missed they are the simulation's. One thread at a time, but for
-// status().
+// The ticks have numbers of their own, without a gap from the first on, so that nobody is reset. While the
+// world is away they go on with the same state. What was missed becomes one tick in which everything differs
+// at once. As long as nothing was missed they are the simulation's. One thread at a time, but for status().
 #pragma once
 
 #include <atomic>

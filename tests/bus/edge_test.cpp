@@ -150,7 +150,9 @@ TEST_F(EdgeTest, what_an_edge_cannot_do_is_refused_in_words) {
   ASSERT_TRUE(reply);
   EXPECT_EQ(reply->refusal_name, "edge");
   EXPECT_NE(reply->refusal.find("simulating server"), std::string::npos);
-  ASSERT_TRUE(client->send(ChannelMessage{}));
+  ChannelMessage to_rules;
+  to_rules.channel = "quiz";
+  ASSERT_TRUE(client->send(to_rules));
   const auto refusal = client->receive_as<RefusalMessage>(patience);
   ASSERT_TRUE(refusal);
   EXPECT_EQ(refusal->name, "edge");

@@ -1,5 +1,5 @@
-// A world that is told over a real server of NATS: those who follow have its hash at every tick, whoever is
-// killed meanwhile.
+// A world that is told over a real server of NATS: those who follow have its hash at every tick, also
+// when a server is killed meanwhile.
 #include <gtest/gtest.h>
 
 #include "server/formats/bus_codec.h"
@@ -118,21 +118,37 @@ TEST(ToldWorld, a_simulation_that_begins_anew_ends_the_source) {
   EXPECT_EQ(other.source->run(), 78U);
 }
 
-TEST(ToldWorld, a_small_stream_still_has_a_keyframe_and_all_behind_it) {
+TEST(ToldWorld, a_stream_that_is_full_has_a_keyframe_and_all_behind_it) {
   NatsProcess nats;
   TellerConfig small = told_config();
-  small.stream_mb = 1;
+  small.stream_mb = 6;
   small.in_memory = true;
   ToldByHand told(connected_bus(nats), 77, small);
-  for (int i = 0; i < 40; ++i) {
+  while (told.teller->status().bytes < 9'000'000) {
     told.storm(20);
     ASSERT_TRUE(comes([&] { return told.teller->status().waiting == 0; }));
   }
   EXPECT_GT(told.teller->status().keyframes, 2U);
+  EXPECT_TRUE(told.teller->status().health.ok());
   ToldFollower late(connected_bus(nats));
   ASSERT_NE(late.source, nullptr) << late.why;
   ASSERT_TRUE(late.follow_to(told.world.tick()));
   expect_same(late, told);
+}
+
+TEST(ToldWorld, a_keyframe_that_the_stream_has_no_room_for_is_a_fault) {
+  NatsProcess nats;
+  TellerConfig small = told_config();
+  small.stream_mb = 1;
+  small.keyframe_s = 0.2;
+  ToldByHand told(connected_bus(nats), 77, small);
+  for (int i = 0; i < 100 && told.teller->status().health.ok(); ++i) {
+    told.storm(20);
+    ASSERT_TRUE(comes([&] { return told.teller->status().waiting == 0; }));
+  }
+  const auto because = told.teller->status().health.because;
+  ASSERT_TRUE(because);
+  EXPECT_NE(because->find("--nats-stream-mb"), std::string::npos) << *because;
 }
 
 TEST(ToldWorld, what_anybody_writes_to_the_bus_changes_nothing) {
