@@ -74,8 +74,10 @@ std::string Console::unknown_of(const std::vector<std::string>& words) const {
   const AdminApp commands(app, settings_);
   const CLI::App* within = &app;
   for (const std::string& word : words) {
-    within = within->get_subcommand_no_throw(word);
-    if (within == nullptr) return word;
+    const auto named =
+        within->get_subcommands([&](const CLI::App* command) { return command->check_name(word); });
+    if (named.empty()) return word;
+    within = named.front();
   }
   return {};
 }
