@@ -59,15 +59,20 @@ export function words_of_progress({ undo, over, stopped, bricks, bricks_done, pi
     + (changed > 0 ? ` ${whole(changed)} bricks stay, because somebody changed them meanwhile.` : '') + (refused > 0 ? ` The world refused ${whole(refused)} requests.` : '');
 }
 
+/** From the last key of a number to the question. */
+const TYPED_MS = 400;
+
 export class History {
   element = make('div', { className: 'history' });
   /** The chosen box {lo, hi} in x and z, or null: everywhere. */
   box = null;
+  #half_box = false; // some of its numbers are typed
   #session;
   #on;
   #rate_hz = 60;
   #groups = [];
   #timer = 0;
+  #typing = 0;
   #progress_timer = 0;
   #preview = null;
   #corners = ['from x', 'from z', 'to x', 'to z'].map((label) => make('input', { type: 'number', step: 'any', min: -HALF_WIDTH_M, max: HALF_WIDTH_M, placeholder: label, aria: { label } }));
@@ -89,7 +94,7 @@ export class History {
     this.#session = session;
     this.#on = on;
     this.#since.value = 3600;
-    const form = make('form', {},
+    const form = make('form', { noValidate: true },
       make('fieldset', { className: 'where' }, make('legend', {}, 'Where: everywhere, or in a box that you drag or type'), ...this.#corners, this.#everywhere),
       make('div', { className: 'fields' }, field('Whose edits', this.#who), field('Since', this.#since), field('Or all that changed after tick', this.#tick)),
       make('div', { className: 'row' }, this.#look), this.#result, this.#run);
@@ -98,7 +103,7 @@ export class History {
       event.preventDefault();
       this.#ask_preview();
     });
-    for (const input of this.#corners) input.addEventListener('change', () => this.#take_corners());
+    for (const input of this.#corners) input.addEventListener('input', () => this.#take_corners());
     for (const input of [this.#who, this.#since, this.#tick]) input.addEventListener('change', () => this.#filtered());
     this.#everywhere.addEventListener('click', () => this.choose(null));
     this.#stop.addEventListener('click', () => attempt(() => this.#undo(STOP), 'The undo stops.'));
@@ -124,6 +129,7 @@ export class History {
   /** From the map, or null: everywhere. */
   choose(box) {
     this.box = box;
+    this.#half_box = false;
     const values = box ? [box.lo.x, box.lo.z, box.hi.x, box.hi.z] : [];
     this.#corners.forEach((input, i) => { input.value = box ? values[i].toFixed(1) : ''; });
     this.#everywhere.disabled = box === null;
@@ -131,10 +137,22 @@ export class History {
     this.#filtered();
   }
 
+  /** As typed: the box is as soon as it has four numbers. With fewer, nothing is asked for: it would be asked for everywhere. */
   #take_corners() {
-    const [x0, z0, x1, z1] = this.#corners.map(({ value }) => (value === '' ? NaN : Number(value)));
-    if (![x0, z0, x1, z1].every(Number.isFinite)) return;
-    this.choose({ lo: { x: Math.min(x0, x1), z: Math.min(z0, z1) }, hi: { x: Math.max(x0, x1), z: Math.max(z0, z1) } });
+    const [x0, z0, x1, z1] = this.#corners.map((input) => (input.value === '' || !input.validity.valid ? NaN : Number(input.value)));
+    this.#half_box = ![x0, z0, x1, z1].every(Number.isFinite) && this.#corners.some(({ value, validity }) => value !== '' || validity.badInput);
+    this.box = [x0, z0, x1, z1].every(Number.isFinite)
+      ? { lo: { x: Math.min(x0, x1), z: Math.min(z0, z1) }, hi: { x: Math.max(x0, x1), z: Math.max(z0, z1) } } : null;
+    this.#everywhere.disabled = this.box === null && !this.#half_box;
+    this.#on.chosen(this.box);
+    this.#forget_preview();
+    clearTimeout(this.#typing);
+    this.#typing = setTimeout(() => this.#refresh(), TYPED_MS);
+  }
+
+  #terms_of_place() {
+    if (this.#half_box) throw new Error('The box needs four numbers within the world, or none.');
+    return this.box;
   }
 
   #filtered() {
@@ -155,7 +173,7 @@ export class History {
   // ---- the list
 
   async #ask_edits(terms) {
-    const { box } = this;
+    const box = this.#terms_of_place();
     const request = { ...terms, asJson: true };
     if (box) {
       const middle = { x: (box.lo.x + box.hi.x) / 2, z: (box.lo.z + box.hi.z) / 2 }, height = this.#on.height(middle);
@@ -213,8 +231,9 @@ export class History {
 
   async #undo(mode) {
     const request = { ...this.#terms(), mode, toTick: BigInt(Math.max(Math.round(Number(this.#tick.value) || 0), 0)), asJson: true };
-    if (this.box) Object.assign(request, { lo: { ...this.box.lo, y: -HALF_HEIGHT_M }, hi: { ...this.box.hi, y: HALF_HEIGHT_M } });
-    const { text } = await this.#session.act('undo', mode === STOP || mode === PROGRESS ? { mode, asJson: true } : request);
+    const is_about_run = mode === STOP || mode === PROGRESS, box = is_about_run ? null : this.#terms_of_place();
+    if (box) Object.assign(request, { lo: { ...box.lo, y: -HALF_HEIGHT_M }, hi: { ...box.hi, y: HALF_HEIGHT_M } });
+    const { text } = await this.#session.act('undo', is_about_run ? { mode, asJson: true } : request);
     return JSON.parse(text_of(text));
   }
 

@@ -47,6 +47,7 @@ function joined(welcome) {
   map.joined(welcome);
   if (parts.shown) parts.again();
   else parts.show(location.hash.slice(1));
+  if (document.activeElement === document.body) parts.focus();
 }
 
 function message({ case: name, value }) {

@@ -23,6 +23,10 @@ export class Parts {
     }
     $('tabs').addEventListener('keydown', (event) => this.#key(event));
     addEventListener('keydown', (event) => this.#digit(event));
+    // What had the focus may go with its row: then the part's tab has it, and a key goes nowhere else.
+    let within = false;
+    for (const event of ['focusin', 'pointerdown']) addEventListener(event, ({ type, target }) => { within = type === 'focusin' && $('parts').contains(target); });
+    new MutationObserver(() => { if (within && document.activeElement === document.body) this.focus(); }).observe($('parts'), { childList: true, subtree: true, attributes: true, attributeFilter: ['hidden', 'disabled'] });
     addEventListener('hashchange', () => { if (this.#shown) this.show(location.hash.slice(1)); });
   }
 
@@ -47,6 +51,9 @@ export class Parts {
     history.replaceState(null, '', `#${name}`);
     this.#parts[name].shown?.();
   }
+
+  /** The shown part's tab gets the focus. */
+  focus() { this.#tabs.get(this.#shown)?.focus({ preventScroll: true }); }
 
   /** The shown part is told once more: after the connection is there again. */
   again() { this.#parts[this.#shown]?.shown?.(); }
