@@ -127,9 +127,9 @@ TEST(WorldConfig, what_is_set_is_what_files_and_clients_read) {
                                                    {"reach", "-0"},
                                                    {"reach", "3.3333333333"},
                                                    {"requests-per-second", "1.000000000001"},
-                                                   {water_setting, "1.234567"},
-                                                   {spawn_setting, "1.23456,10,3.33333"},
-                                                   {spawn_setting, "1e-31,1,1"}}) {
+                                                   {std::string(water_setting), "1.234567"},
+                                                   {std::string(spawn_setting), "1.23456,10,3.33333"},
+                                                   {std::string(spawn_setting), "1e-31,1,1"}}) {
     WorldConfig config = world_of(0.25F, 60), again = config;
     ASSERT_TRUE(set(config, setting)) << setting.value;
     ASSERT_TRUE(set_all(again, print(config))) << setting.value;
