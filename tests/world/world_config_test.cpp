@@ -119,7 +119,6 @@ INSTANTIATE_TEST_SUITE_P(
              std::to_string(info.param.tick_rate_hz) + "_hz";
     });
 
-/// A later release may have another built-in palette.
 TEST(WorldConfig, what_is_set_is_what_files_and_clients_read) {
   for (const SettingValue& setting : SettingValues{{"reach", "1e-31"},
                                                    {"reach", "1e-40"},
@@ -141,6 +140,7 @@ TEST(WorldConfig, what_is_set_is_what_files_and_clients_read) {
   EXPECT_EQ(World(of_host).config().water, 1.23F);
 }
 
+/// A later release may have another built-in palette.
 TEST(WorldConfig, a_header_names_the_built_in_palette_too) {
   const RecordedHeader header = to_recorded(WorldConfig{});
   ASSERT_NE(header.palette, nullptr);
