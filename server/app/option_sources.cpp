@@ -11,7 +11,8 @@ namespace scree {
 
 namespace {
 
-constexpr std::string_view secret_option = "admin-token";
+/// The second may hold a password.
+constexpr std::string_view secret_options[] = {"admin-token", "nats"};
 
 std::string long_name(const CLI::Option& option) {
   return option.get_lnames().empty() ? std::string() : option.get_lnames().front();
@@ -66,7 +67,7 @@ std::vector<OptionValue> OptionSources::values(const CLI::App& app) const {
     OptionValue value;
     value.name = long_name(*option);
     if (!is_told(value.name)) continue;
-    value.is_secret = value.name == secret_option;
+    value.is_secret = std::ranges::find(secret_options, value.name) != std::end(secret_options);
     value.is_list = option->get_items_expected_max() > 1;
     const bool is_switch = option->get_items_expected_max() == 0;
     if (option->count() > 0) {

@@ -1,7 +1,7 @@
 // Converts the messages of a bus between plain values and bytes (server/formats/bus.proto).
 //
-// Decoders check everything: a program that may write to the bus may write anything. Pure functions, safe to call
-// from any thread.
+// Decoders check everything: a program that may write to the bus may write anything. Pure functions, safe to
+// call from any thread.
 #pragma once
 
 #include <cstdint>

@@ -121,10 +121,10 @@ TEST(ToldWorld, a_simulation_that_begins_anew_ends_the_source) {
 TEST(ToldWorld, a_stream_that_is_full_has_a_keyframe_and_all_behind_it) {
   NatsProcess nats;
   TellerConfig small = told_config();
-  small.stream_mb = 6;
+  small.stream_mb = 5;
   small.in_memory = true;
   ToldByHand told(connected_bus(nats), 77, small);
-  while (told.teller->status().bytes < 9'000'000) {
+  while (told.teller->status().bytes < 6'500'000) {
     told.storm(20);
     ASSERT_TRUE(comes([&] { return told.teller->status().waiting == 0; }));
   }
