@@ -1,4 +1,5 @@
 #include "server/history/history_file.h"
+#include "server/history/owner_file.h"
 
 #include <algorithm>
 #include <array>
@@ -191,18 +192,10 @@ Result<void> HistoryFile::State::prepare(Tick tick) {
   return {};
 }
 
-/// It has names of persons, and the key of their addresses' hashes.
-Result<void> keep_from_others(const std::string& path) {
-  using std::filesystem::perms;
-  std::error_code error;
-  std::filesystem::permissions(path, perms::owner_read | perms::owner_write, error);
-  return error ? fail(path + ": " + error.message()) : Result<void>();
-}
-
 Result<std::unique_ptr<HistoryFile>> HistoryFile::open(const std::string& path, uint64_t world, Tick tick) {
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) {
-    TRY(keep_from_others(path));
+    TRY(let_owner_alone_read(path));
     auto opened = Database::open(path);
     TRY(opened);
     auto state = std::make_unique<State>(std::move(*opened));
@@ -216,7 +209,7 @@ Result<std::unique_ptr<HistoryFile>> HistoryFile::open(const std::string& path, 
   }
   auto made = Database::create(path);
   TRY(made);
-  TRY(keep_from_others(path));
+  TRY(let_owner_alone_read(path));
   auto state = std::make_unique<State>(std::move(*made));
   TRY(state->make(world));
   TRY(state->prepare(tick));

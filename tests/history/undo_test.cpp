@@ -215,7 +215,10 @@ TEST(Undo, says_what_is_wrong) {
   HistoryWorld hill;
   hill.join(1, "Ann");
   hill.catch_up();
-  EXPECT_EQ(hill.ask(UndoRequest{.by = "Nobody"}).error().message, "nobody of that name has edited: Nobody");
+  EXPECT_EQ(hill.ask(UndoRequest{.by = "Nobody"}).error().message,
+            "Nobody has edited nothing here: say whose edits by name:NAME, session:NUMBER, token:ID, "
+            "address:HASH or "
+            "undo:NUMBER");
   EXPECT_FALSE(hill.ask(UndoRequest{}).has_value());
   EXPECT_FALSE(hill.ask(UndoRequest{.mode = UndoMode::stop}).has_value());
   EXPECT_EQ(hill.ask(UndoRequest{.mode = UndoMode::refuse_conflicts, .by = "Ann"}).error().message,

@@ -56,7 +56,6 @@ SCREE_API const char* scree_error(void);
 /** The version of the library, "0.2.0", and that of the protocol that it speaks (docs/protocol.md). */
 SCREE_API const char* scree_version(void);
 SCREE_API uint32_t scree_protocol(void);
-
 /** @} */
 /** @defgroup client The client
  * Its life: options, connection, waiting.
@@ -101,7 +100,6 @@ typedef struct scree_options {
   float contacts_j;         /**< blows of at least so much energy are told (SCREE_EVENT_CONTACT); 0: none */
   scree_allocator allocator;
 } scree_options;
-
 /** Sets size, and what a program means that says nothing. */
 SCREE_API scree_result scree_options_init(scree_options* options, uint32_t size);
 /** Makes a client and begins to connect: SCREE_EVENT_JOINED or SCREE_EVENT_LOST tells the outcome. */
@@ -110,7 +108,6 @@ SCREE_API scree_result scree_client_create(const scree_options* options, scree_c
 SCREE_API void scree_client_destroy(scree_client* client);
 /** Takes in what has come; waits for it up to so many milliseconds. 0: does not wait. */
 SCREE_API scree_result scree_client_poll(scree_client* client, uint32_t wait_ms);
-
 /** @} */
 /** @defgroup events Events
  * What happened, in order.
@@ -159,7 +156,6 @@ typedef struct scree_event {
 
 /** Takes the next event. SCREE_NOTHING: none is left until the next poll. Set event->size before. */
 SCREE_API scree_result scree_client_next(scree_client* client, scree_event* event);
-
 /** @} */
 /** @defgroup requests Requests
  * What a client asks the server for.
@@ -209,7 +205,6 @@ typedef struct scree_request {
   uint32_t motion; /**< 0: moves by forces; 1: as it is told; 2: stands still */
   uint64_t tag;    /**< of a body: the game's own */
 } scree_request;
-
 /** Sets size and kind, and what a request of that kind has that says nothing. */
 SCREE_API scree_result scree_request_init(scree_request* request, uint32_t size, uint32_t kind);
 
@@ -236,7 +231,6 @@ SCREE_API scree_result scree_client_walk(scree_client* client, const float way[2
 
 /** The number of a pattern of seeds by its name, such as "natural"; SCREE_NOTHING: there is none. */
 SCREE_API scree_result scree_find_pattern(const char* name, uint32_t* pattern);
-
 /** @} */
 /** @defgroup world The world
  * The client's copy of it.
@@ -300,7 +294,6 @@ typedef struct scree_prop {
 } scree_prop;
 /** SCREE_NOTHING: there is none of that id. */
 SCREE_API scree_result scree_client_prop(scree_client* client, uint32_t id, scree_prop* prop);
-
 typedef struct scree_material {
   uint32_t size;
   float colour[3]; /**< linear, 0 to 1 */
@@ -312,7 +305,6 @@ typedef struct scree_material {
 SCREE_API scree_result scree_client_material(scree_client* client, uint32_t number, scree_material* material);
 SCREE_API scree_result scree_client_find_material(scree_client* client, const char* name, uint32_t* number);
 SCREE_API scree_result scree_client_carried(scree_client* client, uint32_t material, int64_t* mass);
-
 /** @} */
 /** @defgroup questions Questions
  * About space, asked of the copy, without the server.
@@ -348,7 +340,6 @@ SCREE_API scree_result scree_client_distances(scree_client* client, const float*
  * At most 2^24 voxels. `room`: of codes; not less than the box has. */
 SCREE_API scree_result scree_client_codes(scree_client* client, const int32_t lo[3], const int32_t hi[3],
                                           int8_t* codes, size_t room);
-
 /** @} */
 /** @defgroup meshes Meshes
  * Of terrain and pieces, as flat arrays.
@@ -402,7 +393,6 @@ SCREE_API scree_result scree_client_mesh_chunk(scree_client* client, const int32
 /** The mesh of one piece, or of a prop's form, likewise. */
 SCREE_API scree_result scree_client_mesh_body(scree_client* client, uint32_t id, scree_mesh* mesh);
 SCREE_API void scree_mesh_release(scree_client* client, scree_mesh* mesh);
-
 /** @} */
 
 #ifdef __cplusplus
