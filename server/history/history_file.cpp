@@ -196,9 +196,7 @@ Result<std::unique_ptr<HistoryFile>> HistoryFile::open(const std::string& path, 
   std::error_code ignored;
   if (std::filesystem::exists(path, ignored)) {
     TRY(let_owner_alone_read(path));
-    auto opened = Database::open(path);
-    TRY(opened);
-    auto state = std::make_unique<State>(std::move(*opened));
+    auto state = std::make_unique<State>(TRY(Database::open(path)));
     TRY(state->check(world));
     if (state->is_of_world) {
       TRY(state->prepare(tick));
@@ -207,10 +205,8 @@ Result<std::unique_ptr<HistoryFile>> HistoryFile::open(const std::string& path, 
     state.reset();
     TRY(put_aside(path));
   }
-  auto made = Database::create(path);
-  TRY(made);
+  auto state = std::make_unique<State>(TRY(Database::create(path)));
   TRY(let_owner_alone_read(path));
-  auto state = std::make_unique<State>(std::move(*made));
   TRY(state->make(world));
   TRY(state->prepare(tick));
   return std::unique_ptr<HistoryFile>(new HistoryFile(std::move(state)));
