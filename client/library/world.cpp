@@ -204,16 +204,20 @@ scree_result scree_client_body_columns(scree_client* client, double tick, const 
                                        size_t room, size_t* count) {
   const auto given = read_struct(columns);
   return asked(client, given && count != nullptr && std::isfinite(tick), [&](Mirror& /*mirror*/) {
-    const scree_body_columns to = *given;
+    // Copies, for a write of a byte might be one of theirs.
+    uint32_t* const ids = given->ids;
+    uint8_t* const kinds = given->kinds;
+    float *const positions = given->positions, *const rotations = given->rotations;
     size_t found = 0;
-    each_body(*client, tick, [&](uint32_t kind, PieceId id, const Pose& pose) {
-      const size_t row = found++;
-      if (row >= room) return;
-      if (to.ids != nullptr) to.ids[row] = id;
-      if (to.kinds != nullptr) to.kinds[row] = static_cast<uint8_t>(kind);
-      if (to.positions != nullptr) write_vec3(pose.position_m, to.positions + 3 * row);
-      if (to.rotations != nullptr) write_rotation(pose.rotation, to.rotations + 4 * row);
-    });
+    each_body(*client, tick,
+              [&found, room, ids, kinds, positions, rotations](uint32_t kind, PieceId id, const Pose& pose) {
+                const size_t row = found++;
+                if (row >= room) return;
+                if (ids != nullptr) ids[row] = id;
+                if (kinds != nullptr) kinds[row] = static_cast<uint8_t>(kind);
+                if (positions != nullptr) write_vec3(pose.position_m, positions + 3 * row);
+                if (rotations != nullptr) write_rotation(pose.rotation, rotations + 4 * row);
+              });
     return counted(found, room, count);
   });
 }
