@@ -22,12 +22,15 @@ Bus::State& state_of(void* closure) {
 
 void on_connected(natsConnection*, void* closure) {
   Bus::State& state = state_of(closure);
-  ++state.connections;
   state.set_fault({});
+  ++state.connections;
+  state.connected = true;
 }
 
 void on_disconnected(natsConnection*, void* closure) {
-  state_of(closure).set_fault("the connection was lost");
+  Bus::State& state = state_of(closure);
+  state.connected = false;
+  state.set_fault("the connection was lost");
 }
 
 void on_closed(natsConnection*, void* closure) {
@@ -133,7 +136,10 @@ Result<std::shared_ptr<Bus>> Bus::connect(const BusConfig& config) {
   if (const natsStatus status = set_callbacks(made, kept); status != NATS_OK) return give_up(status);
   const natsStatus status = natsConnection_Connect(&state->connection, made);
   if (status != NATS_OK && status != NATS_NOT_YET_CONNECTED) return give_up(status);
-  if (status == NATS_OK) ++state->connections;
+  if (status == NATS_OK) {
+    ++state->connections;
+    state->connected = true;
+  }
   if (status != NATS_OK) state->set_fault("there is no connection yet");
   jsOptions js;
   jsOptions_Init(&js);
@@ -159,7 +165,7 @@ Bus::~Bus() {
 }
 
 bool Bus::is_connected() const {
-  return natsConnection_Status(state_->connection) == NATS_CONN_STATUS_CONNECTED;
+  return state_->connected && natsConnection_Status(state_->connection) == NATS_CONN_STATUS_CONNECTED;
 }
 
 uint64_t Bus::connections() const {

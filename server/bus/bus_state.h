@@ -28,6 +28,8 @@ struct Bus::State {
   BusConfig config;
   natsConnection* connection = nullptr;
   jsCtx* streams = nullptr;
+  /// As the callbacks say, in order: the library's own status is ahead of them.
+  std::atomic<bool> connected{false};
   std::atomic<uint64_t> connections{0};
   std::atomic<uint64_t> keep_failures{0};
 

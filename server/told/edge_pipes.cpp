@@ -83,6 +83,7 @@ tl::expected<void, Refused> EdgePipes::ask(uint64_t session, glm::vec3 eye_m, ui
         "this server is an edge, where nobody is on foot: connect to the simulating server to walk");
   if (config_.is_away() || !bus_->is_connected())
     return refuse(Refusal::simulator_away, "the simulating server is away: ask again when it is back");
+  if (bus_->connections() != connections_) check_time(steady_now_s());  // pipes of the lost connection end
   Person& person = persons_.at(session);
   if (steady_now_s() < person.shut_until_s) return tl::unexpected(person.shut);
   if (person.waiting.size() >= limits::edge_requests_waiting_max)
