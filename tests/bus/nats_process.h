@@ -61,8 +61,11 @@ class NatsProcess {
 template <typename Condition>
 bool comes(const Condition& condition) {
   const auto end = std::chrono::steady_clock::now() + patience;
-  while (!condition() && std::chrono::steady_clock::now() < end) wait_a_moment();
-  return condition();
+  while (!condition()) {
+    if (std::chrono::steady_clock::now() >= end) return false;
+    wait_a_moment();
+  }
+  return true;
 }
 
 inline BusConfig bus_at(const std::string& url) {
