@@ -156,6 +156,12 @@ TEST_F(MonitoringQueries, the_page_of_the_documentation_has_each_figure_and_no_o
   for (std::sregex_iterator at(page.begin(), page.end(), typed), end; at != end; ++at)
     served.insert((*at)[1].str());
   EXPECT_GT(served.size(), 60U);
+  // Those of a bus are served beside a server of NATS alone.
+  const std::string of_bus = read_text(SCREE_SOURCE_DIR "/server/app/live_server_bus.cpp");
+  static const std::regex added(R"re("(scree_[a-z0-9_]+)")re");
+  for (std::sregex_iterator at(of_bus.begin(), of_bus.end(), added), end; at != end; ++at)
+    served.insert((*at)[1].str());
+  EXPECT_TRUE(served.contains("scree_edge_tick"));
   for (const std::string& name : served)
     EXPECT_TRUE(documented.contains(name)) << name << " is not documented";
   for (const std::string& name : documented) EXPECT_TRUE(served.contains(name)) << name << " is not served";
