@@ -1,5 +1,4 @@
 #include "server/history/history_file.h"
-#include "server/history/owner_file.h"
 
 #include <algorithm>
 #include <array>
@@ -9,6 +8,7 @@
 #include <random>
 
 #include "proto/operation_codec.h"
+#include "server/history/owner_file.h"
 #include "server/log/log.h"
 #include "server/store/database.h"
 #include "shared/base/check.h"
