@@ -168,6 +168,7 @@ test('the keyboard alone kicks a person whose name is markup, and takes back edi
   assert.match(visitor.said.toString('latin1'), /not <b>here<\/b>/);
   await until(page, 'it is said', () => /was kicked/.test(document.querySelector('#said').textContent));
   await until(page, 'the person is gone', (name) => ![...document.querySelectorAll('#part-people td.name')].some((cell) => cell.textContent === name), HOSTILE);
+  assert.equal(await page.evaluate(() => document.activeElement.id), 'tab-people', 'the focus goes where the row was');
 
   await page.keyboard.press('Escape');
   await page.evaluate(() => document.activeElement.blur());
@@ -213,6 +214,13 @@ test('a box on the map, by mouse and by keys, bounds the history', async () => {
   await page.keyboard.up('Shift');
   const by_mouse = (await corners()).map(Number);
   assert.ok(by_mouse[0] < by_mouse[2] && by_mouse[1] < by_mouse[3], by_mouse.join(' '));
+  await page.focus('.map canvas');
+  await page.keyboard.press('Escape');
+  assert.deepEqual(await corners(), ['', '', '', '']);
+  await page.focus('.where input');
+  await page.keyboard.type('4');
+  await page.click('.history button[type=submit]');
+  await until(page, 'half a box is refused', () => /four numbers/.test(document.querySelector('.result .refused')?.textContent));
   await page.focus('.map canvas');
   await page.keyboard.press('Escape');
   assert.deepEqual(await corners(), ['', '', '', '']);
