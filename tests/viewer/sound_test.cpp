@@ -76,6 +76,14 @@ TEST_F(PieceWatchTest, pieces_crack_off_strike_and_settle_once_each) {
   EXPECT_TRUE(step({}).empty());
 }
 
+TEST_F(PieceWatchTest, a_machine_that_draws_once_a_second_hears_and_one_that_slept_does_not) {
+  step({});
+  now_s_ += 1.0;
+  EXPECT_FALSE(step(broken_off_).empty());
+  now_s_ += 60.0;
+  EXPECT_TRUE(step({}).empty());
+}
+
 TEST_F(PieceWatchTest, props_strike_and_do_no_more) {
   Prop crate;
   crate.parts.push_back({.half_m = glm::vec3(0.5F)});
