@@ -16,7 +16,7 @@ constexpr float blow_m_s = 0.8F;
 /// Speed that a piece gets by what breaks it off, as far as its crack counts.
 constexpr float crack_m_s = 3.0F;
 constexpr float settle_m_s = 0.4F;
-/// Without a step for so long, what happened meanwhile is no event. A slow machine draws once a second, and is to hear.
+/// Without a step for so long, what happened meanwhile is no event. Slow machines draw once a second.
 constexpr double gap_s = 3.0;
 /// A piece larger than this strikes with its foot, which may lie far from its middle.
 constexpr float large_m = 2.0F;
