@@ -32,8 +32,8 @@ for name in over:
     file = yaml.load(open(name), Loader)
     networks, volumes = file.get("networks", {}), {**base["volumes"], **file.get("volumes", {})}
     for service, parts in file["services"].items():
-        if service not in base["services"] and "image" not in parts:
-            faults.append(f"{name}: {service} has no image")
+        if service not in base["services"] and not {"image", "build"} & parts.keys():
+            faults.append(f"{name}: {service} has no image, and builds none")
         faults += [f"{name}: no network {net}" for net in parts.get("networks", []) if net not in networks]
         for mount in parts.get("volumes", []):
             source = mount.rsplit(":", 2 if mount.endswith(":ro") else 1)[0]
@@ -58,6 +58,6 @@ nginx -t -q -e stderr -c "$work/nginx.conf"
 
 if docker compose version >/dev/null 2>&1; then
   for file in compose.*.yaml; do
-    PLAY_NAME=play.example.org CERTIFICATES=$work docker compose -f compose.yaml -f "$file" config -q
+    PLAY_NAME=play.example.org CERTIFICATES=$work SIMULATOR_PASSWORD=a EDGE_1_PASSWORD=b EDGE_2_PASSWORD=c docker compose -f compose.yaml -f "$file" config -q
   done
 fi
