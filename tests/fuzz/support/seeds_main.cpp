@@ -13,6 +13,7 @@
 #include "ground/ground_file.h"
 #include "ground/ground_writer.h"
 #include "proto/operation_codec.h"
+#include "server/formats/bus_codec.h"
 #include "server/formats/world_codec.h"
 #include "server/store/recording.h"
 #include "server/store/recording_writer.h"
@@ -198,7 +199,7 @@ void write_recording(Corpora& corpora) {
   };
   rows.byte(1).byte(3);
   row(0, 0, encode(without_palette));
-  Seed hostile = rows;
+  Seed hostile = rows, told;
   PublishedState state;
   for (Tick tick = 1; tick <= 4; ++tick) {
     std::vector<Command> commands;
@@ -206,14 +207,25 @@ void write_recording(Corpora& corpora) {
       commands = {{1, 1, carve(16.0F, 1)}, {2, 1, FillRequest{sphere({20.0F, 1.0F, 16.0F}, 1.0F)}}};
     const auto delta = world.step(commands);
     row(1, tick, encode(to_recorded(*delta, state)));
+    if (tick > 1) told.byte(0).byte(0).packet(encode_told(to_recorded(*delta, state)));
     if (!commands.empty()) row(3, tick, encode(std::span<const Command>(commands)));
     state.apply(*delta);
+    if (tick == 1) {
+      const Bytes keyframe = encode(
+          ToldKeyframe{1, encode(without_palette), encode(to_recorded_keyframe(state.as_delta())), {}, {}});
+      told.byte(1).byte(1).packet(keyframe);
+      corpora.add("bus", Seed().byte(3).byte(1).packet(encode(ToldPart{3, 1, 0, 1, keyframe})).bytes);
+    }
     if (tick == 2)
       corpora.add("packed", Seed().byte(7).raw(encode(to_recorded_keyframe(state.as_delta()))).bytes);
     (void)(*writer)->add(*delta, commands);
   }
   (void)(*writer)->finish();
   corpora.add("recording", rows.bytes);
+  corpora.add("bus", told.bytes);
+  Seed pipes;
+  pipes.byte(4).byte(0).packet(encode(ToldWhole{3, 9, 1}));
+  corpora.add("bus", pipes.byte(5).byte(0).packet(encode(PipeMessage{3, 9, 1, {4, 5}, true})).bytes);
   const Bytes frame = encode(hostile_frame());
   corpora.add("recording", hostile.byte(1).byte(1).packet(frame).bytes);
 }
