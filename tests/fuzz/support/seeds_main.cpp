@@ -213,8 +213,7 @@ void write_recording(Corpora& corpora) {
     if (tick == 1) {
       const Bytes keyframe = encode(
           ToldKeyframe{1, encode(without_palette), encode(to_recorded_keyframe(state.as_delta())), {}, {}});
-      told.byte(1).byte(1).packet(keyframe);
-      corpora.add("bus", Seed().byte(3).byte(1).packet(encode(ToldPart{3, 1, 0, 1, keyframe})).bytes);
+      told.byte(3).byte(1).packet(encode(ToldPart{3, 1, 0, 1, keyframe}));
     }
     if (tick == 2)
       corpora.add("packed", Seed().byte(7).raw(encode(to_recorded_keyframe(state.as_delta()))).bytes);
@@ -222,10 +221,8 @@ void write_recording(Corpora& corpora) {
   }
   (void)(*writer)->finish();
   corpora.add("recording", rows.bytes);
-  corpora.add("bus", told.bytes);
-  Seed pipes;
-  pipes.byte(4).byte(0).packet(encode(ToldWhole{3, 9, 1}));
-  corpora.add("bus", pipes.byte(5).byte(0).packet(encode(PipeMessage{3, 9, 1, {4, 5}, true})).bytes);
+  told.byte(4).byte(0).packet(encode(ToldWhole{3, 9, 1}));
+  corpora.add("bus", told.byte(5).byte(0).packet(encode(PipeMessage{3, 9, 1, {4, 5}, true})).bytes);
   const Bytes frame = encode(hostile_frame());
   corpora.add("recording", hostile.byte(1).byte(1).packet(frame).bytes);
 }
