@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <sys/resource.h>
 
+#include "server/flight/limits.h"
 #include "shared/base/wall_clock.h"
 
 namespace scree {
@@ -13,13 +14,19 @@ float ms_of(TickWatch::Clock::duration time) {
   return std::chrono::duration<float, std::milli>(time).count();
 }
 
+float ms_of(const timeval& time) {
+  return static_cast<float>(1e3 * static_cast<double>(time.tv_sec) +
+                            1e-3 * static_cast<double>(time.tv_usec));
+}
+
 }  // namespace
 
 TickWatch::Counts TickWatch::counts() {
   rusage thread{}, process{};
   ::getrusage(RUSAGE_THREAD, &thread);
   ::getrusage(RUSAGE_SELF, &process);
-  return {static_cast<uint64_t>(process.ru_majflt), static_cast<uint64_t>(thread.ru_nivcsw)};
+  return {static_cast<uint64_t>(process.ru_majflt), static_cast<uint64_t>(thread.ru_nivcsw),
+          ms_of(thread.ru_stime), ms_of(process.ru_stime)};
 }
 
 void TickWatch::begin(std::optional<Clock::time_point> due) {
@@ -51,6 +58,13 @@ FlightTick TickWatch::end(const NetLoad& net) {
   now_.thread_cpu_ms = static_cast<float>(1e3 * (thread_cpu_s() - thread_s_));
   now_.process_cpu_ms = static_cast<float>(1e3 * (process_cpu_s() - process_s_));
   now_.major_faults = static_cast<uint32_t>(after.major_faults - before_.major_faults);
+  // The kernel needs processors, too, to fetch pages from the swap: that is no work of the tick's.
+  if (now_.major_faults >= limits::flight_swap_pages) {
+    const float thread_ms = after.thread_system_ms - before_.thread_system_ms;
+    const float process_ms = after.process_system_ms - before_.process_system_ms;
+    now_.thread_cpu_ms = std::max(0.0F, now_.thread_cpu_ms - std::max(0.0F, thread_ms));
+    now_.process_cpu_ms = std::max(0.0F, now_.process_cpu_ms - std::max(0.0F, process_ms));
+  }
   // In the first tick, the count before is another thread's, and may be larger.
   now_.preempted = static_cast<uint32_t>(after.preempted - std::min(after.preempted, before_.preempted));
   before_ = after;

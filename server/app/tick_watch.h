@@ -30,6 +30,7 @@ class TickWatch {
   /// Counts of the system since the start.
   struct Counts {
     uint64_t major_faults = 0, preempted = 0;
+    double thread_system_ms = 0.0, process_system_ms = 0.0;  ///< processor time in the kernel
   };
   static Counts counts();
 

@@ -48,9 +48,9 @@ struct FlightTick {
   std::array<float, tick_stages.size()> model_ms{};
   // What the system gave.
   float thread_cpu_ms = 0.0F;
-  float process_cpu_ms = 0.0F;
-  uint32_t major_faults = 0;  ///< pages of the process that came from a disk
-  uint32_t preempted = 0;     ///< times that the thread lost its processor
+  float process_cpu_ms = 0.0F;  ///< both without what the kernel took to fetch pages from the swap
+  uint32_t major_faults = 0;    ///< pages of the process that came from a disk
+  uint32_t preempted = 0;       ///< times that the thread lost its processor
   // Storage and network.
   float save_ms = 0.0F;  ///< of the save that ended since the tick before; 0: none did
   uint16_t saves_skipped = 0;
