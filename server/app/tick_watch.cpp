@@ -14,9 +14,8 @@ float ms_of(TickWatch::Clock::duration time) {
   return std::chrono::duration<float, std::milli>(time).count();
 }
 
-float ms_of(const timeval& time) {
-  return static_cast<float>(1e3 * static_cast<double>(time.tv_sec) +
-                            1e-3 * static_cast<double>(time.tv_usec));
+double ms_of(const timeval& time) {
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-3 * static_cast<double>(time.tv_usec);
 }
 
 }  // namespace
@@ -60,8 +59,8 @@ FlightTick TickWatch::end(const NetLoad& net) {
   now_.major_faults = static_cast<uint32_t>(after.major_faults - before_.major_faults);
   // The kernel needs processors, too, to fetch pages from the swap: that is no work of the tick's.
   if (now_.major_faults >= limits::flight_swap_pages) {
-    const float thread_ms = after.thread_system_ms - before_.thread_system_ms;
-    const float process_ms = after.process_system_ms - before_.process_system_ms;
+    const auto thread_ms = static_cast<float>(after.thread_system_ms - before_.thread_system_ms);
+    const auto process_ms = static_cast<float>(after.process_system_ms - before_.process_system_ms);
     now_.thread_cpu_ms = std::max(0.0F, now_.thread_cpu_ms - std::max(0.0F, thread_ms));
     now_.process_cpu_ms = std::max(0.0F, now_.process_cpu_ms - std::max(0.0F, process_ms));
   }
