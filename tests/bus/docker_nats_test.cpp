@@ -6,9 +6,8 @@
 #include <mutex>
 #include <sstream>
 
-#include "tests/bus/told_fixture.h"
+#include "tests/bus/edge_client.h"
 #include "tests/support/certificates.h"
-#include "tests/support/raw_client.h"
 
 namespace scree {
 namespace {
@@ -106,16 +105,7 @@ TEST_F(DockerNatsTest, a_world_is_told_and_an_edges_people_carve) {
   const auto server = run("server", simulator, port, {"--terrain", "flat"});
   const auto edge = run("edge", first, edge_port, {"--edge", "--edge-name", "edge-1"});
   ASSERT_TRUE(comes([&] { return RawClient(edge_port).connected(); })) << said("server") << said("edge");
-  RawClient client(edge_port);
-  ASSERT_TRUE(client.send(HelloMessage{protocol_version, "test", {0.0F, 2.0F, 0.0F}, 64.0F}));
-  ASSERT_TRUE(client.receive_as<WelcomeMessage>(patience));
-  CarveMessage carve;
-  static_cast<CarveRequest&>(carve) = std::get<CarveRequest>(told_carve(1).body);
-  carve.request = 1;
-  ASSERT_TRUE(client.send(carve));
-  const auto reply = client.receive_as<ReplyMessage>(patience);
-  ASSERT_TRUE(reply);
-  EXPECT_EQ(reply->refusal, "") << said("server") << said("edge");
+  expect_carve_accepted(edge_port, said("server") + said("edge"));
 }
 
 TEST_F(DockerNatsTest, nobody_comes_in_without_his_password_or_in_the_clear) {

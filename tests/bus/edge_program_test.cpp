@@ -4,9 +4,8 @@
 #include <sstream>
 
 #include "client/cache/join_server.h"
-#include "tests/bus/told_fixture.h"
+#include "tests/bus/edge_client.h"
 #include "tests/support/honest_client.h"
-#include "tests/support/raw_client.h"
 
 namespace scree {
 namespace {
@@ -38,18 +37,7 @@ TEST_F(EdgeProgramTest, an_edge_that_was_killed_is_back_with_the_world) {
   ASSERT_TRUE(comes([&] { return answers(port); })) << said("simulator");
   auto edge = run("edge", edge_port, {"--edge"});
   ASSERT_TRUE(comes([&] { return answers(edge_port); })) << said("edge");
-  {
-    RawClient client(edge_port);
-    ASSERT_TRUE(client.send(HelloMessage{protocol_version, "test", {0.0F, 2.0F, 0.0F}, 64.0F}));
-    ASSERT_TRUE(client.receive_as<WelcomeMessage>(patience));
-    CarveMessage carve;
-    static_cast<CarveRequest&>(carve) = std::get<CarveRequest>(told_carve(1).body);
-    carve.request = 1;
-    ASSERT_TRUE(client.send(carve));
-    const auto reply = client.receive_as<ReplyMessage>(patience);
-    ASSERT_TRUE(reply);
-    EXPECT_EQ(reply->refusal, "");
-  }
+  expect_carve_accepted(edge_port, said("edge"));
   edge.reset();  // by SIGKILL
   edge = run("edge again", edge_port, {"--edge"});
   ASSERT_TRUE(comes([&] { return answers(edge_port); })) << said("edge again");

@@ -7,9 +7,8 @@
 #include "server/app/live_server.h"
 #include "server/formats/bus_codec.h"
 #include "server/told/told_names.h"
-#include "tests/bus/told_fixture.h"
+#include "tests/bus/edge_client.h"
 #include "tests/support/honest_client.h"
-#include "tests/support/raw_client.h"
 
 namespace scree {
 namespace {
@@ -49,12 +48,6 @@ class EdgeTest : public ::testing::Test {
   static HelloMessage hello(const std::string& token = "") {
     return {protocol_version, "test", {0.0F, 2.0F, 0.0F}, 64.0F, "Ben", token};
   }
-  static CarveMessage carve(uint32_t request) {
-    CarveMessage message;
-    static_cast<CarveRequest&>(message) = std::get<CarveRequest>(told_carve(request).body);
-    message.request = request;
-    return message;
-  }
   /// A client that has joined there.
   static std::unique_ptr<RawClient> join(const LiveServer& server, const std::string& token = "") {
     auto client = std::make_unique<RawClient>(server.port());
@@ -64,7 +57,7 @@ class EdgeTest : public ::testing::Test {
   }
   /// The answer to a carve.
   static ReplyMessage ask(RawClient& client, uint32_t request) {
-    EXPECT_TRUE(client.send(carve(request)));
+    EXPECT_TRUE(client.send(told_carve_message(request)));
     for (;;) {
       const auto reply = client.receive_as<ReplyMessage>(patience);
       EXPECT_TRUE(reply);
