@@ -306,9 +306,9 @@ export class Client {
     return this.#engine.memory.getFloat64(at, true);
   }
 
-  bodies(tick = -1) {
+  bodies(tick = -1, into = null) {
     const client = this.#alive();
-    return read_bodies(this.#engine, (columns, room, count) => this.#engine.call.scree_client_body_columns(client, tick, columns, room, count));
+    return read_bodies(this.#engine, into, (columns, room, count) => this.#engine.call.scree_client_body_columns(client, tick, columns, room, count));
   }
 
   // ---- questions about space

@@ -346,8 +346,9 @@ export class Client {
   findMaterial(name: string): number;
   /** Units of mass of a material in the own store. */
   carried(material: MaterialChoice): number;
-  /** Poses at a tick and its fraction; by default the newest ones. */
-  bodies(tick?: number): Bodies;
+  /** Poses at a tick and its fraction; below 0, and by default, the newest ones. `into`: what an earlier call has given; it
+   *  becomes the answer. Whoever asks every frame saves the time for new arrays, which is most of it. */
+  bodies(tick?: number, into?: Bodies | null): Bodies;
   /** The tick, with its fraction, at which to draw now; for a client with `smooth`. */
   drawTick(): number;
 

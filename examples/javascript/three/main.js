@@ -71,6 +71,7 @@ function geometry_of(mesh) {
 }
 
 const terrain = new Map(), pieces = new Map(); // objects by node, and by id
+let bodies = null; // poses of the last frame, whose arrays the next one takes
 
 function remove(objects, key) {
   const object = objects.get(key);
@@ -93,7 +94,8 @@ function show(mesh) {
 }
 
 function move_pieces() {
-  const { count, ids, positions, rotations } = client.bodies(client.drawTick());
+  bodies = client.bodies(client.drawTick(), bodies);
+  const { count, ids, positions, rotations } = bodies;
   for (let i = 0; i < count; ++i) {
     const object = pieces.get(ids[i]);
     object?.position.fromArray(positions, 3 * i);

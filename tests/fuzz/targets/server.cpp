@@ -92,7 +92,8 @@ AdminMessage any_admin(FuzzInput& input) {
   const uint64_t session = input.below(12);
   switch (input.below(11)) {
     case 10:
-      admin.act = ListFlightRequest{any_number_as<FlightList>(input), input.byte(), input.below(300)};
+      admin.act =
+          ListFlightRequest{any_number_as<FlightList>(input), input.byte(), input.number<uint16_t>() % 300U};
       break;
     case 9:
       admin.act = ControlRulesRequest{any_number_as<RulesControl>(input), "", input.text(64)};
