@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <glm/common.hpp>
 #include <limits>
 
@@ -151,16 +150,31 @@ float crossing_distance(const std::vector<float>& levels, const VoxelCoord& size
   return sum > 0.0F ? std::min(1.0F, 1.0F / std::sqrt(sum)) : far_voxels;
 }
 
-/// Whether some voxel of the row has a neighbour within the window on the other side.
-bool row_crosses(const std::vector<uint8_t>& sides, const VoxelCoord& size, int x, int y, size_t row) {
-  const uint8_t* own = sides.data() + row;
-  const auto count = static_cast<size_t>(size.z);
-  const ptrdiff_t step_y = size.z, step_x = step_y * size.y;
+/// The sides on which a row's voxels are.
+enum class RowSides : uint8_t { rock, air, both };
+
+SCREE_VECTOR_CLONES
+size_t count_rock(size_t count, const float* __restrict levels) {
+  size_t rock = 0;
+  for (size_t i = 0; i < count; ++i) rock += levels[i] < 0.0F ? 1 : 0;
+  return rock;
+}
+
+RowSides sides_of(size_t count, const float* levels) {
+  const size_t rock = count_rock(count, levels);
+  if (rock == 0) return RowSides::air;
+  return rock == count ? RowSides::rock : RowSides::both;
+}
+
+/// Whether some voxel of the row has a neighbour within the window on the other side. `rows`: by x, then y.
+bool row_crosses(const std::vector<RowSides>& rows, const VoxelCoord& size, int x, int y) {
+  const auto row = static_cast<size_t>(x) * static_cast<size_t>(size.y) + static_cast<size_t>(y);
+  const RowSides own = rows[row];
   const auto differs = [&](bool exists, ptrdiff_t step) {
-    return exists && std::memcmp(own, own + step, count) != 0;
+    return exists && rows[row + static_cast<size_t>(step)] != own;
   };
-  return std::memcmp(own, own + 1, count - 1) != 0 || differs(x > 0, -step_x) ||
-         differs(x + 1 < size.x, step_x) || differs(y > 0, -step_y) || differs(y + 1 < size.y, step_y);
+  return own == RowSides::both || differs(x > 0, -size.y) || differs(x + 1 < size.x, size.y) ||
+         differs(y > 0, -1) || differs(y + 1 < size.y, 1);
 }
 
 /// The start of redistancing: voxels next to a zero crossing keep their magnitudes, others have none yet.
@@ -257,11 +271,14 @@ void distances_from_levels(const std::vector<float>& levels, Window& window) {
                   static_cast<size_t>(padded.z) +
               1);
   };
-  std::vector<uint8_t> sides(levels.size());
-  for (size_t i = 0; i < sides.size(); ++i) sides[i] = levels[i] < 0.0F ? 1 : 0;
+  std::vector<RowSides> rows;
+  rows.reserve(static_cast<size_t>(size.x) * static_cast<size_t>(size.y));
+  for_each_row([&](int, int, size_t i, size_t) {
+    rows.push_back(sides_of(static_cast<size_t>(size.z), levels.data() + i));
+  });
   for_each_row([&](int x, int y, size_t i, size_t p) {
     std::fill_n(solver.floors() + p, size.z, 0.0F);
-    if (!row_crosses(sides, size, x, y, i)) return;
+    if (!row_crosses(rows, size, x, y)) return;
     solver.add_source(x + 1, y + 1);
     for (int z = 0; z < size.z; ++z, ++i, ++p) {
       const float d = crossing_distance(levels, size, x, y, z, i);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "shared/base/check.h"
 #include "shared/base/vector_clones.h"
@@ -69,10 +70,11 @@ struct Lattice {
           return static_cast<float>(first + steps * lattice_step) * source.voxel_size_m;
         };
         const float x_m = metres(box.lo.x, x), y_m = metres(box.lo.y, y);
-        RoughColumn rough(x_m, y_m, source.random_seed);
+        std::optional<RoughColumn> rough;  // flat ground has none, and to compute it takes the longest
+        if (source.kind != TerrainKind::flat) rough.emplace(x_m, y_m, source.random_seed);
         for (int z = 0; z < n[2]; ++z) {
           const float z_m = metres(box.lo.z, z);
-          values.push_back(density(source.kind, {x_m, y_m, z_m}, rough.at(z_m)));
+          values.push_back(density(source.kind, {x_m, y_m, z_m}, rough ? rough->at(z_m) : 0.0F));
           uniform = uniform && (values.back() < 0.0F) == (values.front() < 0.0F);
         }
       }

@@ -43,6 +43,21 @@ test('a carve is answered, and its pieces and bricks are told', async () => {
   assert.ok(terrain.bricks instanceof Int32Array && terrain.bricks.length % 3 === 0 && terrain.bricks.length > 0);
 });
 
+test('poses are written into an earlier answer, and into nothing else', async () => {
+  await client.carve({ centre: ground(4, 8), radius: 1.2, seeds: 6 });
+  const first = client.bodies(), fresh = client.bodies();
+  first.positions.fill(0);
+  const { buffer } = first.ids;
+  assert.equal(client.bodies(-1, first), first);
+  assert.equal(first.ids.buffer, buffer);
+  assert.deepEqual({ ...first }, { ...fresh });
+  // More than it has room for.
+  for (let i = 0; i < 8; ++i) await client.carve({ centre: ground(6 + 3 * i, 12), radius: 1.4, seeds: 24, randomSeed: i });
+  assert.ok(client.bodies(-1, first).count > fresh.count && first.ids.buffer !== buffer);
+  assert.deepEqual({ ...first }, { ...client.bodies() });
+  assert.throws(() => client.bodies(-1, { ids: new Uint32Array(8) }), { name: 'invalid' });
+});
+
 test('pieces have poses and meshes, and become terrain with a stone', async () => {
   const events = client.events(), later = client.events();
   const { count } = await client.carve({ centre: ground(8, 0), radius: 1.2, seeds: 6, speed: 4 });
