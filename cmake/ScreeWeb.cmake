@@ -8,8 +8,6 @@ set(CMAKE_CXX_LINKER_LAUNCHER env NODE_PATH=/usr/share/nodejs)
 # Vectors of 128 bits. No source of ours knows that libc++ is older here; kernels give the same bits as everywhere
 # (tests/web). Threads there are none: drawing's jobs run between frames (client/render/scene/work_pool.h).
 target_compile_options(scree_usage INTERFACE -msimd128 SHELL:-include${PROJECT_SOURCE_DIR}/client/web/stand_ins/ranges.h)
-# What a loop has read of its neighbours in the last turn is read again: otherwise LLVM puts none of these loops into vectors.
-target_compile_options(scree_usage INTERFACE "SHELL:-mllvm -enable-load-in-loop-pre=false")
 
 # Libraries that are headers only are this machine's; of GLFW, the numbers of keys. A folder of links, because /usr/include has another C library's
 # headers, too.

@@ -8,6 +8,8 @@
 #if defined(__x86_64__) && defined(__GNUC__) && defined(__OPTIMIZE__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SCREE_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
+#elif defined(__clang__)
+#define SCREE_VECTOR_CLONES __attribute__((noinline))  // as a clone is
 #else
 #define SCREE_VECTOR_CLONES
 #endif
