@@ -4,7 +4,7 @@ set -euo pipefail
 # shellcheck source=served.sh
 source /tests/served.sh
 if [[ $1 == install ]]; then
-  apt-get -q -y install g++ cmake ninja-build pkg-config luajit mono-mcs libepoxy-dev libglfw3-dev >/tmp/apt.log 2>&1 ||
+  apt-get -q -y install g++ cmake ninja-build pkg-config luajit mono-mcs libepoxy-dev libglfw3-dev libglm-dev >/tmp/apt.log 2>&1 ||
     { tail -n 30 /tmp/apt.log >&2; exit 1; }
   install_packages scree-server libscree-client0 libscree-client-dev python3-scree
   exit
