@@ -14,7 +14,7 @@ vec3 inverse_of(vec3 direction) {
 }
 
 // Pixels that cover more of a voxel do not show whether an edge is rounded.
-const float edge_pixel = 0.25;
+const float edge_pixel = 0.18;  // at 0.25 m a voxel, beyond some 25 m
 
 // Whether planes of faces may say another distance there than the trilinear one, and a pixel of so many voxels shows it.
 bool nears_edge(Look there, float pixel) {
