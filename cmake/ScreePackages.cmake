@@ -73,7 +73,7 @@ scree_package(cpp libscree-dev libdevel "simulation, server and client of Scree 
   "${SCREE_WORDS}
 This has the static libraries and headers for programs in C++ that run
 worlds themselves."
-  DEPENDS libasio-dev libblosc-dev libboost-dev libboost-iostreams-dev libbullet-dev libcli11-dev libexpected-dev libfmt-dev
+  DEPENDS libasio-dev libblosc-dev libboost-dev libboost-iostreams-dev libbullet-dev libcli11-dev libcurl4-openssl-dev libexpected-dev libfmt-dev
           libglm-dev libimath-dev liblua5.4-dev libnats-dev libopenvdb-dev libpng-dev libprotobuf-dev libre2-dev libspdlog-dev libsqlite3-dev
           libssl-dev libsystemd-dev libtbb-dev libtomlplusplus-dev libutf8proc-dev libwslay-dev libxxhash-dev libzstd-dev
           nlohmann-json3-dev voro++-dev zlib1g-dev)

@@ -17,6 +17,7 @@ if(NOT "${scree_FIND_COMPONENTS}" STREQUAL "c" AND EXISTS ${CMAKE_CURRENT_LIST_D
     find_dependency(Protobuf)
     find_dependency(zstd CONFIG)
     find_dependency(PNG)
+    find_dependency(CURL)
     find_dependency(OpenSSL)
     find_dependency(SQLite3)
     find_dependency(fmt)

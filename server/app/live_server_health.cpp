@@ -80,7 +80,8 @@ ServerHealth LiveServer::State::health() const {
 void LiveServer::State::send_pulse(double now_s) {
   if (!config.pulse || now_s < pulse_at_s) return;
   pulse_at_s = now_s + limits::pulse_seconds;
-  LivePulse pulse{.sessions = net->stats().sessions};
+  const NetStats stats = net->stats();
+  LivePulse pulse{.sessions = stats.sessions, .sessions_max = stats.sessions_max};
   {
     const std::scoped_lock lock(mutex);
     pulse.tick = report.last_tick;

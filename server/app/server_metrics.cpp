@@ -190,7 +190,7 @@ void add_sessions(FigurePage& page, const NetFigures& figures) {
     page.state("scree_sessions", "Sessions that have joined.",
                static_cast<double>(by_role[static_cast<size_t>(role)]), label("role", name_of(role)));
   page.state("scree_sessions_max", "The setting sessions-max, as far as the process may open files.",
-             figures.sessions_max);
+             figures.stats.sessions_max);
   totals<uint64_t>(page, "scree_joins_total", "Sessions that joined; resumed ones went on by a ticket.",
                    "how",
                    {{"new", net.sessions_joined - net.sessions_resumed}, {"resumed", net.sessions_resumed}});

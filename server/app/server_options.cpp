@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "proto/messages.h"
+#include "server/app/agones_options.h"
 #include "server/app/backup_options.h"
 #include "server/app/config_file.h"
 #include "server/app/door_options.h"
@@ -306,6 +307,7 @@ void declare(CLI::App& app, Raw& raw) {
   add_recordings(app, raw);
   raw.rules.declare(app, raw.options.rules);
   raw.options.bus.declare(app);
+  declare_agones(app, raw.options.agones);
   add_run(app, raw);
   declare_flight(app, raw.options.live);
   refuse_empty(app);
@@ -359,6 +361,7 @@ ServerOptionsRead read_server_options(int argc, const char* const* argv, Options
     raw.doors.complete(raw.options.live.net, use == OptionsUse::start);
     raw.options.token_made = raw.doors.token_made();
     raw.options.bus.complete(raw.options.live.net.access.world);
+    complete_agones(raw.options.agones, raw.options.live.net.access.world, raw.options.bus.edge);
     raw.options.live.durability = *kind_named<Durability>(raw.durability);
     if (raw.loop) raw.options.live.replay.at_end = AtEnd::loop;
     if (raw.end) raw.options.live.replay.at_end = AtEnd::end;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "content/files/model_folder.h"
+#include "server/agones/agones.h"
 #include "server/app/bus_options.h"
 #include "server/app/live_server.h"
 #include "server/app/option_value.h"
@@ -22,6 +23,7 @@ struct ServerOptions {
   std::string token_made;         ///< file of an admin token that was made; empty: none
   std::vector<ModelFile> models;  ///< live.models, for the log
   BusOptions bus;
+  AgonesConfig agones;
   LogConfig log;
   RulesOptions rules;               ///< without folders: there are none
   std::vector<OptionValue> values;  ///< every option, and where it comes from

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "server/agones/agones.h"
 #include "server/app/config_command.h"
 #include "server/app/config_reload.h"
 #include "server/app/prop_models.h"
@@ -107,8 +108,9 @@ struct Served {
   bool by_signal = false;  ///< it ended
 };
 
-/// A server until it ends. A free port that it found stays for the next one of `live`.
-Served serve(const ServerOptions& options, LiveConfig& live, const sigset_t& signals, ConfigReload& config) {
+/// A server until it ends. A free port that it found stays for the next one of `live`. `agones` may be null.
+Served serve(const ServerOptions& options, LiveConfig& live, Agones* agones, const sigset_t& signals,
+             ConfigReload& config) {
   auto server = LiveServer::start(live);
   if (!server) {
     log_of(LogPart::app).error("{}", server.error().message);
@@ -118,6 +120,7 @@ Served serve(const ServerOptions& options, LiveConfig& live, const sigset_t& sig
   std::printf("%s\n", listening_line((*server)->port(), options.live.net).c_str());
   std::fflush(stdout);
   notify_ready();
+  if (agones != nullptr) agones->ready();
   const bool by_signal = wait_for_end(**server, signals, config);
   if (by_signal || live.told == nullptr) notify_stopping();
   const auto stopped = (*server)->stop();
@@ -138,14 +141,15 @@ bool is_told_to_end(const sigset_t& signals) {
 }
 
 /// An edge waits for its world, and begins anew whenever the simulating server does.
-int run_edge(const ServerOptions& options, LiveConfig& live, const sigset_t& signals, ConfigReload& config) {
+int run_edge(const ServerOptions& options, LiveConfig& live, Agones* agones, const sigset_t& signals,
+             ConfigReload& config) {
   for (;;) {
     if (const auto told = await_world(live); !told) {
       log_of(LogPart::bus).warn("{}", told.error().message);
       if (is_told_to_end(signals)) return 0;
       continue;
     }
-    const Served served = serve(options, live, signals, config);
+    const Served served = serve(options, live, agones, signals, config);
     const bool begins_anew = live.told->is_over() && !served.by_signal;
     live.told.reset();
     if (!begins_anew) return served.status;
@@ -168,9 +172,13 @@ int run(const ServerOptions& options, ConfigReload config) {
     log_of(LogPart::app)
         .warn("an admin token was made: it is the line in {}, which only this server's user can read",
               options.token_made);
-  live.pulse = notify_pulse;
-  return options.bus.edge ? run_edge(options, live, signals, config)
-                          : serve(options, live, signals, config).status;
+  const auto agones = options.agones.on ? std::make_unique<Agones>(options.agones) : nullptr;
+  live.pulse = [&agones](const LivePulse& pulse) {
+    notify_pulse(pulse);
+    if (agones) agones->pulse(pulse.sessions, pulse.sessions_max);
+  };
+  return options.bus.edge ? run_edge(options, live, agones.get(), signals, config)
+                          : serve(options, live, agones.get(), signals, config).status;
 }
 
 }  // namespace

@@ -377,6 +377,7 @@ void NetHost::shut_down() {
 void NetHost::update_stats() {
   NetStats& counts = figures_.counts();
   counts.sessions = static_cast<uint32_t>(sessions_.joined());
+  counts.sessions_max = static_cast<uint32_t>(room_.sessions_max());
   counts.tickets_void = returns_.tickets_void();
   counts.bytes_out = bytes_out_.bytes();
   counts.bytes_out_held = bytes_out_.held_back();

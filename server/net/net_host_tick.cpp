@@ -122,8 +122,7 @@ NetFigures NetHost::status_figures() {
                      .sessions = sessions_.rows(steady_now_s()),
                      .health = health(),
                      .messages = messages_,
-                     .frame_age = flush_queue_.frame_age(),
-                     .sessions_max = static_cast<uint32_t>(room_.sessions_max())};
+                     .frame_age = flush_queue_.frame_age()};
   for (const auto& [id, entry] : sessions_.entries()) {
     figures.unsent_bytes += entry.session->backlog_bytes();
     figures.sessions_behind += entry.session->backlog().reads_along() ? 0 : 1;

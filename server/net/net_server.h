@@ -48,7 +48,8 @@ namespace scree {
 /// Counts since the start.
 struct NetStats {
   PublisherStats published;
-  uint32_t sessions = 0;  ///< now
+  uint32_t sessions = 0;      ///< now
+  uint32_t sessions_max = 0;  ///< the setting, as far as the process may open files
   uint64_t sessions_joined = 0;
   uint64_t sessions_resumed = 0;       ///< of those that joined: went on by a ticket
   uint64_t tickets_void = 0;           ///< presented, and did not hold
@@ -76,8 +77,7 @@ struct NetFigures {
   Durations frame_age;        ///< of frames when their client's socket is given them, since their tick's end
   uint64_t unsent_bytes = 0;  ///< that wait for all clients together
   uint64_t sessions_behind =
-      0;                      ///< of those that have joined: more waits for them than their links take soon
-  uint32_t sessions_max = 0;  ///< the setting
+      0;  ///< of those that have joined: more waits for them than their links take soon
 };
 
 /// How the network thread keeps up, by the tick that it took latest since it was asked before.

@@ -94,11 +94,12 @@ std::vector<Layer> server_layers() {
       {"server/rules/sandbox/", {"shared/base/"}},
       {"server/rules/api/", {"server/rules/"}},
       {"server/rules/", {"server/host/", "server/store/", "server/rules/sandbox/"}},
+      {"server/agones/", {"server/log/"}},
       {"server/bus/", {"shared/base/"}},
       {"server/told/", {"server/replay/", "server/net/", "server/bus/"}},
       {"server/app/",
        {"server/net/", "server/replay/", "server/rules/", "server/history/", "server/flight/", "server/told/",
-        "ground/", "content/files/"}},
+        "server/agones/", "ground/", "content/files/"}},
   };
 }
 
@@ -183,6 +184,7 @@ const std::vector<Library>& libraries() {
        {"server/bodies/", "bench/peers/", "tests/bodies/"}},
       {"voro++", std::regex("voro\\+\\+.*"), {"server/fracture/", "bench/peers/", "tests/"}},
       {"NATS", std::regex("nats/.*"), {"server/bus/"}},
+      {"libcurl", std::regex("curl/.*"), {"server/agones/"}},
       {"SQLite", std::regex("sqlite3.*"), {"server/store/", "tests/store/"}},
       {"GLFW", std::regex("GLFW/.*"), {"client/viewer/window/", "client/viewer/input/", "client/web/"}},
       {"Dear ImGui", std::regex("imgui.*"), {"client/viewer/window/", "client/viewer/signs/"}},
