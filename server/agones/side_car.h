@@ -29,7 +29,7 @@ class SideCar {
   /// The same for so long; then it is ready again.
   Result<void> reserve(uint32_t seconds);
   Result<void> shut_down();
-  /// Of the game server's record; Agones puts "agones.dev/sdk-" in front of the key.
+  /// A label of the game server's record; Agones puts "agones.dev/sdk-" in front of the key.
   Result<void> set_label(const std::string& key, const std::string& value);
   /// A counter that the fleet declares. `false`: it declares none of this name, or this Agones knows no
   /// counters.

@@ -34,7 +34,7 @@ enum class Pacing { real_time, by_hand };
 /// What a server says of itself while it lives.
 struct LivePulse {
   Tick tick = 0;
-  uint32_t sessions = 0;    ///< now
+  uint32_t sessions = 0;  ///< now
   uint32_t sessions_max = 0;
   uint64_t late_ticks = 0;  ///< since the start
 };
