@@ -95,10 +95,15 @@ TEST(Repeat, acts_once_a_press_and_again_while_it_is_held) {
   EXPECT_EQ(button.step(0, false, 0.25, 10.1), 0);
   EXPECT_EQ(button.step(1, true, 0.25, 11.0), 1);
   EXPECT_EQ(button.step(0, true, 0.25, 11.2), 0);
-  EXPECT_EQ(button.step(0, true, 0.25, 11.3), 1);
-  EXPECT_EQ(button.step(0, false, 0.25, 11.6), 0);
-  EXPECT_EQ(button.step(0, true, 0.25, 12.0), 0);
-  EXPECT_EQ(button.step(3, false, 0.25, 12.3), 3) << "all presses of a slow frame";
+  EXPECT_EQ(button.step(0, true, 0.25, 11.4), 0) << "a short press looks so long on a slow machine";
+  EXPECT_EQ(button.step(0, true, 0.25, 11.5), 1);
+  EXPECT_EQ(button.step(0, true, 0.25, 11.7), 0);
+  EXPECT_EQ(button.step(0, true, 0.25, 11.8), 1);
+  EXPECT_EQ(button.step(0, false, 0.25, 12.0), 0);
+  EXPECT_EQ(button.step(0, true, 0.25, 12.5), 0);
+  EXPECT_EQ(button.step(3, false, 0.25, 12.8), 3) << "all presses of a slow frame";
+  EXPECT_EQ(button.step(1, true, 0.7, 14.0), 1);
+  EXPECT_EQ(button.step(0, true, 0.7, 14.6), 0) << "a tool that is slower than that";
 }
 
 TEST(RefusalWords, leave_the_names_of_settings_to_operators) {

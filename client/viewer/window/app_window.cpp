@@ -31,6 +31,13 @@ GLFWwindow* open_with(int api, int major, int minor, int width, int height, bool
   return glfwCreateWindow(width, height, "Scree", nullptr, nullptr);
 }
 
+/// The key of the main block that means the same as one of the number pad.
+int main_key(int key) {
+  if (key == GLFW_KEY_KP_ADD) return GLFW_KEY_EQUAL;
+  if (key == GLFW_KEY_KP_SUBTRACT) return GLFW_KEY_MINUS;
+  return key == GLFW_KEY_KP_ENTER ? GLFW_KEY_ENTER : key;
+}
+
 }  // namespace
 
 /// GLFW calls these; it hands back the window's pointer.
@@ -41,6 +48,7 @@ struct AppWindowEvents {
 
   static void on_key(GLFWwindow* window, int key, int, int action, int) {
     AppWindow& app = of(window);
+    key = main_key(key);
     if (app.writes_ && action != GLFW_RELEASE) return app.write(key);
     if (action == GLFW_PRESS) app.press(key);
   }
@@ -147,12 +155,12 @@ void AppWindow::press_in_menu(int key) {
   if (key == GLFW_KEY_ESCAPE) return close_menu();
   if (key == GLFW_KEY_DOWN || key == GLFW_KEY_TAB) go(1);
   if (key == GLFW_KEY_UP) go(-1);
-  menu_->chosen = menu_->chosen || key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_SPACE;
+  menu_->chosen = menu_->chosen || key == GLFW_KEY_ENTER || key == GLFW_KEY_SPACE;
 }
 
 void AppWindow::write(int key) {
   if (key == GLFW_KEY_BACKSPACE) return writes_->erase();
-  const bool sends = key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER;
+  const bool sends = key == GLFW_KEY_ENTER;
   if (sends) said_ = writes_->text();
   if (sends || key == GLFW_KEY_ESCAPE) writes_.reset();
 }
