@@ -1,12 +1,14 @@
 // What is killed, by SIGKILL and at any moment, comes back: the simulating server, edges and NATS, while
 // people edit at both edges. Afterwards all show one world, nothing that was saved is lost, and no mass is.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <fmt/format.h>
 #include <fstream>
 #include <gtest/gtest.h>
 #include <map>
 #include <sstream>
+#include <utility>
 
 #include "client/cache/join_server.h"
 #include "client/session/client.h"
