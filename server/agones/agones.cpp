@@ -27,43 +27,56 @@ class Telling {
  public:
   explicit Telling(const AgonesConfig& config) : config_(config), side_car_(config.port) {}
 
-  /// Tells what is new. Afterwards it is called again within seconds_to_next().
+  /// Tells what is new, up to the first request that fails: a side-car that does not answer costs one wait.
+  /// Afterwards it is called again within seconds_to_next().
   void tell(bool ready, bool is_alive, uint32_t people, uint32_t seats) {
-    const double now_s = steady_now_s();
-    failed_ = false;
-    if (is_alive && now_s >= health_at_s_ && note(side_car_.health()))
-      health_at_s_ = now_s + limits::agones_health_s;
-    if (ready && !is_ready_) is_ready_ = note(side_car_.ready());
-    if (!is_ready_) return;
-    if (!is_labelled_) is_labelled_ = label();
-    if (has_counter_ && counted_ != std::pair(people, seats)) count(people, seats);
-    if (people > 0 && !is_taken_) is_taken_ = note(side_car_.allocate());
-    if (people == 0 && is_taken_) is_taken_ = !note(leave());
+    failed_ =
+        !(tell_life(is_alive) && (!ready || (tell_start() && count(people, seats) && tell_use(people))));
   }
   void end() { note(side_car_.shut_down()); }
   double seconds_to_next() const { return failed_ ? limits::agones_retry_s : limits::agones_health_s; }
 
  private:
-  bool label() {
-    bool done = note(side_car_.set_label("scree-version", SCREE_VERSION));
-    done = note(side_car_.set_label("scree-part", config_.edge ? "edge" : "world")) && done;
-    if (is_label(config_.world)) done = note(side_car_.set_label("scree-world", config_.world)) && done;
-    return done;
+  bool tell_life(bool is_alive) {
+    const double now_s = steady_now_s();
+    if (!is_alive || now_s < health_at_s_) return true;
+    if (!note(side_car_.health())) return false;
+    health_at_s_ = now_s + limits::agones_health_s;
+    return true;
   }
-  void count(uint32_t people, uint32_t seats) {
+  bool tell_start() {
+    is_ready_ = is_ready_ || note(side_car_.ready());
+    is_labelled_ = is_labelled_ || (is_ready_ && label());
+    return is_labelled_;
+  }
+  bool label() {
+    return note(side_car_.set_label("scree-version", SCREE_VERSION)) &&
+           note(side_car_.set_label("scree-part", config_.edge ? "edge" : "world")) &&
+           (!is_label(config_.world) || note(side_car_.set_label("scree-world", config_.world)));
+  }
+  bool count(uint32_t people, uint32_t seats) {
+    seats = std::max(seats, people);  // where the setting is lowered, nobody is sent away, and Agones takes
+                                      // no more than the capacity
+    if (!has_counter_ || counted_ == std::pair(people, seats)) return true;
     const Result<bool> counted = side_car_.set_counter("players", people, seats);
-    if (!note(counted)) return;
+    if (!note(counted)) return false;
     counted_ = {people, seats};
     has_counter_ = *counted;
     if (!has_counter_)
       log_of(LogPart::app).info("Agones: the fleet has no counter \"players\": nobody is counted there");
+    return true;
+  }
+  bool tell_use(uint32_t people) {
+    if ((people > 0) == is_taken_) return true;
+    if (!note(is_taken_ ? leave() : side_car_.allocate())) return false;
+    is_taken_ = !is_taken_;
+    return true;
   }
   Result<void> leave() { return config_.kept_s == 0 ? side_car_.ready() : side_car_.reserve(config_.kept_s); }
 
   /// Says once that the side-car does not do what it is told, and that it does again.
   template <typename Value>
   bool note(const Result<Value>& told) {
-    if (!told) failed_ = true;
     if (told && is_away_) log_of(LogPart::app).info("Agones' side-car answers again");
     if (!told && !is_away_)
       log_of(LogPart::app).warn("Agones' side-car is not told, and is tried again: {}", told.error().message);

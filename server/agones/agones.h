@@ -4,8 +4,8 @@
 // is ready again.
 //
 // A thread of its own asks the side-car. A side-car that does not answer holds up nothing but shut_down(),
-// which waits limits::agones_request_ms at most; it is asked again every second. Functions are for any
-// thread.
+// which waits for the request that is under way and its own, limits::agones_request_ms each; it is asked
+// again every second. Functions are for any thread.
 #pragma once
 
 #include <condition_variable>

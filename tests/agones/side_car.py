@@ -33,6 +33,8 @@ class SideCar:
         self.state = "Scheduled"
         self.faults = []
         self.is_sick = False
+        self.pause_s = 0.0  # before each answer
+        self.asked = 0
         stand_in = self
 
         class Handler(http.server.BaseHTTPRequestHandler):
@@ -67,6 +69,8 @@ class SideCar:
         return status, {"message": words}
 
     def take(self, method, path, headers, data):
+        self.asked += 1
+        time.sleep(self.pause_s)
         if self.is_sick:
             return 500, {"message": "sick"}
         if headers.get("Content-Type") != "application/json":

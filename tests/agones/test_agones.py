@@ -104,6 +104,22 @@ def test_a_side_car_that_is_sick_holds_up_nothing(side_car, start):
     assert said.count("answers again") == 1
 
 
+def test_an_end_waits_for_two_requests_of_a_side_car_that_hangs(side_car, start):
+    server = start(side_car.port, "--anonymous", "builder")
+    assert comes(lambda: "scree-part" in side_car.labels and "/v1beta1/counters/players" in side_car.paths())
+    side_car.pause_s = 3  # the server waits for 2
+    asked = side_car.asked
+    visitor = bot(server.port, carves=1000)
+    assert comes(lambda: side_car.asked > asked)
+    server.process.send_signal(signal.SIGTERM)
+    asked = side_car.asked
+    said, status = server.end()
+    visitor.kill()
+    visitor.wait()
+    assert status == 0 and "is not told, and is tried again" in said
+    assert side_car.asked - asked <= 2
+
+
 def test_without_a_side_car_the_server_serves_and_ends(start):
     server = start(9)  # nobody listens there
     assert bot(server.port).wait(timeout=PATIENCE_S) == 0
